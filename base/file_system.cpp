@@ -1,0 +1,238 @@
+#include "base/file_system.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace stormcellar {
+namespace {
+
+ErrorCode code_of(int error_number) {
+    switch (error_number) {
+        case ENOENT:
+        case ENOTDIR:
+            return ErrorCode::not_found;
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return ErrorCode::permission;
+        case ENOSPC:
+        case EDQUOT:
+            return ErrorCode::no_space;
+        default:
+            return ErrorCode::io;
+    }
+}
+
+tl::unexpected<Error> system_failure(std::string_view what, int error_number) {
+    return fail(code_of(error_number), "{}: {}", what,
+                std::system_category().message(error_number));
+}
+
+class RealFileSystem final : public FileSystem {
+  public:
+    Result<int> create_exclusive(const std::filesystem::path& path) override {
+        const int descriptor =
+            ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0644);
+        if (descriptor < 0) return system_failure(path.native(), errno);
+        return descriptor;
+    }
+
+    Status write_at(int descriptor, std::uint64_t offset,
+                    std::span<const std::byte> bytes) override {
+        while (!bytes.empty()) {
+            const ssize_t n =
+                ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) return system_failure("write", errno);
+            bytes = bytes.subspan(static_cast<std::size_t>(n));
+            offset += static_cast<std::uint64_t>(n);
+        }
+        return {};
+    }
+
+    Status set_size(int descriptor, std::uint64_t size) override {
+        if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) {
+            return system_failure("set size", errno);
+        }
+        return {};
+    }
+
+    Status sync(int descriptor) override {
+        if (::fsync(descriptor) != 0) return system_failure("sync", errno);
+        return {};
+    }
+
+    void close(int descriptor) override { ::close(descriptor); }
+
+    Status rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
+        if (::rename(from.c_str(), to.c_str()) != 0) return system_failure(to.native(), errno);
+        return {};
+    }
+
+    Status sync_directory(const std::filesystem::path& directory) override {
+        const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor < 0) return system_failure(directory.native(), errno);
+        const int result = ::fsync(descriptor);
+        const int error_number = errno;
+        ::close(descriptor);
+        if (result != 0) return system_failure(directory.native(), error_number);
+        return {};
+    }
+
+    Status remove(const std::filesystem::path& path) override {
+        if (::unlink(path.c_str()) != 0) return system_failure(path.native(), errno);
+        return {};
+    }
+};
+
+// Unique in this process, and between processes by the process id.
+std::filesystem::path temporary_name(const std::filesystem::path& final_path) {
+    static std::atomic<std::uint64_t> counter{0};
+    return final_path.parent_path() /
+           fmt::format("{}{}-{}", temporary_prefix, ::getpid(), counter.fetch_add(1));
+}
+
+std::filesystem::path directory_of(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : std::filesystem::path{"."};
+}
+
+// The failure of a descriptor operation knows no path: put it in front.
+Status name_failure(Status status, const std::filesystem::path& path) {
+    if (!status)
+        status.error().message = fmt::format("{}: {}", path.native(), status.error().message);
+    return status;
+}
+
+class Descriptor {
+  public:
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    [[nodiscard]] int number() const { return number_; }
+
+  private:
+    int number_;
+};
+
+// Reads to the end: the file may be growing or shrinking, so its size is only a hint.
+Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem::path& path,
+                                           std::uint64_t size_hint, std::uint64_t limit) {
+    std::vector<std::byte> bytes;
+    bytes.reserve(size_hint + 1);
+    std::size_t filled = 0;
+    for (;;) {
+        if (filled == bytes.size()) {
+            bytes.resize(std::max<std::size_t>(bytes.capacity(), bytes.size() * 2 + 65536));
+        }
+        const ssize_t n = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return system_failure(path.native(), errno);
+        if (n == 0) break;
+        filled += static_cast<std::size_t>(n);
+        if (filled > limit) {
+            return fail(ErrorCode::unsupported, "{}: larger than the limit of {} bytes",
+                        path.native(), limit);
+        }
+    }
+    bytes.resize(filled);
+    return bytes;
+}
+
+}  // namespace
+
+FileSystem& real_file_system() {
+    static RealFileSystem file_system;
+    return file_system;
+}
+
+AtomicFile::AtomicFile(FileSystem& file_system, std::filesystem::path final_path,
+                       std::filesystem::path temporary_path, int descriptor)
+    : file_system_(&file_system),
+      final_path_(std::move(final_path)),
+      temporary_path_(std::move(temporary_path)),
+      descriptor_(descriptor) {}
+
+Result<AtomicFile> AtomicFile::create(FileSystem& file_system, std::filesystem::path final_path) {
+    std::filesystem::path temporary_path = temporary_name(final_path);
+    const Result<int> descriptor = file_system.create_exclusive(temporary_path);
+    if (!descriptor) return pass_on(descriptor);
+    return AtomicFile(file_system, std::move(final_path), std::move(temporary_path), *descriptor);
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : file_system_(other.file_system_),
+      final_path_(std::move(other.final_path_)),
+      temporary_path_(std::move(other.temporary_path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      end_(other.end_) {}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ < 0) return;
+    file_system_->close(descriptor_);
+    (void)file_system_->remove(temporary_path_);  // best effort: the failure that led here counts
+}
+
+Status AtomicFile::append(std::span<const std::byte> bytes) {
+    return write_at(end_, bytes);
+}
+
+Status AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+    end_ = std::max(end_, offset + bytes.size());
+    return name_failure(file_system_->write_at(descriptor_, offset, bytes), final_path_);
+}
+
+Status AtomicFile::set_size(std::uint64_t size) {
+    end_ = size;
+    return name_failure(file_system_->set_size(descriptor_, size), final_path_);
+}
+
+Status AtomicFile::commit() {
+    if (Status synced = name_failure(file_system_->sync(descriptor_), final_path_); !synced) {
+        return synced;
+    }
+    if (Status renamed = file_system_->rename(temporary_path_, final_path_); !renamed) {
+        return renamed;
+    }
+    file_system_->close(std::exchange(descriptor_, -1));
+    return file_system_->sync_directory(directory_of(final_path_));
+}
+
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t limit) {
+    // O_NONBLOCK so that a FIFO in the place of a file cannot hold us up.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() < 0) return system_failure(path.native(), errno);
+    struct stat facts {};
+    if (::fstat(file.number(), &facts) != 0) return system_failure(path.native(), errno);
+    if (S_ISDIR(facts.st_mode)) {
+        return fail(ErrorCode::bad_argument, "{}: is a directory", path.native());
+    }
+    if (!S_ISREG(facts.st_mode)) {
+        return fail(ErrorCode::bad_argument, "{}: is not a regular file", path.native());
+    }
+    const auto size = static_cast<std::uint64_t>(facts.st_size);
+    if (size > limit) {
+        return fail(ErrorCode::unsupported, "{}: {} bytes, larger than the limit of {}",
+                    path.native(), size, limit);
+    }
+    return read_to_end(file.number(), path, size, limit);
+}
+
+Status write_file_atomically(FileSystem& file_system, const std::filesystem::path& path,
+                             std::span<const std::byte> bytes) {
+    Result<AtomicFile> file = AtomicFile::create(file_system, path);
+    if (!file) return pass_on(file);
+    if (Status written = file->append(bytes); !written) return written;
+    return file->commit();
+}
+
+}  // namespace stormcellar

@@ -1,0 +1,122 @@
+// catalog/catalog.h -- the shadow directories: one SQLite database a station.
+//
+// DIRECTORY/KTLX.sqlite (WAL, user_version migrations) says which raw files exist, which volumes
+// they hold, and what became of them. It is an index: it can always be rebuilt from the files.
+// Files whose station is unknown go to _unknown.sqlite. Registering is idempotent: the same path
+// with the same size, modification time and content is the same row; a re-sent volume that differs
+// gets the next generation.
+// Tables: file (one row a raw file), volume (station, start, number, generation), part (which file
+// holds which volume).
+// Errors: io (SQLite's reason), corrupt (not our database, or a later version), not_found.
+// Thread contract: a Catalog may be used by many threads (a mutex a database inside); many
+// processes may read while one writes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "base/utc_time.h"
+
+namespace stormcellar::catalog {
+
+enum class FileState {
+    seen,      // exists, not yet decoded to its end
+    complete,  // decoded, nothing missing
+    partial,   // decoded in part; problems say why
+    rejected,  // not decodable; reason says why
+    gone,      // the raw file was deleted by its owner
+};
+[[nodiscard]] std::string_view file_state_name(FileState state);
+[[nodiscard]] std::optional<FileState> file_state_from_name(std::string_view name);
+
+// A volume as a file holds it.
+struct VolumeFacts {
+    std::optional<UtcTime> start_time;
+    std::optional<UtcTime> end_time;
+    std::optional<int> volume_number;  // 0-999
+    std::optional<int> vcp;
+    int sweep_count = 0;
+    int radial_count = 0;
+    bool complete = false;
+};
+
+struct FileFacts {
+    std::filesystem::path path;  // absolute
+    std::string station;         // ICAO, or empty: unknown
+    std::uint64_t size_bytes = 0;
+    std::int64_t modified_ns = 0;  // since the epoch
+    std::uint64_t content_hash = 0;
+    FileState state = FileState::seen;
+    std::string reason;                // why rejected or partial; one line
+    std::vector<VolumeFacts> volumes;  // file order
+};
+
+// A row of the answer to a query: one volume in one file, or a file without volumes.
+struct CatalogEntry {
+    std::string station;
+    std::filesystem::path path;
+    std::uint64_t size_bytes = 0;
+    FileState state = FileState::seen;
+    std::string reason;
+    VolumeFacts volume;
+    int generation = 0;       // 0 for the first; +1 for each re-send that differs
+    UtcTime registered_time;  // when the row was made
+};
+
+struct Query {
+    std::optional<UtcTime> from;  // inclusive, on the volume's start time
+    std::optional<UtcTime> to;    // inclusive
+    bool with_rejected = false;   // also files that hold no volume
+};
+
+struct StationSummary {
+    std::string station;
+    std::int64_t volume_count = 0;
+    std::int64_t rejected_count = 0;
+    std::optional<UtcTime> oldest, latest;
+};
+
+// What registering did.
+enum class Registered { added, updated, unchanged };
+
+class Catalog {
+  public:
+    // Creates the directory when it is missing.
+    static Result<Catalog> open_for_writing(std::filesystem::path directory);
+    // Never creates or changes anything; not_found when the directory does not exist.
+    static Result<Catalog> open_for_reading(std::filesystem::path directory);
+    Catalog(Catalog&&) noexcept;
+    Catalog& operator=(Catalog&&) noexcept;
+    Catalog(const Catalog&) = delete;
+    Catalog& operator=(const Catalog&) = delete;
+    ~Catalog();
+
+    Result<Registered> register_file(const FileFacts& facts);
+    // Marks rows whose raw file no longer exists as gone; gives how many were marked.
+    Result<int> mark_gone(const std::filesystem::path& path);
+
+    // True when the path stands in the catalog with this size and modification time and was decoded
+    // to its end (complete, partial or rejected): nothing to do again.
+    Result<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
+                            std::int64_t modified_ns);
+
+    Result<std::vector<StationSummary>> stations();
+    Result<std::vector<CatalogEntry>> list(std::string_view station, const Query& query);
+    // The entry with the latest or oldest start; none when the station has no volume.
+    Result<std::optional<CatalogEntry>> latest(std::string_view station);
+    Result<std::optional<CatalogEntry>> oldest(std::string_view station);
+    [[nodiscard]] const std::filesystem::path& directory() const;
+
+  private:
+    struct Impl;
+    explicit Catalog(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stormcellar::catalog

@@ -1,0 +1,13 @@
+# The CMake package: find_package(stormcellar) gives stormcellar::level2, stormcellar::grid, ...
+include(CMakePackageConfigHelpers)
+set(STORMCELLAR_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stormcellar)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/stormcellarConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake INSTALL_DESTINATION ${STORMCELLAR_CMAKE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(EXPORT stormcellarTargets NAMESPACE stormcellar:: DESTINATION ${STORMCELLAR_CMAKE_DIR})
+install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
+  ${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
+  DESTINATION ${STORMCELLAR_CMAKE_DIR})
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

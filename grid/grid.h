@@ -1,0 +1,56 @@
+// grid/grid.h -- gridded values with their four-state status, dense in memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/utc_time.h"
+#include "grid/grid_spec.h"
+#include "level2/volume.h"
+
+namespace stormcellar::grid {
+
+// The four states of a cell (DESIGN section 5). They stay apart from the gate to the pixel.
+enum class CellStatus : std::uint8_t {
+    not_seen = 0,      // blind region, beyond range, missing radials or sweeps
+    no_echo = 1,       // seen, below threshold
+    range_folded = 2,  // echo from beyond the unambiguous range
+    value = 3,
+};
+[[nodiscard]] std::string_view cell_status_name(CellStatus status);
+
+// Where a grid comes from and how it was made; written into every file and loop.
+struct Provenance {
+    std::vector<std::string> source_files;  // names without directories
+    std::vector<std::string> stations;      // ICAOs
+    std::string method;                     // e.g. "column-linear"
+    std::string beam_model;                 // e.g. "4/3 earth"
+    std::string averaging;                  // "dBZ" or "Z"
+    std::string software_version;
+    int vcp = 0;                     // 0: unknown
+    bool partial = false;            // the volume was not complete
+    std::vector<std::string> notes;  // e.g. a position that disagrees with the table
+};
+
+struct SitePosition {
+    std::string icao;
+    double latitude_deg = 0;
+    double longitude_deg = 0;
+    double altitude_m = 0;
+};
+
+struct Grid {
+    GridSpec spec;
+    level2::Moment moment = level2::Moment::ref;
+    UtcTime time;        // start of the volume: the grid's name in time
+    UtcTime start_time;  // of the first radial used
+    UtcTime end_time;    // of the last radial used
+    std::vector<SitePosition> sites;
+    Provenance provenance;
+    std::vector<float> values;       // index by spec.index(); unspecified (0) where not a value
+    std::vector<CellStatus> status;  // same shape
+};
+
+}  // namespace stormcellar::grid

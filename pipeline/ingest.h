@@ -1,0 +1,63 @@
+// pipeline/ingest.h -- one raw file -> catalog -> grid in the cache.
+//
+// Shared by the daemon and the CLI. Never changes the raw file. A file that cannot be decoded is
+// recorded as rejected with its reason; that is a result, not an error.
+// Errors are ours alone: the catalog or the cache cannot be written.
+// Thread contract: an Ingestor may be used by many threads at once, for different files.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "cache/store.h"
+#include "catalog/catalog.h"
+#include "grid/gridder.h"
+
+namespace stormcellar::pipeline {
+
+struct IngestOptions {
+    level2::Moment moment = level2::Moment::ref;
+    double spacing_m = 1000;
+    int nx = 460, ny = 460;
+    std::vector<double> levels_m;  // empty: the default 32
+    int decode_threads = 1;
+    int grid_threads = 1;
+};
+
+enum class IngestResult {
+    gridded,     // registered, and every volume with the moment is in the cache
+    no_moment,   // registered; holds no sweep of the moment, so there is nothing to grid
+    incomplete,  // registered as seen: the volume has not ended and finish_partial is false
+    rejected,    // registered as rejected
+    unchanged,   // settled before; nothing was done
+};
+
+struct IngestOutcome {
+    IngestResult result = IngestResult::rejected;
+    std::string station;  // empty: unknown
+    std::optional<UtcTime> volume_time;
+    std::string reason;  // of rejection or partiality, one line
+    std::vector<std::filesystem::path> grids;
+    double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
+};
+
+class Ingestor {
+  public:
+    Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options);
+    ~Ingestor();
+    Ingestor(const Ingestor&) = delete;
+    Ingestor& operator=(const Ingestor&) = delete;
+
+    // finish_partial: grid a volume that has not ended (the file was quiet long enough).
+    Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,30 @@
+// render/render.h -- one grid and a scene -> one picture, with its labels.
+//
+// Draws the product (slicer or composite), then range rings, site marks, colour bar, title and
+// time over it. The same input gives the same pixels for any number of threads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/utc_time.h"
+#include "grid/brick_view.h"
+#include "render/image.h"
+#include "render/scene.h"
+
+namespace stormcellar::render {
+
+// What the labels say about the grid.
+struct FrameFacts {
+    std::string domain;
+    level2::Moment moment = level2::Moment::ref;
+    UtcTime time;
+    std::vector<grid::SitePosition> sites;
+    bool partial = false;
+};
+
+[[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
+                                         const Scene& scene, int threads);
+
+}  // namespace stormcellar::render

@@ -1,0 +1,29 @@
+#include "base/checksum.h"
+
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar {
+namespace {
+
+std::span<const std::byte> as_bytes(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+// The check value that every description of CRC-32 gives.
+TEST(Checksum, Crc32OfTheStandardCheckString) {
+    EXPECT_EQ(crc32(as_bytes("123456789")), 0xCBF43926U);
+}
+
+TEST(Checksum, Crc32ContinuesFromAPreviousValue) {
+    EXPECT_EQ(crc32(as_bytes("6789"), crc32(as_bytes("12345"))), 0xCBF43926U);
+}
+
+// The value of XXH3 for no input, from the xxHash specification's sanity tests.
+TEST(Checksum, Xxh3OfNothing) {
+    EXPECT_EQ(xxh3_64({}), 0x2D06800538D394C2ULL);
+}
+
+}  // namespace
+}  // namespace stormcellar

@@ -1,0 +1,115 @@
+#include "base/file_system.h"
+
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/testing/power_cut_file_system.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::PowerCutFileSystem;
+using testing::TemporaryDirectory;
+
+std::span<const std::byte> as_bytes(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+std::string contents(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int entries(const fs::path& directory) {
+    return static_cast<int>(std::distance(fs::directory_iterator(directory), {}));
+}
+
+TEST(AtomicFile, AppearsWholeUnderItsName) {
+    const TemporaryDirectory directory;
+    ASSERT_TRUE(write_file_atomically(real_file_system(), directory / "a", as_bytes("storm")));
+    EXPECT_EQ(contents(directory / "a"), "storm");
+    EXPECT_EQ(entries(directory.path()), 1);
+}
+
+TEST(AtomicFile, WithoutCommitLeavesNothing) {
+    const TemporaryDirectory directory;
+    {
+        auto file = AtomicFile::create(real_file_system(), directory / "a");
+        ASSERT_TRUE(file);
+        ASSERT_TRUE(file->append(as_bytes("half")));
+    }
+    EXPECT_EQ(entries(directory.path()), 0);
+}
+
+TEST(AtomicFile, MissingDirectoryIsNotFoundAndNamed) {
+    const auto status =
+        write_file_atomically(real_file_system(), "/nonexistent-directory/a", as_bytes("x"));
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::not_found);
+    EXPECT_NE(status.error().message.find("/nonexistent-directory"), std::string::npos);
+}
+
+// At every operation of a replacement, a failure followed by a power cut leaves the old contents or
+// the new, whole.
+TEST(AtomicFile, PowerCutAtEveryOperationLeavesOldOrNew) {
+    std::uint64_t operation = 0;
+    for (bool finished = false; !finished; ++operation) {
+        const TemporaryDirectory directory;
+        ASSERT_TRUE(write_file_atomically(real_file_system(), directory / "a", as_bytes("old")));
+        PowerCutFileSystem file_system;
+        file_system.fail_from(operation);
+        finished = write_file_atomically(file_system, directory / "a", as_bytes("new")).has_value();
+        file_system.power_cut();
+        const std::string now = contents(directory / "a");
+        EXPECT_TRUE(now == "old" || now == "new") << "operation " << operation << ": " << now;
+        if (finished) {
+            EXPECT_EQ(now, "new") << "a commit that succeeded must last";
+        }
+    }
+    EXPECT_GE(operation, 5U) << "create, write, sync, rename, directory sync";
+}
+
+TEST(AtomicFile, FullDiskIsNoSpaceAndLeavesNothing) {
+    const TemporaryDirectory directory;
+    PowerCutFileSystem file_system;
+    file_system.set_space(3);
+    const auto status = write_file_atomically(file_system, directory / "a", as_bytes("storm"));
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::no_space);
+    EXPECT_EQ(entries(directory.path()), 0);
+}
+
+TEST(ReadFile, GivesAllBytes) {
+    const TemporaryDirectory directory;
+    const std::string text(200'000, 'x');
+    std::ofstream(directory / "a") << text;
+    const auto bytes = read_file(directory / "a");
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(bytes->size(), text.size());
+}
+
+TEST(ReadFile, EmptyFileIsNoError) {
+    const TemporaryDirectory directory;
+    std::ofstream(directory / "a").flush();
+    const auto bytes = read_file(directory / "a");
+    ASSERT_TRUE(bytes);
+    EXPECT_TRUE(bytes->empty());
+}
+
+TEST(ReadFile, DirectoryFifoMissingAndTooLargeAreNamed) {
+    const TemporaryDirectory directory;
+    EXPECT_EQ(read_file(directory.path()).error().code, ErrorCode::bad_argument);
+    ASSERT_EQ(::mkfifo((directory / "fifo").c_str(), 0600), 0);
+    EXPECT_EQ(read_file(directory / "fifo").error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(read_file(directory / "missing").error().code, ErrorCode::not_found);
+    std::ofstream(directory / "big") << "12345";
+    EXPECT_EQ(read_file(directory / "big", 4).error().code, ErrorCode::unsupported);
+}
+
+}  // namespace
+}  // namespace stormcellar

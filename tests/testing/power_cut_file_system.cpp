@@ -1,0 +1,97 @@
+#include "tests/testing/power_cut_file_system.h"
+
+#include <system_error>
+
+namespace stormcellar::testing {
+
+Status PowerCutFileSystem::count_operation() {
+    if (fail_from_ && operations_++ >= *fail_from_) return fail(ErrorCode::io, "injected failure");
+    if (!fail_from_) ++operations_;
+    return {};
+}
+
+Result<int> PowerCutFileSystem::create_exclusive(const std::filesystem::path& path) {
+    if (Status counted = count_operation(); !counted) return pass_on(counted);
+    const Result<int> descriptor = real_file_system().create_exclusive(path);
+    if (descriptor) {
+        open_[*descriptor] = path;
+        unsynced_contents_.insert(path);
+    }
+    return descriptor;
+}
+
+Status PowerCutFileSystem::write_at(int descriptor, std::uint64_t offset,
+                                    std::span<const std::byte> bytes) {
+    if (Status counted = count_operation(); !counted) return counted;
+    if (space_) {
+        if (bytes.size() > *space_) return fail(ErrorCode::no_space, "write: no space (injected)");
+        *space_ -= bytes.size();
+    }
+    unsynced_contents_.insert(open_.at(descriptor));
+    return real_file_system().write_at(descriptor, offset, bytes);
+}
+
+Status PowerCutFileSystem::set_size(int descriptor, std::uint64_t size) {
+    if (Status counted = count_operation(); !counted) return counted;
+    unsynced_contents_.insert(open_.at(descriptor));
+    return real_file_system().set_size(descriptor, size);
+}
+
+Status PowerCutFileSystem::sync(int descriptor) {
+    if (Status counted = count_operation(); !counted) return counted;
+    unsynced_contents_.erase(open_.at(descriptor));
+    return {};
+}
+
+void PowerCutFileSystem::close(int descriptor) {
+    open_.erase(descriptor);
+    real_file_system().close(descriptor);
+}
+
+Status PowerCutFileSystem::rename(const std::filesystem::path& from,
+                                  const std::filesystem::path& to) {
+    if (Status counted = count_operation(); !counted) return counted;
+    Rename record{from, to, std::nullopt};
+    if (std::filesystem::exists(to)) {
+        auto replaced = read_file(to);
+        if (!replaced) return pass_on(replaced);
+        record.replaced = std::move(*replaced);
+    }
+    if (Status renamed = real_file_system().rename(from, to); !renamed) return renamed;
+    if (unsynced_contents_.erase(from) > 0) unsynced_contents_.insert(to);
+    for (auto& [descriptor, path] : open_) {
+        if (path == from) path = to;
+    }
+    unsynced_renames_.push_back(std::move(record));
+    return {};
+}
+
+Status PowerCutFileSystem::sync_directory(const std::filesystem::path& directory) {
+    if (Status counted = count_operation(); !counted) return counted;
+    std::erase_if(unsynced_renames_,
+                  [&](const Rename& r) { return r.to.parent_path() == directory; });
+    return {};
+}
+
+Status PowerCutFileSystem::remove(const std::filesystem::path& path) {
+    if (Status counted = count_operation(); !counted) return counted;
+    unsynced_contents_.erase(path);
+    return real_file_system().remove(path);
+}
+
+void PowerCutFileSystem::power_cut() {
+    std::error_code ignored;
+    for (auto r = unsynced_renames_.rbegin(); r != unsynced_renames_.rend(); ++r) {
+        std::filesystem::rename(r->to, r->from, ignored);
+        if (unsynced_contents_.erase(r->to) > 0) unsynced_contents_.insert(r->from);
+        if (r->replaced) (void)write_file_atomically(real_file_system(), r->to, *r->replaced);
+    }
+    for (const auto& path : unsynced_contents_)
+        std::filesystem::resize_file(path, 0, ignored);
+    unsynced_renames_.clear();
+    unsynced_contents_.clear();
+    fail_from_.reset();
+    space_.reset();
+}
+
+}  // namespace stormcellar::testing

@@ -1,0 +1,53 @@
+// tests/testing/power_cut_file_system.h -- a file system that forgets what was not synced.
+//
+// Works on real files in a directory and remembers which contents and names were made durable.
+// power_cut() then puts the directory into the worst state that a crash may leave: contents that
+// were never synced are cut to nothing, renames whose directory was not synced are undone.
+// It can also run out of space after a number of bytes, and fail the n-th operation.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "base/file_system.h"
+
+namespace stormcellar::testing {
+
+class PowerCutFileSystem final : public FileSystem {
+  public:
+    Result<int> create_exclusive(const std::filesystem::path& path) override;
+    Status write_at(int descriptor, std::uint64_t offset,
+                    std::span<const std::byte> bytes) override;
+    Status set_size(int descriptor, std::uint64_t size) override;
+    Status sync(int descriptor) override;
+    void close(int descriptor) override;
+    Status rename(const std::filesystem::path& from, const std::filesystem::path& to) override;
+    Status sync_directory(const std::filesystem::path& directory) override;
+    Status remove(const std::filesystem::path& path) override;
+
+    // From now on the operation with this number (counting from 0) and all later ones fail with io.
+    void fail_from(std::uint64_t operation) { fail_from_ = operation; }
+    void set_space(std::uint64_t bytes) { space_ = bytes; }
+    [[nodiscard]] std::uint64_t operation_count() const { return operations_; }
+    void power_cut();
+
+  private:
+    struct Rename {
+        std::filesystem::path from, to;
+        std::optional<std::vector<std::byte>> replaced;  // what stood at `to` before
+    };
+    Status count_operation();
+
+    std::map<int, std::filesystem::path> open_;
+    std::set<std::filesystem::path> unsynced_contents_;
+    std::vector<Rename> unsynced_renames_;
+    std::uint64_t operations_ = 0;
+    std::optional<std::uint64_t> fail_from_;
+    std::optional<std::uint64_t> space_;
+};
+
+}  // namespace stormcellar::testing
