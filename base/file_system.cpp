@@ -214,10 +214,10 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
     struct stat facts {};
     if (::fstat(file.number(), &facts) != 0) return system_failure(path.native(), errno);
     if (S_ISDIR(facts.st_mode)) {
-        return fail(ErrorCode::bad_argument, "{}: is a directory", path.native());
+        return fail(ErrorCode::not_a_file, "{}: is a directory", path.native());
     }
     if (!S_ISREG(facts.st_mode)) {
-        return fail(ErrorCode::bad_argument, "{}: is not a regular file", path.native());
+        return fail(ErrorCode::not_a_file, "{}: is not a regular file", path.native());
     }
     const auto size = static_cast<std::uint64_t>(facts.st_size);
     if (size > limit) {

@@ -75,7 +75,7 @@ class AtomicFile {
 };
 
 // Whole files, for convenience. read_file gives empty for an empty file's bytes as an empty vector
-// (not an error), bad_argument for a directory or another thing that is not a regular file (it
+// (not an error), not_a_file for a directory or another thing that is not a regular file (it
 // never blocks on a FIFO), and unsupported for a file of more than `limit` bytes.
 inline constexpr std::uint64_t default_read_limit = std::uint64_t{1} << 30;
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,

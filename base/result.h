@@ -22,6 +22,7 @@ enum class ErrorCode {
     corrupt,       // the input contradicts itself or its checksum
     unsupported,   // valid, but of a kind that this software does not handle
     not_level2,    // the input is not a Level II file
+    not_a_file,    // a directory, FIFO or other thing that is not a regular file
     io,            // the operating system refused a read or a write
     no_space,      // the file system is full
     permission,    // the file may not be read or written

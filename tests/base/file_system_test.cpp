@@ -103,9 +103,9 @@ TEST(ReadFile, EmptyFileIsNoError) {
 
 TEST(ReadFile, DirectoryFifoMissingAndTooLargeAreNamed) {
     const TemporaryDirectory directory;
-    EXPECT_EQ(read_file(directory.path()).error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(read_file(directory.path()).error().code, ErrorCode::not_a_file);
     ASSERT_EQ(::mkfifo((directory / "fifo").c_str(), 0600), 0);
-    EXPECT_EQ(read_file(directory / "fifo").error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(read_file(directory / "fifo").error().code, ErrorCode::not_a_file);
     EXPECT_EQ(read_file(directory / "missing").error().code, ErrorCode::not_found);
     std::ofstream(directory / "big") << "12345";
     EXPECT_EQ(read_file(directory / "big", 4).error().code, ErrorCode::unsupported);

@@ -1,0 +1,42 @@
+// cli/commands.h -- the subcommands of `stormcellar`, and what they share.
+//
+// Each add_*() puts its subcommand and options on the app and gives the function to run when that
+// subcommand was chosen. A command parses its arguments, calls the library and prints; nothing
+// else. Facts go to stdout (with --json as one JSON document), messages and progress to stderr.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "base/result.h"
+
+namespace stormcellar::cli {
+
+// Exit status of every command.
+enum ExitStatus : int {
+    exit_done = 0,
+    exit_failed = 1,          // the work failed
+    exit_bad_usage = 2,       // options that make no sense
+    exit_nothing_matched = 3  // a query with an empty answer
+};
+
+struct Command {
+    CLI::App* app = nullptr;   // to ask whether it was chosen
+    std::function<int()> run;  // gives the exit status
+};
+
+// Every subcommand, one line each in cli/main.cpp.
+using Commands = std::vector<Command>;
+
+// Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
+// that fits the code: bad_argument is bad usage, everything else is failed work.
+int report_error(const Error& error);
+
+// Control characters and bytes that are not UTF-8 as \xNN, so that a name can go to a terminal.
+[[nodiscard]] std::string printable(std::string_view text);
+
+}  // namespace stormcellar::cli
