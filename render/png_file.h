@@ -11,7 +11,8 @@
 
 namespace stormcellar::render {
 
-// `texts` become tEXt chunks (keyword, Latin-1 text).
+// RGBA, 8 bits, sRGB. `texts` become tEXt chunks (keyword of 1 to 79 characters, Latin-1 text).
+// bad_argument for an image whose bytes do not fit its size, or a text with a zero byte.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {});
 
