@@ -1,0 +1,162 @@
+#include "level2/volume.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/station_table.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+struct MomentFacts {
+    std::string_view name;
+    std::string_view units;
+};
+constexpr std::array<MomentFacts, moment_count> moment_facts = {{
+    {"REF", "dBZ"},
+    {"VEL", "m/s"},
+    {"SW", "m/s"},
+    {"ZDR", "dB"},
+    {"PHI", "degree"},
+    {"RHO", "1"},
+    {"CFP", "dB"},
+}};
+
+// Clutter filter power: codes below this are flags (ICD 2620002 table XVII-I, data moment notes).
+constexpr std::uint16_t first_valid_cfp_code = 8;
+
+constexpr double altitude_tolerance_m = 30;
+constexpr double position_tolerance_deg = 0.01;
+// Sites have been moved by some kilometres, so the radar is believed within this; a radar that
+// claims to be farther from its site than this is mistaken.
+constexpr double position_limit_deg = 1;
+
+std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {
+    double latitude_deg = block.latitude_deg;
+    double longitude_deg = block.longitude_deg;
+    // TDWR files of 2019 and 2020 give thousandths of a degree.
+    if (std::abs(latitude_deg) > 90 || std::abs(longitude_deg) > 180) {
+        latitude_deg /= 1000;
+        longitude_deg /= 1000;
+    }
+    const bool usable = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 180 &&
+                        (latitude_deg != 0 || longitude_deg != 0);
+    if (!usable) return std::nullopt;
+    const int site_m = block.site_height_m;
+    const int tower_m = block.tower_height_m;
+    const double altitude_m = site_m == tower_m ? site_m : site_m + tower_m;
+    return AntennaPosition{latitude_deg, longitude_deg, altitude_m, false, std::nullopt};
+}
+
+AntennaPosition position_of_station(const Station& station) {
+    return {station.latitude_deg, station.longitude_deg, station.antenna_altitude_m, true,
+            std::nullopt};
+}
+
+AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) {
+    double longitude_step = std::abs(radar.longitude_deg - station.longitude_deg);
+    longitude_step = std::min(longitude_step, 360 - longitude_step);
+    const double step_deg =
+        std::max(std::abs(radar.latitude_deg - station.latitude_deg), longitude_step);
+    const bool altitude_differs =
+        std::abs(radar.altitude_m - station.antenna_altitude_m) > altitude_tolerance_m;
+    AntennaPosition position = radar;
+    if (step_deg > position_limit_deg) {
+        position = position_of_station(station);
+    } else if (altitude_differs) {
+        position.altitude_m = station.antenna_altitude_m;
+        position.from_table = true;
+    }
+    if (altitude_differs || step_deg > position_tolerance_deg) {
+        position.disagreement = fmt::format(
+            "{} says {:.4f}, {:.4f}, {:.0f} m; the station table {:.4f}, {:.4f}, {:.0f} m",
+            station.icao, radar.latitude_deg, radar.longitude_deg, radar.altitude_m,
+            station.latitude_deg, station.longitude_deg, station.antenna_altitude_m);
+    }
+    return position;
+}
+
+}  // namespace
+
+std::string_view moment_name(Moment moment) {
+    return moment_facts[static_cast<std::size_t>(moment)].name;
+}
+
+std::string_view moment_units(Moment moment) {
+    return moment_facts[static_cast<std::size_t>(moment)].units;
+}
+
+std::optional<Moment> moment_from_name(std::string_view name) {
+    for (const Moment moment : all_moments) {
+        if (moment_name(moment) == name) return moment;
+    }
+    return std::nullopt;
+}
+
+GateStatus SweepMoment::status(std::size_t radial, std::int32_t gate) const {
+    if (radial >= gate_counts.size() || gate < 0 || gate >= gate_counts[radial]) {
+        return GateStatus::no_data;
+    }
+    const std::uint16_t number = code(radial, gate);
+    if (moment == Moment::cfp) {
+        return number < first_valid_cfp_code ? GateStatus::no_data : GateStatus::valid;
+    }
+    if (number == 0) return GateStatus::below_threshold;
+    if (number == 1) return GateStatus::range_folded;
+    return GateStatus::valid;
+}
+
+const SweepMoment* Sweep::find(Moment moment) const {
+    for (const SweepMoment& candidate : moments) {
+        if (candidate.moment == moment) return &candidate;
+    }
+    return nullptr;
+}
+
+double Sweep::mean_elevation_deg() const {
+    if (radials.empty()) return std::numeric_limits<double>::quiet_NaN();
+    double sum = 0;
+    for (const Radial& radial : radials)
+        sum += radial.elevation_deg;
+    return sum / static_cast<double>(radials.size());
+}
+
+std::optional<int> VolumeHeader::volume_number() const {
+    const std::size_t dot = filename.rfind('.');
+    if (dot == std::string::npos || dot + 1 == filename.size()) return std::nullopt;
+    int number = 0;
+    const char* end = filename.data() + filename.size();
+    const auto [stopped, error] = std::from_chars(filename.data() + dot + 1, end, number);
+    if (error != std::errc{} || stopped != end || number < 0 || number > 999) return std::nullopt;
+    return number;
+}
+
+std::optional<UtcTime> Volume::start_time() const {
+    if (header && header->date != 0) return header->time();
+    for (const Sweep& sweep : sweeps) {
+        if (!sweep.radials.empty()) return sweep.radials.front().time;
+    }
+    return std::nullopt;
+}
+
+std::size_t Volume::radial_count() const {
+    std::size_t count = 0;
+    for (const Sweep& sweep : sweeps)
+        count += sweep.radials.size();
+    return count;
+}
+
+std::optional<AntennaPosition> antenna_position(const Volume& volume) {
+    const std::optional<Station> station = find_station(volume.station);
+    const std::optional<AntennaPosition> radar =
+        volume.block ? position_of_block(*volume.block) : std::nullopt;
+    if (radar && station) return reconcile(*radar, *station);
+    if (radar) return radar;
+    if (station) return position_of_station(*station);
+    return std::nullopt;
+}
+
+}  // namespace stormcellar::level2
