@@ -29,11 +29,14 @@ struct IngestOptions {
 };
 
 enum class IngestResult {
-    gridded,     // registered, and every volume with the moment is in the cache
-    no_moment,   // registered; holds no sweep of the moment, so there is nothing to grid
-    incomplete,  // registered as seen: the volume has not ended and finish_partial is false
-    rejected,    // registered as rejected
-    unchanged,   // settled before; nothing was done
+    gridded,      // registered, and every volume with the moment is in the cache
+    no_moment,    // registered; holds no sweep of the moment, so there is nothing to grid
+    no_position,  // registered; neither the file nor the table says where the radar stands
+    incomplete,   // not settled: the volume has not ended and finish_partial is false, or the file
+                  // changed while it was read; ask again when it was closed or quiet
+    rejected,     // registered as rejected
+    unchanged,    // settled before; nothing was done
+    vanished,     // the file is gone; its rows, if any, are marked so
 };
 
 struct IngestOutcome {
