@@ -1,0 +1,69 @@
+#include "cli/scene_options.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace stormcellar::cli {
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+    render::Scene& scene = options.scene;
+    const std::string group = "Picture";
+    app.add_option("--product", options.product, "volume or composite (column maximum)")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--width", scene.width, "pixels")->group(group)->capture_default_str();
+    app.add_option("--height", scene.height, "pixels")->group(group)->capture_default_str();
+    app.add_option("--azimuth", scene.camera.azimuth_deg,
+                   "where the view is from, degrees: 180 is from the south, north up")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--tilt", scene.camera.tilt_deg,
+                   "degrees from the vertical: 0 straight down, 90 along the ground")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--zoom", scene.camera.zoom, "1 shows the whole grid")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--slices", scene.slices, "slices through the volume, 8 to 4096")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--exaggeration", scene.vertical_exaggeration, "stretches heights")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--opacity", scene.opacity, "factor on how opaque echo is")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--ring-spacing-km", options.range_ring_spacing_km, "between range rings")
+        ->group(group)
+        ->capture_default_str();
+    app.add_flag("--no-labels", options.no_labels, "the picture alone")->group(group);
+    app.add_option("--threads", options.threads, "0: as many as the machine has")
+        ->group(group)
+        ->capture_default_str();
+}
+
+Result<render::Scene> scene_of(const SceneOptions& options) {
+    const auto product = render::product_from_name(options.product);
+    if (!product) return pass_on(product);
+    if (options.threads < 0 || options.threads > 1024) {
+        return fail(ErrorCode::bad_argument, "threads must be 0 to 1024, not {}", options.threads);
+    }
+    render::Scene scene = options.scene;
+    scene.product = *product;
+    scene.range_ring_spacing_m = options.range_ring_spacing_km * 1e3;
+    scene.labels = !options.no_labels;
+    if (auto valid = render::validate(scene); !valid) return pass_on(valid);
+    return scene;
+}
+
+int thread_count(const SceneOptions& options) {
+    if (options.threads > 0) return options.threads;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+render::FrameFacts facts_of(const std::string& domain, const cache::GridDescription& description) {
+    return {domain, description.moment, description.time, description.sites,
+            description.provenance.partial};
+}
+
+}  // namespace stormcellar::cli

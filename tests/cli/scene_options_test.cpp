@@ -1,0 +1,58 @@
+#include "cli/scene_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace stormcellar::cli {
+namespace {
+
+SceneOptions parse(const std::string& arguments) {
+    SceneOptions options;
+    CLI::App app;
+    add_scene_options(app, options);
+    app.parse(arguments);
+    return options;
+}
+
+TEST(SceneOptions, NothingGivenIsTheDefaultScene) {
+    const auto scene = scene_of(parse(""));
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->width, render::Scene{}.width);
+    EXPECT_EQ(scene->product, render::Product::volume);
+    EXPECT_EQ(scene->range_ring_spacing_m, render::Scene{}.range_ring_spacing_m);
+    EXPECT_TRUE(scene->labels);
+}
+
+TEST(SceneOptions, EveryOptionReachesTheScene) {
+    const auto scene = scene_of(
+        parse("--product composite --width 640 --height 480 --azimuth 135 --tilt 20 --zoom 2.5 "
+              "--slices 64 --exaggeration 4 --opacity 0.5 --ring-spacing-km 25 --no-labels"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->product, render::Product::composite);
+    EXPECT_EQ(scene->width, 640);
+    EXPECT_EQ(scene->height, 480);
+    EXPECT_EQ(scene->camera.azimuth_deg, 135);
+    EXPECT_EQ(scene->camera.tilt_deg, 20);
+    EXPECT_EQ(scene->camera.zoom, 2.5);
+    EXPECT_EQ(scene->slices, 64);
+    EXPECT_EQ(scene->vertical_exaggeration, 4);
+    EXPECT_EQ(scene->opacity, 0.5);
+    EXPECT_EQ(scene->range_ring_spacing_m, 25e3);
+    EXPECT_FALSE(scene->labels);
+}
+
+TEST(SceneOptions, NonsenseIsBadArgument) {
+    for (const char* arguments : {"--product x", "--tilt 91", "--width 1", "--threads -1"}) {
+        const auto scene = scene_of(parse(arguments));
+        ASSERT_FALSE(scene) << arguments;
+        EXPECT_EQ(scene.error().code, ErrorCode::bad_argument);
+    }
+}
+
+TEST(SceneOptions, ThreadsDefaultToTheMachines) {
+    EXPECT_GE(thread_count(parse("")), 1);
+    EXPECT_EQ(thread_count(parse("--threads 3")), 3);
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
