@@ -40,7 +40,7 @@ struct DecodeReport {
     std::optional<std::uint64_t> negative_control_words;
     std::uint64_t message_bytes = 0;  // decompressed, without the 24-byte headers
     std::map<int, std::uint64_t> message_counts;
-    std::uint64_t bytes_dropped = 0;
+    std::uint64_t bytes_dropped = 0;  // of messages; of the file where a compressed part is lost
     std::vector<Problem> problems;
     // Start of the first damage, as in the golden files; none for an undamaged stream.
     struct Corruption {
@@ -50,9 +50,18 @@ struct DecodeReport {
     std::optional<Corruption> corruption;
     // The last radial ended its volume (status 4) and nothing was dropped.
     bool complete = false;
-    // Sweep indices at which a further volume begins (elevation numbers start again after an end
-    // of volume, a start-of-volume radial, or a second header). Volume 0 begins at sweep 0.
+    // Sweep indices at which a further volume begins: at a start-of-volume radial, after a second
+    // header, where the elevation number falls, and where it does not rise after an end of volume.
+    // Volume 0 begins at sweep 0.
     std::vector<std::size_t> further_volume_starts;
+    // 24-byte headers found inside the stream, with the sweep that follows each.
+    struct FurtherHeader {
+        std::size_t sweep = 0;
+        VolumeHeader header;
+    };
+    std::vector<FurtherHeader> further_headers;
+    std::string message_station;  // ICAO of message 31; empty where there is none
+    std::map<int, std::uint64_t> radial_compression;  // message 31: indicator, radials
     double decompress_s = 0;  // CPU seconds in decompression, all threads added
 };
 
@@ -76,8 +85,10 @@ struct Decoded {
 [[nodiscard]] Result<Decoded> decode_file(const std::filesystem::path& path,
                                           const DecodeOptions& options = {});
 
-// The volumes of a file that holds several, each with its share of the sweeps; header, block and
-// VCP are repeated. One element for an ordinary file.
+// The volumes of a file that holds several, each with its share of the sweeps; block and VCP are
+// repeated. A further volume has its own header where the file holds one, else the first with the
+// time of its own first radial, since a start time names a volume. One element for an ordinary
+// file.
 [[nodiscard]] std::vector<Volume> split_volumes(Decoded decoded);
 
 }  // namespace stormcellar::level2

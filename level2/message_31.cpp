@@ -1,0 +1,175 @@
+// Message 31, digital radar data, generic format (ICD 2620002, tables XVII-A to XVII-I).
+#include <cmath>
+
+#include "base/byte_reader.h"
+#include "level2/radial_message.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+constexpr std::size_t compression_at = 16;
+constexpr std::size_t volume_block_bytes = 44;        // of the first version
+constexpr std::size_t radial_block_short_bytes = 20;  // without calibration
+constexpr std::size_t radial_block_full_bytes = 28;
+
+std::optional<float> finite(float number) {
+    return std::isfinite(number) ? std::optional{number} : std::nullopt;
+}
+
+// Each block reader gives the reason for a failure, or nothing.
+using Reason = std::optional<std::string_view>;
+
+Reason read_radial_block(Radial& radial, std::span<const std::byte> block) {
+    ByteReader reader{block};
+    reader.skip(4);
+    const std::uint16_t size = reader.u16();
+    radial.unambiguous_range_m = static_cast<float>(reader.u16()) * 100.0F;
+    radial.horizontal_noise_dbm = finite(reader.f32());
+    radial.vertical_noise_dbm = finite(reader.f32());
+    radial.nyquist_mps = static_cast<float>(reader.u16()) / 100.0F;
+    radial.radial_flags = reader.u16();
+    if (reader.failed() || size < radial_block_short_bytes) return "radial block is too short";
+    if (size >= radial_block_full_bytes && reader.remaining() >= 8) {
+        radial.calibration_dbz = finite(reader.f32());
+        radial.vertical_calibration_dbz = finite(reader.f32());
+    }
+    return std::nullopt;
+}
+
+Reason read_elevation_block(Radial& radial, std::span<const std::byte> block) {
+    ByteReader reader{block};
+    reader.skip(6);
+    radial.attenuation_db_per_km_thousandths = reader.i16();
+    radial.elevation_calibration_db = finite(reader.f32());
+    if (reader.failed()) return "elevation block is too short";
+    return std::nullopt;
+}
+
+Reason read_moment_block(RadialMessage& message, Moment moment, std::span<const std::byte> bytes) {
+    ByteReader reader{bytes};
+    reader.skip(8);
+    MomentBlock block;
+    block.moment = moment;
+    block.gates = reader.u16();
+    block.first_gate_m = reader.i16();
+    block.gate_spacing_m = reader.u16();
+    block.folding_threshold_db = static_cast<float>(reader.i16()) / 10.0F;
+    block.snr_threshold_db = static_cast<float>(reader.i16()) / 8.0F;
+    block.control_flags = reader.u8();
+    block.word_size_bits = reader.u8();
+    block.scale = reader.f32();
+    block.offset = reader.f32();
+    if (reader.failed()) return "moment block is too short";
+    if (block.gates == 0) return std::nullopt;
+    if (block.word_size_bits != 8 && block.word_size_bits != 16) return "gates are not 8 or 16 bit";
+    if (!std::isfinite(block.scale) || !std::isfinite(block.offset)) {
+        return "scale or offset is not a number";
+    }
+    block.codes = reader.bytes(std::size_t{block.gates} * (block.word_size_bits == 8 ? 1U : 2U));
+    if (reader.failed()) return "gates reach beyond the end of message 31";
+    if (!message.add(block)) return "a moment comes twice";
+    return std::nullopt;
+}
+
+Reason read_block(RadialMessage& message, std::span<const std::byte> block) {
+    ByteReader reader{block};
+    const std::string_view name = reader.text(4);
+    if (reader.failed()) return "a block lies outside message 31";
+    if (name == "RVOL") {
+        message.volume_block = block;
+        return std::nullopt;
+    }
+    if (name == "RELV") return read_elevation_block(message.radial, block);
+    if (name == "RRAD") return read_radial_block(message.radial, block);
+    std::string_view moment = name.substr(1);
+    while (moment.ends_with(' '))
+        moment.remove_suffix(1);
+    const std::optional<Moment> known = moment_from_name(moment);
+    if (name.front() == 'D' && known) return read_moment_block(message, *known, block);
+    // A name that no ICD has is a later build's, unless it is not even text: then a pointer lies.
+    for (const char c : name) {
+        if (c < ' ' || c > '~') return "a block has no name";
+    }
+    ++message.unknown_blocks;
+    return std::nullopt;
+}
+
+}  // namespace
+
+int message_31_compression(std::span<const std::byte> body) {
+    return body.size() > compression_at ? std::to_integer<int>(body[compression_at]) : 0;
+}
+
+RadialResult read_message_31(std::span<const std::byte> body) {
+    ByteReader reader{body};
+    RadialMessage message;
+    Radial& radial = message.radial;
+    message.icao = reader.text(4);
+    const std::uint32_t ms = reader.u32();
+    const std::uint16_t date = reader.u16();
+    radial.time = time_from_nexrad(date, ms);
+    radial.azimuth_number = reader.u16();
+    radial.azimuth_deg = reader.f32();
+    reader.skip(4);  // compression, spare, radial length
+    const std::uint8_t spacing = reader.u8();
+    message.azimuth_spacing_deg = spacing == 1 ? 0.5F : (spacing == 2 ? 1.0F : 0.0F);
+    radial.status = reader.u8();
+    message.elevation_number = reader.u8();
+    radial.cut_sector = reader.u8();
+    radial.elevation_deg = reader.f32();
+    radial.spot_blanking = reader.u8();
+    radial.azimuth_indexing = reader.u8();
+    const std::uint16_t blocks = reader.u16();
+    if (reader.failed()) return tl::unexpected(std::string_view{"message 31 is too short"});
+    // Written so that a NaN fails.
+    const bool angles_possible = radial.azimuth_deg >= 0 && radial.azimuth_deg <= 360 &&
+                                 radial.elevation_deg >= -90 && radial.elevation_deg <= 90;
+    if (!angles_possible) return tl::unexpected(std::string_view{"angles are impossible"});
+
+    for (std::uint16_t i = 0; i < blocks; ++i) {
+        const std::uint32_t pointer = reader.u32();
+        if (reader.failed()) return tl::unexpected(std::string_view{"block pointers are cut"});
+        if (pointer == 0) continue;  // the radial lacks this block
+        if (pointer >= body.size()) {
+            return tl::unexpected(std::string_view{"a block lies outside message 31"});
+        }
+        if (const Reason reason = read_block(message, body.subspan(pointer))) {
+            return tl::unexpected(*reason);
+        }
+    }
+    if (!message.volume_block.empty()) {
+        ByteReader block{message.volume_block};
+        block.skip(40);
+        const std::uint16_t vcp = block.u16();
+        if (!block.failed()) message.vcp = vcp;
+    }
+    return message;
+}
+
+std::optional<VolumeBlock> read_volume_block(std::span<const std::byte> bytes) {
+    ByteReader reader{bytes};
+    VolumeBlock block;
+    reader.skip(4);
+    block.size_bytes = reader.u16();
+    block.version_major = reader.u8();
+    block.version_minor = reader.u8();
+    block.latitude_deg = reader.f32();
+    block.longitude_deg = reader.f32();
+    block.site_height_m = reader.i16();
+    block.tower_height_m = reader.u16();
+    block.calibration_db = reader.f32();
+    block.horizontal_power_kw = reader.f32();
+    block.vertical_power_kw = reader.f32();
+    block.differential_reflectivity_db = reader.f32();
+    block.initial_differential_phase_deg = reader.f32();
+    block.vcp = reader.u16();
+    block.processing_status = reader.u16();
+    if (reader.failed() || block.size_bytes < volume_block_bytes) return std::nullopt;
+    for (const std::byte b : reader.bytes(block.size_bytes - volume_block_bytes)) {
+        block.rest.push_back(std::to_integer<std::uint8_t>(b));
+    }
+    if (reader.failed()) return std::nullopt;
+    return block;
+}
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,16 @@
+// level2/message_5.h -- the volume coverage pattern, message 5 or 7 (ICD 2620002, table XI).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "level2/volume.h"
+
+namespace stormcellar::level2 {
+
+// `body` is the message after its 28 bytes of header. None when it holds no pattern (frames of old
+// builds are zeros) or does not hold the cuts that it counts.
+[[nodiscard]] std::optional<Vcp> read_vcp(int message_type, std::span<const std::byte> body);
+
+}  // namespace stormcellar::level2

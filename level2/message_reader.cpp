@@ -1,0 +1,198 @@
+#include "level2/message_reader.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "level2/archive_header.h"
+#include "level2/message_5.h"
+#include "level2/radial_message.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+// No message is longer: 131 kB for one whose size has 16 bits, and no known one has more.
+constexpr std::size_t longest_message_bytes = std::size_t{1} << 20;
+
+// Whether a message, a fill frame, a further volume header or the end may stand here.
+bool may_follow(std::span<const std::byte> next, bool last, bool after_radial) {
+    if (next.size() < message_header_bytes) {
+        return last && (next.size() < frame_bytes || all_zero(next));
+    }
+    if (read_archive_header(next)) return true;
+    const auto header_bytes = next.first(message_header_bytes);
+    // Zeros after a radial are more likely its neighbour's gates below threshold than a frame.
+    if (all_zero(header_bytes)) return !after_radial;
+    return is_plausible(read_message_header(header_bytes));
+}
+
+bool is_radial(const MessageHeader& header) {
+    return header.type == 1 || header.type == 31;
+}
+
+}  // namespace
+
+std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
+    std::size_t at = 0;
+    while (at < data.size() && !full_) {
+        const std::size_t done = step(data.subspan(at), last);
+        if (done == 0) break;
+        at += done;
+        offset_ += done;
+    }
+    if (last) {
+        close_damage();
+        in_sync_ = true;
+    }
+    return full_ ? data.size() : at;
+}
+
+std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
+    if (!last && rest.size() < frame_bytes + message_header_bytes) return 0;
+    if (!in_sync_) return resynchronise(rest, 0, last, "bytes of the message stream are missing");
+    if (const auto header = read_archive_header(rest)) {
+        close_damage();
+        builder_.further_header(*header);
+        report_.add(Severity::note, "further_volume_header",
+                    fmt::format("a further volume header, {}", header->filename), offset_);
+        return archive_header_bytes;
+    }
+    if (rest.size() < message_header_bytes) {
+        if (all_zero(rest)) {
+            report_.report().message_bytes += rest.size();
+            return rest.size();
+        }
+        return resynchronise(rest, rest.size(), last, "message header cut by the end of the data");
+    }
+    if (all_zero(rest.first(message_header_bytes))) return read_fill(rest, last);
+    const MessageHeader header = read_message_header(rest.first(message_header_bytes));
+    const std::size_t length = header.length_bytes();
+    if (!is_plausible(header) || length < message_header_bytes || length > longest_message_bytes) {
+        return resynchronise(rest, 1, last, "no message header where one is due");
+    }
+    return read_message(header, rest, last);
+}
+
+std::size_t MessageReader::read_fill(std::span<const std::byte> rest, bool last) {
+    const auto frame = rest.first(std::min(rest.size(), frame_bytes));
+    if (!all_zero(frame)) {
+        return resynchronise(rest, 1, last, "type 0 frame with non-zero content");
+    }
+    close_damage();
+    if (frame.size() == frame_bytes) ++report_.report().message_counts[0];
+    report_.report().message_bytes += frame.size();
+    return frame.size();
+}
+
+std::size_t MessageReader::read_message(const MessageHeader& header,
+                                        std::span<const std::byte> rest, bool last) {
+    const std::size_t length = header.length_bytes();
+    if (rest.size() < length) {
+        if (!last) return 0;
+        return resynchronise(
+            rest, message_header_bytes, last,
+            fmt::format("message of type {} cut by the end of the data", header.type));
+    }
+    if (!last && rest.size() < length + message_header_bytes) return 0;
+    if (!may_follow(rest.subspan(length), last, is_radial(header))) {
+        // A message that begins inside this one shows that this one has lost bytes.
+        const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
+        const auto next = find_message(search, message_header_bytes);
+        if (next && *next < length) {
+            return resynchronise(
+                rest, *next, last,
+                fmt::format("message of type {} has lost some of its bytes", header.type));
+        }
+    }
+    close_damage();
+    take(header, rest.first(length));
+    report_.report().message_bytes += length;
+    return length;
+}
+
+// Drops the bytes up to the first sure message at or after `from`, or to the end.
+std::size_t MessageReader::resynchronise(std::span<const std::byte> rest, std::size_t from,
+                                         bool last, std::string reason) {
+    if (!open_damage_) open_damage_ = OpenDamage{offset_, 0, std::move(reason)};
+    std::size_t dropped = rest.size();
+    if (const auto found = find_message(rest, from)) {
+        dropped = *found;
+        in_sync_ = true;
+    } else {
+        in_sync_ = false;
+        // A message may begin in the last bytes; they are looked at again with what follows.
+        if (!last) dropped -= std::min(rest.size(), sure_message_bytes);
+    }
+    open_damage_->bytes += dropped;
+    report_.report().message_bytes += dropped;
+    if (dropped == 0 && in_sync_) return step(rest, last);
+    return dropped;
+}
+
+void MessageReader::close_damage() {
+    if (!open_damage_) return;
+    if (open_damage_->bytes == 0) {
+        open_damage_.reset();
+        return;
+    }
+    report_.damage("damaged_messages", std::move(open_damage_->reason), open_damage_->offset,
+                   open_damage_->bytes);
+    open_damage_.reset();
+}
+
+void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message) {
+    if (is_radial(header)) {
+        take_radial(header, message);
+        return;
+    }
+    if (!is_known_message_type(header.type)) {
+        report_.add(Severity::note, "unknown_message",
+                    fmt::format("message of unknown type {} skipped", header.type), offset_);
+        return;
+    }
+    ++report_.report().message_counts[header.type];
+    if (header.type == 5 || header.type == 7) {
+        auto vcp = read_vcp(header.type, message.subspan(message_header_bytes));
+        if (vcp) builder_.set_vcp(std::move(*vcp));
+    }
+}
+
+void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message) {
+    const auto body = message.subspan(message_header_bytes);
+    if (header.type == 31) {
+        const int compression = message_31_compression(body);
+        ++report_.report().radial_compression[compression];
+        if (compression != 0) {
+            report_.report().bytes_dropped += message.size();
+            report_.add(Severity::error, "compressed_radial",
+                        fmt::format("radial with compression {} is not supported", compression),
+                        offset_);
+            return;
+        }
+    }
+    const RadialResult radial = header.type == 31 ? read_message_31(body) : read_message_1(body);
+    if (!radial) {
+        report_.damage("bad_radial", std::string{radial.error()}, offset_, message.size());
+        return;
+    }
+    ++report_.report().message_counts[header.type];
+    if (!builder_.add(*radial)) full_ = true;
+}
+
+void MessageFeed::append(std::span<const std::byte> bytes) {
+    if (held_.empty()) {
+        bytes = bytes.subspan(reader_.read(bytes, false));
+        held_.assign(bytes.begin(), bytes.end());
+        return;
+    }
+    held_.insert(held_.end(), bytes.begin(), bytes.end());
+    const std::size_t done = reader_.read(held_, false);
+    held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
+}
+
+void MessageFeed::end() {
+    reader_.read(held_, true);
+    held_.clear();
+}
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,77 @@
+// level2/message_reader.h -- walks a stream of messages and keeps what is whole.
+//
+// A message counts only when the next one begins where it ends (or the data end there). Where that
+// fails the reader searches for the next place at which a message surely begins; if that lies
+// inside the message before, bytes of it are lost, and it is dropped too: never half a radial.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "level2/message_header.h"
+#include "level2/report_writer.h"
+#include "level2/sweep_builder.h"
+
+namespace stormcellar::level2 {
+
+class MessageReader {
+  public:
+    MessageReader(SweepBuilder& builder, ReportWriter& report)
+        : builder_(builder), report_(report) {}
+
+    // Reads messages from the start of `data`, which goes on from where the last call stopped, and
+    // says how many bytes are done with. With `last`, `data` are a block's last bytes (messages do
+    // not go over the end of an LDM record): all of it is then done with.
+    std::size_t read(std::span<const std::byte> data, bool last);
+
+    // Bytes of the stream are missing here: search before anything else is believed.
+    void lose_sync() { in_sync_ = false; }
+
+    // Where the next byte stands in the message stream (24-byte headers inside it included).
+    [[nodiscard]] std::uint64_t offset() const { return offset_; }
+    // The arrays would exceed their limit: no more is read.
+    [[nodiscard]] bool full() const { return full_; }
+
+  private:
+    // Bytes done with; 0 where more are needed to decide.
+    std::size_t step(std::span<const std::byte> rest, bool last);
+    std::size_t read_fill(std::span<const std::byte> rest, bool last);
+    std::size_t read_message(const MessageHeader& header, std::span<const std::byte> rest,
+                             bool last);
+    std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
+                              std::string reason);
+    void take(const MessageHeader& header, std::span<const std::byte> message);
+    void take_radial(const MessageHeader& header, std::span<const std::byte> message);
+    void close_damage();
+
+    SweepBuilder& builder_;
+    ReportWriter& report_;
+    std::uint64_t offset_ = 0;
+    bool in_sync_ = true;
+    bool full_ = false;
+    struct OpenDamage {
+        std::uint64_t offset = 0;
+        std::uint64_t bytes = 0;
+        std::string reason;
+    };
+    std::optional<OpenDamage> open_damage_;
+};
+
+// Feeds a MessageReader from pieces that are cut anywhere. Holds back less than one message.
+class MessageFeed {
+  public:
+    explicit MessageFeed(MessageReader& reader) : reader_(reader) {}
+
+    void append(std::span<const std::byte> bytes);
+    void end();  // what was held back is the last of a block
+
+  private:
+    MessageReader& reader_;
+    std::vector<std::byte> held_;
+};
+
+}  // namespace stormcellar::level2
