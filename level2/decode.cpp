@@ -35,6 +35,15 @@ class Decoder {
     Result<Decoded> run(std::span<const std::byte> bytes);
 
   private:
+    // What comes out of a compressed layer: messages, read at once, or something to peel further,
+    // which is held until it is whole.
+    struct LayerOutput {
+        explicit LayerOutput(MessageReader& reader) : feed(reader) {}
+        MessageFeed feed;
+        std::vector<std::byte> inner;
+        bool first = true;
+        bool messages = false;
+    };
     // Each gives an error only where nothing can be kept: limits, and content of another kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
     Status read_gzip(std::span<const std::byte> bytes, int depth);
@@ -43,7 +52,9 @@ class Decoder {
     Status read_record(const RecordQueue::Item& item);
     Status read_record_blocks(const RecordQueue::Item& item);
     std::span<const std::byte> strip_header(std::span<const std::byte> bytes);
-    void begin_messages(std::string_view kind);
+    Status take_output(LayerOutput& output, std::span<const std::byte> piece);
+    Status end_output(LayerOutput& output, int depth);
+    Status next_block(BzipBlocks& blocks, std::optional<BzipBlocks::Block>& block);
     void report_gzip_end(const GzipStream& gzip);
     void report_part(const LdmPart& part);
     Status count_output(std::size_t bytes);
@@ -88,10 +99,6 @@ std::span<const std::byte> Decoder::strip_header(std::span<const std::byte> byte
     return bytes.subspan(archive_header_bytes);
 }
 
-void Decoder::begin_messages(std::string_view kind) {
-    report_data_.container += kind;
-}
-
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
         return fail(ErrorCode::unsupported, "more than {} layers of compression", most_layers - 1);
@@ -106,10 +113,10 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
         case Content::compress:
             return fail(ErrorCode::unsupported, "Unix compress (.Z) is not supported");
         case Content::ldm:
-            begin_messages("ldm-bzip2");
+            report_data_.container += "ldm-bzip2";
             return read_ldm(strip_header(bytes));
         case Content::messages:
-            begin_messages("uncompressed");
+            report_data_.container += "uncompressed";
             reader_.read(strip_header(bytes), true);
             return check_arrays();
         case Content::unknown:
@@ -125,35 +132,51 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
                 depth == 0 ? "" : "what it holds, decompressed, is ");
 }
 
+Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
+    if (Status counted = count_output(piece.size()); !counted) return counted;
+    if (std::exchange(output.first, false)) {
+        output.messages = content_at_start(piece) == Content::messages;
+        if (output.messages) {
+            report_data_.container += "uncompressed";
+            piece = strip_header(piece);
+        }
+    }
+    if (output.messages) {
+        output.feed.append(piece);
+        return check_arrays();
+    }
+    if (output.inner.size() + piece.size() > inner_limit_bytes) {
+        return fail(ErrorCode::not_level2, "holds more than {} bytes that are not messages",
+                    inner_limit_bytes);
+    }
+    output.inner.insert(output.inner.end(), piece.begin(), piece.end());
+    return {};
+}
+
+Status Decoder::end_output(LayerOutput& output, int depth) {
+    if (output.messages) {
+        output.feed.end();
+        return check_arrays();
+    }
+    if (output.inner.empty()) {
+        return fail(cut_ ? ErrorCode::truncated : ErrorCode::corrupt,
+                    "a compressed file of which nothing is whole");
+    }
+    return read_layer(output.inner, depth + 1);
+}
+
 Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
     GzipStream gzip{bytes};
-    const double begin_s = thread_cpu_s();
-    std::span<const std::byte> piece = gzip.next();
-    report_data_.decompress_s += thread_cpu_s() - begin_s;
-    const bool messages = content_at_start(piece) == Content::messages;
-    std::vector<std::byte> inner;
-    MessageFeed feed{reader_};
-    if (messages) begin_messages("uncompressed");
-    for (bool first = true; !piece.empty(); first = false) {
-        if (Status counted = count_output(piece.size()); !counted) return counted;
-        if (messages) {
-            feed.append(first ? strip_header(piece) : piece);
-            if (Status fits = check_arrays(); !fits) return fits;
-        } else if (inner.size() + piece.size() > inner_limit_bytes) {
-            return fail(ErrorCode::not_level2, "holds more than {} bytes that are not messages",
-                        inner_limit_bytes);
-        } else {
-            inner.insert(inner.end(), piece.begin(), piece.end());
-        }
-        const double again_s = thread_cpu_s();
-        piece = gzip.next();
-        report_data_.decompress_s += thread_cpu_s() - again_s;
+    LayerOutput output{reader_};
+    for (;;) {
+        const double begin_s = thread_cpu_s();
+        const std::span<const std::byte> piece = gzip.next();
+        report_data_.decompress_s += thread_cpu_s() - begin_s;
+        if (piece.empty()) break;
+        if (Status taken = take_output(output, piece); !taken) return taken;
     }
-    if (messages) feed.end();
     report_gzip_end(gzip);
-    if (messages) return check_arrays();
-    if (inner.empty()) return fail(ErrorCode::truncated, "a gzip file of which nothing is whole");
-    return read_layer(inner, depth + 1);
+    return end_output(output, depth);
 }
 
 void Decoder::report_gzip_end(const GzipStream& gzip) {
@@ -183,56 +206,36 @@ void Decoder::report_gzip_end(const GzipStream& gzip) {
     }
 }
 
+Status Decoder::next_block(BzipBlocks& blocks, std::optional<BzipBlocks::Block>& block) {
+    const double begin_s = thread_cpu_s();
+    block = blocks.next(output_left());
+    report_data_.decompress_s += thread_cpu_s() - begin_s;
+    if (block && block->status == BzipStatus::too_large) return count_output(output_left() + 1);
+    return {};
+}
+
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     BzipBlocks blocks{bytes};
-    std::vector<std::byte> inner;
-    MessageFeed feed{reader_};
-    bool messages = false;
-    bool first = true;
+    LayerOutput output{reader_};
     for (;;) {
-        const double begin_s = thread_cpu_s();
-        const auto block = blocks.next(output_left());
-        report_data_.decompress_s += thread_cpu_s() - begin_s;
+        std::optional<BzipBlocks::Block> block;
+        if (Status read = next_block(blocks, block); !read) return read;
         if (!block) break;
-        const std::size_t size =
-            block->status == BzipStatus::too_large ? output_left() + 1 : block->data.size();
-        if (Status counted = count_output(size); !counted) return counted;
-        if (block->status != BzipStatus::whole) {
-            if (messages) feed.end();
-            report_.damage("corrupt_bzip2",
-                           fmt::format("a bzip2 block at byte {} is damaged", block->position),
-                           reader_.offset(), block->compressed_bytes);
-            reader_.lose_sync();
+        if (block->status == BzipStatus::whole) {
+            if (Status taken = take_output(output, block->data); !taken) return taken;
             continue;
         }
-        if (std::exchange(first, false)) {
-            messages = content_at_start(block->data) == Content::messages;
-            if (messages) {
-                begin_messages("uncompressed");
-                feed.append(strip_header(block->data));
-                continue;
-            }
-        }
-        if (messages) {
-            feed.append(block->data);
-            if (Status fits = check_arrays(); !fits) return fits;
-        } else if (inner.size() + size > inner_limit_bytes) {
-            return fail(ErrorCode::not_level2, "holds more than {} bytes that are not messages",
-                        inner_limit_bytes);
-        } else {
-            inner.insert(inner.end(), block->data.begin(), block->data.end());
-        }
+        output.feed.end();
+        report_.damage("corrupt_bzip2",
+                       fmt::format("a bzip2 block at byte {} is damaged", block->position),
+                       reader_.offset(), block->compressed_bytes);
+        reader_.lose_sync();
     }
     if (!blocks.ended()) {
         cut_ = true;
         report_.add(Severity::error, "truncated_bzip2", "the bzip2 file is cut", bytes.size());
     }
-    if (messages) {
-        feed.end();
-        return check_arrays();
-    }
-    if (inner.empty()) return fail(ErrorCode::corrupt, "a bzip2 file of which nothing is whole");
-    return read_layer(inner, depth + 1);
+    return end_output(output, depth);
 }
 
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {
@@ -298,14 +301,11 @@ Status Decoder::read_record_blocks(const RecordQueue::Item& item) {
     MessageFeed feed{reader_};
     bool all_good = true;
     for (;;) {
-        const double begin_s = thread_cpu_s();
-        const auto block = blocks.next(output_left());
-        report_data_.decompress_s += thread_cpu_s() - begin_s;
+        std::optional<BzipBlocks::Block> block;
+        if (Status read = next_block(blocks, block); !read) return read;
         if (!block) break;
-        const std::size_t size =
-            block->status == BzipStatus::too_large ? output_left() + 1 : block->data.size();
-        if (Status counted = count_output(size); !counted) return counted;
         if (block->status == BzipStatus::whole) {
+            if (Status counted = count_output(block->data.size()); !counted) return counted;
             feed.append(block->data);
             if (Status fits = check_arrays(); !fits) return fits;
             continue;

@@ -38,11 +38,12 @@ struct DecodeReport {
     std::string container;                     // e.g. "gzip+ldm-bzip2", "uncompressed"
     std::optional<std::uint64_t> ldm_records;  // none where there are no LDM records
     std::optional<std::uint64_t> negative_control_words;
-    std::uint64_t message_bytes = 0;  // decompressed, without the 24-byte headers
+    std::uint64_t message_bytes = 0;  // decompressed, behind the 24-byte header
     std::map<int, std::uint64_t> message_counts;
     std::uint64_t bytes_dropped = 0;  // of messages; of the file where a compressed part is lost
     std::vector<Problem> problems;
-    // Start of the first damage, as in the golden files; none for an undamaged stream.
+    // Where a message was first due and none was, as in the golden files; none for an undamaged
+    // stream. What was dropped for it may begin earlier: a problem has that.
     struct Corruption {
         std::uint64_t offset = 0;
         std::string reason;

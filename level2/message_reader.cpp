@@ -55,6 +55,7 @@ std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
         builder_.further_header(*header);
         report_.add(Severity::note, "further_volume_header",
                     fmt::format("a further volume header, {}", header->filename), offset_);
+        report_.report().message_bytes += archive_header_bytes;
         return archive_header_bytes;
     }
     if (rest.size() < message_header_bytes) {
@@ -99,9 +100,12 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
         const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
         const auto next = find_message(search, message_header_bytes);
         if (next && *next < length) {
-            return resynchronise(
-                rest, *next, last,
-                fmt::format("message of type {} has lost some of its bytes", header.type));
+            if (!open_damage_) {
+                open_damage_ = OpenDamage{
+                    offset_, offset_ + length, 0,
+                    fmt::format("message of type {} has lost some of its bytes", header.type)};
+            }
+            return resynchronise(rest, *next, last, {});
         }
     }
     close_damage();
@@ -113,7 +117,7 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
 // Drops the bytes up to the first sure message at or after `from`, or to the end.
 std::size_t MessageReader::resynchronise(std::span<const std::byte> rest, std::size_t from,
                                          bool last, std::string reason) {
-    if (!open_damage_) open_damage_ = OpenDamage{offset_, 0, std::move(reason)};
+    if (!open_damage_) open_damage_ = OpenDamage{offset_, offset_, 0, std::move(reason)};
     std::size_t dropped = rest.size();
     if (const auto found = find_message(rest, from)) {
         dropped = *found;
@@ -136,7 +140,7 @@ void MessageReader::close_damage() {
         return;
     }
     report_.damage("damaged_messages", std::move(open_damage_->reason), open_damage_->offset,
-                   open_damage_->bytes);
+                   open_damage_->bytes, open_damage_->found_at);
     open_damage_.reset();
 }
 

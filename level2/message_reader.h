@@ -54,7 +54,8 @@ class MessageReader {
     bool in_sync_ = true;
     bool full_ = false;
     struct OpenDamage {
-        std::uint64_t offset = 0;
+        std::uint64_t offset = 0;    // of the first byte dropped
+        std::uint64_t found_at = 0;  // where a message was due and none was
         std::uint64_t bytes = 0;
         std::string reason;
     };

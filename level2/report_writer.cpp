@@ -26,9 +26,9 @@ void ReportWriter::add(Severity severity, std::string_view code, std::string mes
 }
 
 void ReportWriter::damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
-                          std::uint64_t dropped) {
+                          std::uint64_t dropped, std::optional<std::uint64_t> found_at) {
     report_.bytes_dropped += dropped;
-    if (!report_.corruption) report_.corruption = {stream_offset, reason};
+    if (!report_.corruption) report_.corruption = {found_at.value_or(stream_offset), reason};
     add(Severity::error, code, fmt::format("{}; {} bytes dropped", reason, dropped), stream_offset);
 }
 

@@ -20,9 +20,10 @@ class ReportWriter {
     void add(Severity severity, std::string_view code, std::string message,
              std::optional<std::uint64_t> offset = std::nullopt);
     // Bytes that hold nothing usable: an error, and the stream's corruption if it is the first.
-    // `stream_offset` is into the message stream.
+    // `stream_offset` is into the message stream; `found_at`, where it differs, the place at which
+    // the damage showed.
     void damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
-                std::uint64_t dropped);
+                std::uint64_t dropped, std::optional<std::uint64_t> found_at = std::nullopt);
     void finish();
 
     [[nodiscard]] DecodeReport& report() { return report_; }
