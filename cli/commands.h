@@ -32,6 +32,8 @@ struct Command {
 // Every subcommand, one line each in cli/main.cpp.
 using Commands = std::vector<Command>;
 
+Command add_info(CLI::App& app);
+
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
 // that fits the code: bad_argument is bad usage, everything else is failed work.
 int report_error(const Error& error);

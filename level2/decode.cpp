@@ -60,6 +60,7 @@ class Decoder {
     Status count_output(std::size_t bytes);
     Status check_arrays() const;
     Result<Decoded> finish();
+    void report_position(const Volume& volume);
     [[nodiscard]] std::size_t output_left() const {
         return static_cast<std::size_t>(options_.output_limit_bytes - produced_bytes_);
     }
@@ -336,6 +337,11 @@ Result<Decoded> Decoder::run(std::span<const std::byte> bytes) {
 Result<Decoded> Decoder::finish() {
     Decoded decoded;
     decoded.volume = builder_.finish(report_data_);
+    Volume& volume = decoded.volume;
+    volume.header = std::move(header_);
+    if (volume.station.empty() && volume.header) volume.station = volume.header->icao;
+    if (volume.station.empty()) volume.station = options_.fallback_station;
+    report_position(volume);
     report_.finish();
     decoded.report = std::move(report_data_);
     bool anything = false;
@@ -346,11 +352,17 @@ Result<Decoded> Decoder::finish() {
                     decoded.report.corruption ? decoded.report.corruption->reason
                                               : "neither radials nor metadata");
     }
-    Volume& volume = decoded.volume;
-    volume.header = std::move(header_);
-    if (volume.station.empty() && volume.header) volume.station = volume.header->icao;
-    if (volume.station.empty()) volume.station = options_.fallback_station;
     return decoded;
+}
+
+void Decoder::report_position(const Volume& volume) {
+    const auto antenna = antenna_position(volume);
+    if (!antenna) {
+        report_.add(Severity::warning, "no_position",
+                    "neither the file nor the station table says where the radar stands");
+    } else if (antenna->disagreement) {
+        report_.add(Severity::warning, "position_disagrees", *antenna->disagreement);
+    }
 }
 
 }  // namespace
