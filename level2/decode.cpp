@@ -61,6 +61,7 @@ class Decoder {
     Status check_arrays() const;
     Result<Decoded> finish();
     void report_position(const Volume& volume);
+    void report_end(const Volume& volume);
     [[nodiscard]] std::size_t output_left() const {
         return static_cast<std::size_t>(options_.output_limit_bytes - produced_bytes_);
     }
@@ -342,6 +343,7 @@ Result<Decoded> Decoder::finish() {
     if (volume.station.empty() && volume.header) volume.station = volume.header->icao;
     if (volume.station.empty()) volume.station = options_.fallback_station;
     report_position(volume);
+    report_end(volume);
     report_.finish();
     decoded.report = std::move(report_data_);
     bool anything = false;
@@ -353,6 +355,16 @@ Result<Decoded> Decoder::finish() {
                                               : "neither radials nor metadata");
     }
     return decoded;
+}
+
+void Decoder::report_end(const Volume& volume) {
+    if (volume.sweeps.empty()) {
+        report_.add(Severity::warning, "no_radials", "metadata without radials");
+    } else if (volume.sweeps.back().radials.back().status !=
+               static_cast<std::uint8_t>(RadialStatus::end_of_volume)) {
+        report_.add(Severity::warning, "no_end_of_volume",
+                    "the volume stops before its end: its last radial is not marked as the last");
+    }
 }
 
 void Decoder::report_position(const Volume& volume) {

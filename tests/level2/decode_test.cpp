@@ -1,0 +1,205 @@
+// Containers, damage and limits of the decoder as a whole.
+#include "level2/decode.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/file_system.h"
+#include "tests/level2/wire.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+using wire::Bytes;
+
+ErrorCode code_of(std::span<const std::byte> bytes, const DecodeOptions& options = {}) {
+    const auto decoded = decode(bytes, options);
+    EXPECT_FALSE(decoded);
+    return decoded ? ErrorCode::internal : decoded.error().code;
+}
+
+// Same sweeps to the bit.
+void expect_same_sweeps(const Volume& a, const Volume& b) {
+    ASSERT_EQ(a.sweeps.size(), b.sweeps.size());
+    for (std::size_t i = 0; i < a.sweeps.size(); ++i) {
+        ASSERT_EQ(a.sweeps[i].radials.size(), b.sweeps[i].radials.size());
+        ASSERT_EQ(a.sweeps[i].moments.size(), b.sweeps[i].moments.size());
+        for (std::size_t m = 0; m < a.sweeps[i].moments.size(); ++m) {
+            EXPECT_EQ(a.sweeps[i].moments[m].gate_counts, b.sweeps[i].moments[m].gate_counts);
+            EXPECT_EQ(a.sweeps[i].moments[m].codes8, b.sweeps[i].moments[m].codes8);
+            EXPECT_EQ(a.sweeps[i].moments[m].codes16, b.sweeps[i].moments[m].codes16);
+        }
+    }
+}
+
+TEST(Decode, EveryContainerGivesTheSame) {
+    const Bytes plain = wire::join({wire::archive_header(), wire::radial_messages(2, 30)});
+    const Bytes ldm = wire::ldm_volume(2, 30);
+    const auto reference = decode(plain);
+    ASSERT_TRUE(reference) << reference.error().message;
+    EXPECT_EQ(reference->volume.radial_count(), 60);
+    EXPECT_TRUE(reference->report.complete);
+    const std::vector<std::pair<std::string, Bytes>> cases = {
+        {"uncompressed", plain},
+        {"gzip+uncompressed", wire::gzip(plain)},
+        {"bzip2-whole-file+uncompressed", wire::bzip2(plain)},
+        {"gzip+bzip2-whole-file+uncompressed", wire::gzip(wire::bzip2(plain))},
+        {"ldm-bzip2", ldm},
+        {"gzip+ldm-bzip2", wire::gzip(ldm)},
+        {"bzip2-whole-file+ldm-bzip2", wire::bzip2(ldm)},
+        {"uncompressed", Bytes{plain.begin() + 24, plain.end()}},
+        {"ldm-bzip2", Bytes{ldm.begin() + 24, ldm.end()}},
+    };
+    for (const auto& [container, bytes] : cases) {
+        const auto decoded = decode(bytes);
+        ASSERT_TRUE(decoded) << container << ": " << decoded.error().message;
+        EXPECT_EQ(decoded->report.container, container);
+        EXPECT_EQ(decoded->report.bytes_dropped, 0) << container;
+        expect_same_sweeps(decoded->volume, reference->volume);
+    }
+}
+
+TEST(Decode, TheStationIsTheRadialsElseTheHeadersElseTheFallback) {
+    const Bytes rays = wire::radial_messages(1, 2);
+    const Bytes old_rays = wire::join({wire::message_1({}), wire::message_1({})});
+    DecodeOptions options;
+    options.fallback_station = "KMPX";
+    const auto station = [&](const Bytes& header, const Bytes& messages) {
+        return decode(wire::join({header, messages}), options).value().volume.station;
+    };
+    EXPECT_EQ(station(wire::archive_header("AR2V0006.116", "KLOT"), rays), "KTLX");
+    EXPECT_EQ(station(wire::archive_header("AR2V0001.116", "KLOT"), old_rays), "KLOT");
+    EXPECT_EQ(station(wire::archive_header("ARCHIVE2.116", "    "), old_rays), "KMPX");
+}
+
+TEST(Decode, EmptyUnknownAndEmptyOfMeaningAreToldApart) {
+    EXPECT_EQ(code_of({}), ErrorCode::empty);
+    EXPECT_EQ(code_of(Bytes(100'000)), ErrorCode::not_level2);
+    EXPECT_EQ(code_of(wire::Writer{}.text(std::string(100'000, 'x')).bytes), ErrorCode::not_level2);
+    EXPECT_EQ(code_of(wire::gzip(Bytes(100'000))), ErrorCode::not_level2);
+    EXPECT_EQ(code_of(wire::archive_header()), ErrorCode::truncated);
+    EXPECT_EQ(code_of(wire::join({wire::archive_header(), Bytes(50'000, std::byte{0x33})})),
+              ErrorCode::corrupt);
+    EXPECT_EQ(code_of(wire::Writer{}.u16(0x1F9D).zeros(100).bytes), ErrorCode::unsupported);
+}
+
+TEST(Decode, MetadataAloneIsAVolume) {
+    const auto decoded = decode(wire::join({wire::archive_header(), wire::frame(2)}));
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(decoded->volume.sweeps.empty());
+    EXPECT_FALSE(decoded->report.complete);
+    EXPECT_EQ(decoded->report.problems.back().code, "no_radials");
+}
+
+TEST(Decode, BombsStopAtTheLimit) {
+    DecodeOptions options;
+    options.output_limit_bytes = 10'000'000;
+    const Bytes zeros(50'000'000);
+    const Bytes plain = wire::join({wire::archive_header(), wire::frame(2), zeros});
+    EXPECT_EQ(code_of(wire::gzip(plain), options), ErrorCode::unsupported);
+    EXPECT_EQ(code_of(wire::bzip2(plain), options), ErrorCode::unsupported);
+    EXPECT_EQ(code_of(wire::join({wire::archive_header(), wire::ldm_record(zeros)}), options),
+              ErrorCode::unsupported);
+    EXPECT_EQ(code_of(wire::gzip(wire::gzip(wire::gzip(wire::gzip(wire::gzip(plain)))))),
+              ErrorCode::unsupported)
+        << "layers without end";
+}
+
+TEST(Decode, ARecordOfAWholeVolumeIsReadBlockByBlock) {
+    const Bytes rays = wire::radial_messages(8, 360, 1800);
+    ASSERT_GT(rays.size(), 8'000'000);
+    const auto decoded = decode(wire::join({wire::archive_header(), wire::ldm_record(rays)}));
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_TRUE(decoded->report.complete);
+    expect_same_sweeps(decoded->volume, decode(rays).value().volume);
+}
+
+// Cut anywhere, a volume has the radials of the records before, and says so.
+TEST(Decode, ACutFileKeepsItsWholeRecords) {
+    const Bytes whole = wire::ldm_volume(4, 20);
+    for (std::size_t size = 25; size < whole.size(); size += 41) {
+        const auto decoded = decode(std::span{whole}.first(size));
+        if (!decoded) {
+            EXPECT_TRUE(decoded.error().code == ErrorCode::truncated ||
+                        decoded.error().code == ErrorCode::corrupt)
+                << size << decoded.error().message;
+            continue;
+        }
+        EXPECT_EQ(decoded->volume.radial_count() % 20, 0) << size;
+        EXPECT_FALSE(decoded->report.complete) << size;
+        EXPECT_FALSE(decoded->report.problems.empty()) << size;
+    }
+}
+
+TEST(Decode, ADamagedRecordLosesItselfOnly) {
+    Bytes damaged = wire::ldm_volume(4, 20);
+    const auto whole = decode(damaged).value();
+    // Near the end, in the last record's middle; then all others are as they were.
+    damaged[damaged.size() - 200] ^= std::byte{0x40};
+    const auto decoded = decode(damaged);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_EQ(decoded->volume.sweeps.size(), 3);
+    EXPECT_EQ(decoded->volume.radial_count(), 60);
+    EXPECT_EQ(decoded->report.problems.at(0).code, "corrupt_record");
+    EXPECT_GT(decoded->report.bytes_dropped, 0);
+    EXPECT_FALSE(decoded->report.complete);
+    EXPECT_EQ(decoded->report.ldm_records, whole.report.ldm_records);
+}
+
+TEST(Decode, ABadGzipChecksumIsReportedAndLosesNothing) {
+    Bytes packed = wire::gzip(wire::join({wire::archive_header(), wire::radial_messages(1, 9)}));
+    packed[packed.size() - 6] ^= std::byte{1};
+    const auto decoded = decode(packed);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->volume.radial_count(), 9);
+    EXPECT_EQ(decoded->report.problems.at(0).code, "gzip_checksum");
+}
+
+TEST(DecodeFile, ErrorsNameTheFile) {
+    const testing::TemporaryDirectory directory;
+    const auto expect_named = [&](const std::filesystem::path& path, ErrorCode code) {
+        const auto decoded = decode_file(path);
+        ASSERT_FALSE(decoded);
+        EXPECT_EQ(decoded.error().code, code);
+        EXPECT_NE(decoded.error().message.find(path.string()), std::string::npos)
+            << decoded.error().message;
+    };
+    expect_named(directory.path(), ErrorCode::not_a_file);
+    expect_named(directory / "absent", ErrorCode::not_found);
+    std::ofstream(directory / "empty");
+    expect_named(directory / "empty", ErrorCode::empty);
+    std::ofstream(directory / "text") << "not radar data";
+    expect_named(directory / "text", ErrorCode::not_level2);
+}
+
+TEST(DecodeFile, TheNameGivesTheStationWhereTheFileDoesNot) {
+    const testing::TemporaryDirectory directory;
+    const Bytes bytes =
+        wire::join({wire::archive_header("ARCHIVE2.116", "    "), wire::message_1({})});
+    for (const auto& [name, station] :
+         {std::pair{"KTLX19910720_160529", "KTLX"}, std::pair{"radar-file", ""}}) {
+        ASSERT_TRUE(write_file_atomically(real_file_system(), directory / name, bytes));
+        EXPECT_EQ(decode_file(directory / name).value().volume.station, station);
+    }
+}
+
+// Every real volume gives the same whatever the number of threads.
+TEST(DecodeReal, ThreadsDoNotMatter) {
+    STORMCELLAR_NEED_DATA();
+    for (const char* name : {"KCRP20170826_044114.trimmed.ar2v", "KDMX20250101_225441_V06",
+                             "KTLX20140101_000624.trimmed.ar2v"}) {
+        const auto bytes = read_file(*testing::data_directory() / "volumes" / name).value();
+        const auto one = decode(bytes).value();
+        DecodeOptions options;
+        options.threads = 4;
+        const auto four = decode(bytes, options).value();
+        expect_same_sweeps(one.volume, four.volume);
+        EXPECT_EQ(one.report.message_counts, four.report.message_counts);
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::level2

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "level2/decode.h"
+#include "tests/level2/wire.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+TEST(SplitVolumes, AnOrdinaryFileIsOneVolume) {
+    auto decoded = decode(wire::ldm_volume(3, 5)).value();
+    const auto volumes = split_volumes(std::move(decoded));
+    ASSERT_EQ(volumes.size(), 1);
+    EXPECT_EQ(volumes[0].sweeps.size(), 3);
+    EXPECT_EQ(volumes[0].vcp, 212);
+    EXPECT_TRUE(volumes[0].block);
+}
+
+TEST(SplitVolumes, AFileWithoutRadialsIsOneVolume) {
+    auto decoded = decode(wire::join({wire::archive_header(), wire::frame(2)})).value();
+    EXPECT_EQ(split_volumes(std::move(decoded)).size(), 1);
+}
+
+TEST(SplitVolumes, AFurtherHeaderGoesWithItsVolume) {
+    const wire::Bytes first = wire::ldm_volume(2, 5);
+    wire::Bytes second = wire::ldm_volume(3, 4);
+    const wire::Bytes header = wire::archive_header("AR2V0006.117");
+    std::copy(header.begin(), header.end(), second.begin());
+    const auto volumes = split_volumes(decode(wire::join({first, second})).value());
+    ASSERT_EQ(volumes.size(), 2);
+    EXPECT_EQ(volumes[0].sweeps.size(), 2);
+    EXPECT_EQ(volumes[1].sweeps.size(), 3);
+    EXPECT_EQ(volumes[0].header->filename, "AR2V0006.116");
+    EXPECT_EQ(volumes[1].header->filename, "AR2V0006.117");
+    EXPECT_EQ(volumes[1].station, "KTLX");
+}
+
+// Four volumes follow one another under one header; a start time of its own names each.
+TEST(SplitVolumes, VolumesUnderOneHeaderStartAtTheirFirstRadials) {
+    STORMCELLAR_NEED_DATA();
+    auto decoded =
+        decode_file(*testing::data_directory() / "volumes" / "KBBX20060113_170337.gz").value();
+    const std::size_t radials = decoded.volume.radial_count();
+    const auto volumes = split_volumes(std::move(decoded));
+    ASSERT_EQ(volumes.size(), 4);
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        EXPECT_EQ(volumes[i].sweeps.size(), 17);
+        sum += volumes[i].radial_count();
+        if (i == 0) continue;
+        EXPECT_EQ(volumes[i].start_time(), volumes[i].sweeps.front().radials.front().time);
+        EXPECT_GT(volumes[i].start_time(), volumes[i - 1].start_time());
+    }
+    EXPECT_EQ(sum, radials);
+}
+
+}  // namespace
+}  // namespace stormcellar::level2

@@ -1,0 +1,159 @@
+#include "level2/sweep_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::level2 {
+namespace {
+
+constexpr std::uint64_t ample = std::uint64_t{1} << 30;
+
+struct Spec {
+    int elevation_number = 1;
+    int status = 1;
+    std::uint16_t gates = 4;
+    std::int32_t first_gate_m = 0;
+    int word_size_bits = 8;
+    bool has_ref = true;
+};
+
+class SweepBuilderTest : public ::testing::Test {
+  protected:
+    // Codes 10, 11, 12 ... in each radial.
+    bool add(const Spec& spec) {
+        RadialMessage message;
+        message.elevation_number = spec.elevation_number;
+        message.azimuth_spacing_deg = 1;
+        message.radial.status = static_cast<std::uint8_t>(spec.status);
+        codes_.clear();
+        for (unsigned i = 0; i < spec.gates; ++i) {
+            if (spec.word_size_bits == 16) codes_.push_back(std::byte{1});
+            codes_.push_back(static_cast<std::byte>(10 + i));
+        }
+        MomentBlock block;
+        block.gates = spec.gates;
+        block.first_gate_m = spec.first_gate_m;
+        block.word_size_bits = spec.word_size_bits;
+        block.codes = codes_;
+        if (spec.has_ref && !message.add(block)) return false;
+        return builder_.add(message);
+    }
+    Volume finish() { return builder_.finish(report_); }
+
+    SweepBuilder builder_{ample};
+    DecodeReport report_;
+    std::vector<std::byte> codes_;
+};
+
+std::vector<std::size_t> radials_of(const Volume& volume) {
+    std::vector<std::size_t> counts;
+    for (const Sweep& sweep : volume.sweeps)
+        counts.push_back(sweep.radials.size());
+    return counts;
+}
+
+TEST_F(SweepBuilderTest, SweepsBeginAtStatus0And3And5AndAtANewElevationNumber) {
+    for (const Spec& spec : {Spec{1, 3}, Spec{1, 1}, Spec{1, 2}, Spec{2, 0}, Spec{2, 0}, Spec{3, 1},
+                             Spec{3, 1}, Spec{4, 5}, Spec{4, 4}}) {
+        EXPECT_TRUE(add(spec));
+    }
+    EXPECT_EQ(radials_of(finish()), (std::vector<std::size_t>{3, 1, 1, 2, 2}));
+    EXPECT_TRUE(report_.complete);
+    EXPECT_TRUE(report_.further_volume_starts.empty());
+}
+
+TEST_F(SweepBuilderTest, RowsHaveTheLengthOfTheLongestRadial) {
+    for (const std::uint16_t gates : std::vector<std::uint16_t>{4, 6, 7, 2})
+        EXPECT_TRUE(add({1, 1, gates}));
+    const Volume volume = finish();
+    const SweepMoment& ref = volume.sweeps.at(0).moments.at(0);
+    EXPECT_EQ(ref.gate_stride, 7);
+    EXPECT_EQ(ref.gate_counts, (std::vector<std::uint16_t>{4, 6, 7, 2}));
+    EXPECT_EQ(ref.codes8.size(), 28);
+    for (std::size_t radial = 0; radial < 4; ++radial) {
+        for (std::int32_t gate = 0; gate < 7; ++gate) {
+            const int expected = gate < ref.gate_counts[radial] ? 10 + gate : 0;
+            EXPECT_EQ(ref.code(radial, gate), expected) << radial << " " << gate;
+        }
+    }
+}
+
+TEST_F(SweepBuilderTest, CodesOf16BitsAreBigEndian) {
+    Spec spec;
+    spec.word_size_bits = 16;
+    EXPECT_TRUE(add(spec));
+    const Volume volume = finish();
+    EXPECT_EQ(volume.sweeps[0].moments[0].code(0, 3), 256 + 13);
+    EXPECT_TRUE(volume.sweeps[0].moments[0].codes8.empty());
+}
+
+TEST_F(SweepBuilderTest, ADifferentGeometryIsAnotherKindOfTheMoment) {
+    EXPECT_TRUE(add({1, 3, 4, 0}));
+    EXPECT_TRUE(add({1, 1, 4, 1000}));
+    EXPECT_TRUE(add({1, 1, 4, 0}));
+    const Volume volume = finish();
+    const auto& moments = volume.sweeps.at(0).moments;
+    ASSERT_EQ(moments.size(), 2);
+    EXPECT_EQ(moments[0].gate_counts, (std::vector<std::uint16_t>{4, 0, 4}));
+    EXPECT_EQ(moments[1].gate_counts, (std::vector<std::uint16_t>{0, 4, 0}));
+    EXPECT_EQ(moments[1].status(0, 0), GateStatus::no_data);
+    EXPECT_EQ(moments[1].code(1, 2), 12);
+}
+
+TEST_F(SweepBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
+    Spec without;
+    without.has_ref = false;
+    EXPECT_TRUE(add({}));
+    EXPECT_TRUE(add(without));
+    const Volume volume = finish();
+    EXPECT_EQ(volume.sweeps[0].moments[0].gate_counts, (std::vector<std::uint16_t>{4, 0}));
+    EXPECT_EQ(volume.sweeps[0].moments[0].codes8.size(), 8);
+}
+
+// KBBX20060113: four volumes in one file, the radials at their ends lost.
+TEST_F(SweepBuilderTest, AFallingElevationNumberBeginsAnotherVolume) {
+    for (const int number : {1, 2, 3, 1, 2})
+        EXPECT_TRUE(add({number}));
+    (void)finish();
+    EXPECT_EQ(report_.further_volume_starts, (std::vector<std::size_t>{3}));
+}
+
+TEST_F(SweepBuilderTest, ARestartedCutIsNotAnotherVolumeButAStartOfVolumeIs) {
+    EXPECT_TRUE(add({1, 3}));
+    EXPECT_TRUE(add({2, 0}));
+    EXPECT_TRUE(add({2, 0}));
+    EXPECT_TRUE(add({2, 3}));
+    (void)finish();
+    EXPECT_EQ(report_.further_volume_starts, (std::vector<std::size_t>{3}));
+}
+
+TEST_F(SweepBuilderTest, AHeaderBeforeAnyRadialIsTheSameVolumes) {
+    builder_.further_header({"AR2V0006.842", 1, 2, "KCCX"});
+    EXPECT_TRUE(add({1, 3}));
+    builder_.further_header({"AR2V0006.843", 3, 4, "KCCX"});
+    EXPECT_TRUE(add({2, 1}));
+    (void)finish();
+    EXPECT_EQ(report_.further_volume_starts, (std::vector<std::size_t>{1}));
+    ASSERT_EQ(report_.further_headers.size(), 1);
+    EXPECT_EQ(report_.further_headers[0].header.filename, "AR2V0006.843");
+}
+
+// One radial with very many gates makes every row long: 65,535 codes for each of 4.
+TEST(SweepBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
+    SweepBuilder builder{10'000'000};
+    const std::vector<std::byte> codes(65'535);
+    int taken = 0;
+    for (; taken < 100'000; ++taken) {
+        RadialMessage message;
+        message.elevation_number = 1;
+        MomentBlock block;
+        block.gates = taken == 0 ? 65'535 : 4;
+        block.codes = std::span{codes}.first(block.gates);
+        ASSERT_TRUE(message.add(block));
+        if (!builder.add(message)) break;
+    }
+    EXPECT_GT(taken, 100);
+    EXPECT_LT(taken, 160);
+}
+
+}  // namespace
+}  // namespace stormcellar::level2

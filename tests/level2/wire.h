@@ -1,0 +1,75 @@
+// tests/level2/wire.h -- Level II bytes made by hand, byte by byte as the ICDs have them.
+//
+// Independent of the writer of level2/encode.h, so that the two cannot agree on a mistake.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace stormcellar::level2::wire {
+
+using Bytes = std::vector<std::byte>;
+
+// Writes big-endian numbers at the end, or over what is there.
+class Writer {
+  public:
+    Writer& u8(unsigned number) { return put(number, 1); }
+    Writer& u16(unsigned number) { return put(number, 2); }
+    Writer& u32(std::uint32_t number) { return put(number, 4); }
+    Writer& f32(float number);
+    Writer& text(std::string_view characters);
+    Writer& zeros(std::size_t count);
+    Writer& raw(std::span<const std::byte> more);
+
+    Bytes bytes;
+
+  private:
+    Writer& put(std::uint32_t number, int width);
+};
+
+void overwrite_u16(Bytes& bytes, std::size_t at, unsigned number);
+void overwrite_u32(Bytes& bytes, std::size_t at, std::uint32_t number);
+
+struct Ray {
+    float azimuth_deg = 10;
+    float elevation_deg = 0.5F;
+    unsigned azimuth_number = 1;
+    unsigned elevation_number = 1;
+    unsigned status = 1;
+    std::uint32_t ms = 3'600'000;
+    unsigned gates = 100;
+    unsigned fill = 70;  // the code of every gate
+};
+
+inline constexpr unsigned day = 19069;  // 2022-03-17
+
+Bytes archive_header(std::string_view filename = "AR2V0006.116", std::string_view icao = "KTLX");
+// 28 bytes; the size in halfwords counts the 16 of them that are the message's.
+Bytes message_header(unsigned type, unsigned size_halfwords, unsigned segments = 1,
+                     unsigned segment = 1);
+// A frame of 2432 bytes with this body.
+Bytes frame(unsigned type, std::span<const std::byte> body = {});
+// REF with 8 bits, RHO with 16, the volume, elevation and radial blocks.
+Bytes message_31(const Ray& ray);
+// A message whose only block is this one, to be broken.
+Bytes message_31_with_block(std::span<const std::byte> block);
+// REF, and VEL and SW at twice the gates, in a frame.
+Bytes message_1(const Ray& ray);
+// Message 5, a pattern of these elevations.
+Bytes vcp_frame(unsigned pattern, std::span<const float> elevations_deg);
+
+Bytes bzip2(std::span<const std::byte> bytes, int level = 9);
+Bytes ldm_record(std::span<const std::byte> messages, bool last = false, int level = 9);
+Bytes gzip(std::span<const std::byte> bytes);
+
+Bytes join(std::initializer_list<Bytes> parts);
+
+// `sweeps` sweeps of `radials` message 31 each, statuses as they should be.
+Bytes radial_messages(unsigned sweeps, unsigned radials, unsigned gates = 100);
+// A small whole file: header, a metadata record, one record for each sweep.
+Bytes ldm_volume(unsigned sweeps, unsigned radials, unsigned gates = 100);
+
+}  // namespace stormcellar::level2::wire
