@@ -1,0 +1,125 @@
+#include "grid/brick_grid.h"
+
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "base/checksum.h"
+
+namespace stormcellar::grid {
+namespace {
+
+Grid grid_of(int nx, int ny, int nz, CellStatus status) {
+    Grid grid;
+    grid.spec.nx = nx;
+    grid.spec.ny = ny;
+    for (int iz = 0; iz < nz; ++iz)
+        grid.spec.levels_m.push_back(100.0 * iz);
+    grid.values.assign(grid.spec.cell_count(), 0);
+    grid.status.assign(grid.spec.cell_count(), status);
+    return grid;
+}
+
+// Three regions along x, so that every kind of brick occurs: uniform, states only, values.
+Grid mixed_grid(float least, float largest) {
+    Grid grid = grid_of(37, 20, 19, CellStatus::not_seen);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> value(least, largest);
+    std::uniform_int_distribution<int> status(0, 3);
+    for (int iy = 0; iy < grid.spec.ny; ++iy) {
+        for (int ix = 16; ix < grid.spec.nx; ++ix) {
+            for (int iz = 0; iz < grid.spec.nz(); ++iz) {
+                const std::size_t cell = grid.spec.index(ix, iy, iz);
+                int drawn = status(random);
+                if (ix < 32) drawn = std::min(drawn, 2);
+                grid.status[cell] = static_cast<CellStatus>(drawn);
+                if (drawn == 3) grid.values[cell] = value(random);
+            }
+        }
+    }
+    return grid;
+}
+
+void expect_same_within_half_a_step(const Grid& grid, const Quantization& quantization) {
+    const BrickGrid bricks = BrickGrid::from(grid, quantization);
+    EXPECT_EQ(bricks.clamped_count(), 0U);
+    const Grid back = to_dense(bricks.view());
+    EXPECT_EQ(back.spec, grid.spec);
+    ASSERT_EQ(back.status, grid.status);
+    for (std::size_t cell = 0; cell < grid.values.size(); ++cell) {
+        if (grid.status[cell] != CellStatus::value) continue;
+        ASSERT_LE(std::abs(back.values[cell] - grid.values[cell]), quantization.step / 2);
+    }
+}
+
+TEST(BrickGrid, GivesBackEveryStateAndValue) {
+    expect_same_within_half_a_step(mixed_grid(-32, 94), {1, -32, 0.5F});
+    expect_same_within_half_a_step(mixed_grid(-250, 250), {2, -256, 0.25F});
+}
+
+TEST(BrickGrid, HoldsEveryKindOfBrick) {
+    const BrickGrid bricks = BrickGrid::from(mixed_grid(0, 60), {1, -32, 0.5F});
+    std::set<BrickKind> kinds;
+    for (const BrickEntry& brick : bricks.view().bricks)
+        kinds.insert(brick.kind);
+    EXPECT_EQ(kinds.size(), 3U);
+}
+
+TEST(BrickGrid, EntriesSumUpTheirBricks) {
+    Grid grid = grid_of(16, 16, 32, CellStatus::no_echo);
+    for (const auto& [iz, value] : {std::pair{0, 10.0F}, {3, -5.0F}, {15, 60.0F}}) {
+        grid.status[grid.spec.index(4, 5, iz)] = CellStatus::value;
+        grid.values[grid.spec.index(4, 5, iz)] = value;
+    }
+    const BrickGrid bricks = BrickGrid::from(grid, {1, -32, 0.5F});
+    const BrickView view = bricks.view();
+    ASSERT_EQ(view.bricks.size(), 2U);
+    const BrickEntry& low = view.bricks[0];
+    EXPECT_EQ(low.kind, BrickKind::stored);
+    EXPECT_EQ(low.value_count, 3);
+    EXPECT_EQ(view.quantization.value_of(low.min_code), -5.0F);
+    EXPECT_EQ(view.quantization.value_of(low.max_code), 60.0F);
+    EXPECT_EQ(low.checksum, xxh3_64(view.codes.first(brick_cells)));
+    EXPECT_EQ(view.bricks[1].kind, BrickKind::uniform);
+    EXPECT_EQ(view.bricks[1].uniform_status, CellStatus::no_echo);
+}
+
+TEST(BrickGrid, AbsentBricksReadAsZeros) {
+    Grid grid = grid_of(16, 16, 16, CellStatus::no_echo);
+    grid.status[0] = CellStatus::range_folded;
+    const BrickGrid bricks = BrickGrid::from(grid, {1, -32, 0.5F});
+    const BrickView view = bricks.view();
+    EXPECT_EQ(view.bricks[0].kind, BrickKind::status_only);
+    EXPECT_EQ(view.states.size(), brick_cells / 4);
+    EXPECT_EQ(view.bricks[0].checksum, xxh3_64(view.states));
+    for (const std::byte code : view.codes)
+        ASSERT_EQ(code, std::byte{0});
+}
+
+TEST(BrickGrid, ABrickFullOfValuesCountsThemAll) {
+    const BrickGrid bricks =
+        BrickGrid::from(grid_of(16, 16, 16, CellStatus::value), {1, -32, 0.5F});
+    EXPECT_EQ(bricks.view().bricks[0].value_count, 4096);
+}
+
+TEST(BrickGrid, CellsBeyondTheEdgeAreNotSeen) {
+    const BrickGrid bricks = BrickGrid::from(grid_of(1, 1, 1, CellStatus::no_echo), {});
+    EXPECT_EQ(bricks.view().status(0, 0, 0), CellStatus::no_echo);
+    EXPECT_EQ(bricks.view().status(0, 0, 1), CellStatus::not_seen);
+    EXPECT_EQ(bricks.view().status(1, 0, 0), CellStatus::not_seen);
+    EXPECT_EQ(bricks.view().status(15, 15, 15), CellStatus::not_seen);
+}
+
+TEST(BrickGrid, ValuesBeyondTheCodesAreClampedAndCounted) {
+    Grid grid = grid_of(4, 1, 1, CellStatus::value);
+    grid.values = {-40, 200, -32, std::nanf("")};
+    const BrickGrid bricks = BrickGrid::from(grid, {1, -32, 0.5F});
+    EXPECT_EQ(bricks.clamped_count(), 3U);
+    EXPECT_EQ(bricks.view().value(0, 0, 0), -32);
+    EXPECT_EQ(bricks.view().value(1, 0, 0), 94);
+    EXPECT_EQ(bricks.view().value(2, 0, 0), -32);
+}
+
+}  // namespace
+}  // namespace stormcellar::grid
