@@ -1,0 +1,69 @@
+// render/transfer_function.h -- what a reflectivity looks like: colour, and how opaque.
+//
+// Colour is stepped as the National Weather Service has it. Opacity rises smoothly, so that cores
+// show through what lies round them: the extinction of echo grows tenfold every 25 dB,
+//     k(dBZ) = opacity * k5 * 10^((dBZ - 5) / 25)  for 5 dBZ and more, else 0,
+// and a path of length s through it has the opacity 1 - exp(-k s). In terms of the opacity a of
+// the reference step ds0 = 1 km that is 1 - (1 - a)^(s / ds0). Lengths are those of the drawn
+// scene, with heights exaggerated.
+//
+// The table holds, for each pair of values at the two ends of a step, the colour and opacity of
+// all values between them, so that a step that crosses a class shows each class for its share.
+// What a step's near part hides of its far part is left out: first order in the step.
+// Thread contract: immutable.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "grid/brick_view.h"
+
+namespace stormcellar::render {
+
+inline constexpr double reference_step_m = 1000;      // ds0
+inline constexpr double extinction_at_5_dbz = 0.002;  // k5, per reference step
+inline constexpr double extinction_decade_db = 25;
+
+// Per metre; 0 below the lowest class of the colour table and for NaN.
+[[nodiscard]] double extinction_per_m(double dbz, double opacity);
+
+// Colours are premultiplied by alpha.
+struct TransferEntry {
+    float red = 0, green = 0, blue = 0;  // 0..1
+    float alpha = 0;                     // 0..1
+};
+
+class TransferFunction {
+  public:
+    // Values are sorted into bins of half a decibel, whose lower ends include those of the classes.
+    static constexpr int bin_count = 256;
+    static constexpr double first_bin_dbz = -32;
+    static constexpr double bin_dbz = 0.5;
+
+    // For steps of `step_m` in the drawn scene.
+    TransferFunction(const grid::Quantization& quantization, double opacity, double step_m);
+
+    // The bin of a code, which may be broken: the mean of several. It is never below the right one
+    // by rounding: values up to 1/64 of a bin short of it belong to it.
+    [[nodiscard]] int bin(float code) const {
+        const float position = bin_offset_ + bin_slope_ * code;
+        return position <= 0
+                   ? 0
+                   : (position >= bin_count - 1 ? bin_count - 1 : static_cast<int>(position));
+    }
+    // A step with these bins at its ends; the order does not matter.
+    [[nodiscard]] const TransferEntry& entry(int bin, int other_bin) const {
+        return entries_[static_cast<std::size_t>(bin) * bin_count +
+                        static_cast<std::size_t>(other_bin)];
+    }
+    // Codes below this one are clear. One more than the largest when all are.
+    [[nodiscard]] std::uint32_t first_visible_code() const { return first_visible_code_; }
+
+  private:
+    std::vector<TransferEntry> entries_;
+    float bin_offset_ = 0, bin_slope_ = 0;
+    std::uint32_t first_visible_code_ = 0;
+};
+
+}  // namespace stormcellar::render

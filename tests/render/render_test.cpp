@@ -1,0 +1,142 @@
+#include "render/render.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/colour_table.h"
+#include "render/shades.h"
+#include "tests/render/synthetic_storm.h"
+
+namespace stormcellar::render {
+namespace {
+
+using grid::CellStatus;
+
+FrameFacts facts_of(const grid::Grid& grid) {
+    return {"KTLX", level2::Moment::ref, parse_compact("19990503_235621").value(), grid.sites,
+            false};
+}
+
+Scene plain(Product product, int size) {
+    Scene scene;
+    scene.product = product;
+    scene.width = scene.height = size;
+    scene.labels = false;
+    return scene;
+}
+
+// The map is 104 cells across 520 pixels: 5 pixels a cell, the border 2 % from the edge.
+Rgba8 map_pixel(const Image& image, int ix, int iy) {
+    return image.at(10 + 5 * ix + 2, 520 - 11 - 5 * iy - 2);
+}
+
+TEST(Composite, ShowsEachColumnsStateWhereItIs) {
+    const grid::GridSpec spec = small_spec(100, 20);
+    const auto grid = make_grid_of(spec, [](int ix, int iy, int iz) -> Cell {
+        if (ix >= 80) return {CellStatus::not_seen, 0};
+        if (ix == 10 && iy == 90) return iz == 7 ? valued(52) : valued(12);
+        if (ix == 60 && iy == 20 && iz == 3) return {CellStatus::range_folded, 0};
+        if (ix == 30 && iy == 20 && iz == 3) return valued(4);
+        return {CellStatus::no_echo, 0};
+    });
+    const auto bricks = bricks_of(grid);
+    const auto image =
+        render_frame(bricks.view(), facts_of(grid), plain(Product::composite, 520), 2);
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_EQ(map_pixel(*image, 10, 90), (Rgba8{0xFD, 0, 0, 255})) << "north-west is top left";
+    EXPECT_EQ(map_pixel(*image, 60, 20), range_folded_colour);
+    EXPECT_EQ(map_pixel(*image, 30, 20), shades::seen) << "below the table";
+    EXPECT_EQ(map_pixel(*image, 50, 50), shades::seen);
+    EXPECT_EQ(image->at(1, 1), shades::page);
+    // Not seen is hatched: neither clear air nor one colour.
+    int lines = 0;
+    int between = 0;
+    for (int ix = 81; ix < 99; ++ix) {
+        for (int iy = 5; iy < 95; ++iy) {
+            const Rgba8 pixel = map_pixel(*image, ix, iy);
+            EXPECT_NE(pixel, shades::seen);
+            lines += pixel != shades::not_seen ? 1 : 0;
+            between += pixel == shades::not_seen ? 1 : 0;
+        }
+    }
+    EXPECT_GT(lines, 100);
+    EXPECT_GT(between, 100);
+}
+
+TEST(VolumeFrame, TheGroundTellsHowItWasSeen) {
+    const grid::GridSpec spec = small_spec(100, 20);
+    const auto grid = make_grid_of(spec, [&](int ix, int, int iz) -> Cell {
+        if (ix < 30) return {CellStatus::not_seen, 0};
+        const bool aloft = spec.levels_m[static_cast<std::size_t>(iz)] >= 3000;
+        return {ix < 60 && !aloft ? CellStatus::not_seen : CellStatus::no_echo, 0};
+    });
+    Scene scene = plain(Product::volume, 520);
+    scene.camera.tilt_deg = 0;
+    const auto bricks = bricks_of(grid);
+    const auto image = render_frame(bricks.view(), facts_of(grid), scene, 2);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(map_pixel(*image, 45, 50), shades::seen_aloft);
+    EXPECT_EQ(map_pixel(*image, 80, 50), shades::seen);
+    EXPECT_NE(map_pixel(*image, 10, 50), shades::seen);
+    EXPECT_NE(map_pixel(*image, 10, 50), shades::seen_aloft);
+}
+
+TEST(RenderFrame, TheSamePixelsForAnyNumberOfThreads) {
+    const auto grid = storm_grid(small_spec(120, 32, 4000, 500));
+    const auto bricks = bricks_of(grid);
+    for (const Product product : {Product::volume, Product::composite}) {
+        Scene scene;
+        scene.product = product;
+        const auto one = render_frame(bricks.view(), facts_of(grid), scene, 1);
+        ASSERT_TRUE(one);
+        EXPECT_EQ(one->width, 796);
+        EXPECT_EQ(one->height, 532);
+        for (const int threads : {2, 5}) {
+            EXPECT_EQ(render_frame(bricks.view(), facts_of(grid), scene, threads)->rgba, one->rgba);
+        }
+    }
+}
+
+TEST(RenderFrame, EveryPixelIsOpaqueFromAnySide) {
+    const auto grid = storm_grid(small_spec(60, 8, 8000, 2000));
+    const auto bricks = bricks_of(grid);
+    for (const Camera& camera : {Camera{180, 0, 1}, Camera{180, 90, 1}, Camera{0, 90, 20},
+                                 Camera{45, 89.9, 1000}, Camera{300, 10, 0.01}}) {
+        Scene scene;
+        scene.camera = camera;
+        scene.slices = 32;
+        const auto image = render_frame(bricks.view(), facts_of(grid), scene, 2);
+        ASSERT_TRUE(image) << image.error().message;
+        for (std::size_t i = 3; i < image->rgba.size(); i += 4)
+            ASSERT_EQ(image->rgba[i], 255);
+    }
+}
+
+TEST(RenderFrame, AGridOfOneCellCanBeDrawn) {
+    const auto grid = make_grid_of(small_spec(1, 1), [](int, int, int) { return valued(40); });
+    const auto bricks = bricks_of(grid);
+    for (const Product product : {Product::volume, Product::composite}) {
+        EXPECT_TRUE(render_frame(bricks.view(), facts_of(grid), plain(product, 64), 1));
+    }
+}
+
+TEST(RenderFrame, RefusesWhatItCannotDraw) {
+    const auto grid = storm_grid(small_spec(20, 4));
+    const auto bricks = bricks_of(grid);
+    FrameFacts velocity = facts_of(grid);
+    velocity.moment = level2::Moment::vel;
+    const auto moment = render_frame(bricks.view(), velocity, Scene{}, 1);
+    ASSERT_FALSE(moment);
+    EXPECT_EQ(moment.error().code, ErrorCode::unsupported);
+    EXPECT_THAT(moment.error().message, testing::HasSubstr("VEL"));
+
+    Scene scene;
+    scene.slices = 0;
+    EXPECT_EQ(render_frame(bricks.view(), facts_of(grid), scene, 1).error().code,
+              ErrorCode::bad_argument);
+    EXPECT_EQ(render_frame(grid::BrickView{}, facts_of(grid), Scene{}, 1).error().code,
+              ErrorCode::bad_argument);
+}
+
+}  // namespace
+}  // namespace stormcellar::render

@@ -1,0 +1,229 @@
+#include "render/slicer.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/render/reference_marcher.h"
+#include "tests/render/synthetic_storm.h"
+
+namespace stormcellar::render {
+namespace {
+
+using grid::CellStatus;
+
+std::array<double, 4> pixel_of(const Layer& layer, int x, int y) {
+    const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) +
+                            static_cast<std::size_t>(x)) *
+                           4;
+    return {static_cast<double>(layer.rgba[at]), static_cast<double>(layer.rgba[at + 1]),
+            static_cast<double>(layer.rgba[at + 2]), static_cast<double>(layer.rgba[at + 3])};
+}
+
+// Closed form: a slab of one value, H high, seen at tilt t has the opacity 1 - exp(-k H e / cos t)
+// wherever a ray crosses it from top to bottom.
+TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
+    const grid::GridSpec spec = small_spec(200, 16);
+    const auto bricks = bricks_of(make_grid_of(spec, [](int, int, int) { return valued(42.0); }));
+    for (const double tilt : {0.0, 20.0, 40.0}) {
+        for (const int slices : {8, 64, 1000}) {
+            for (const double opacity : {0.03, 0.4}) {
+                const ViewGeometry geometry(spec, {200, tilt, 1}, 2, 90, 70);
+                const Layer layer = slice_volume(bricks.view(), geometry, slices, opacity, 1);
+                const double path_m = 16 * 500 * 2 / std::cos(tilt / 57.29577951308232);
+                const double alpha = 1 - std::exp(-extinction_per_m(42, opacity) * path_m);
+                const auto colour = pixel_of(layer, 45, 35);
+                EXPECT_NEAR(colour[3], alpha, 2e-5) << tilt << " " << slices;
+                EXPECT_NEAR(colour[0] / colour[3], 0xE5 / 255.0, 1e-4);
+                EXPECT_NEAR(colour[1] / colour[3], 0xBC / 255.0, 1e-4);
+                EXPECT_NEAR(colour[2], 0, 1e-6);
+            }
+        }
+    }
+}
+
+// Where one cell lands in the picture, from all sides: the orientation of everything.
+TEST(Slicer, ASingleCellLandsWhereGeometryPutsIt) {
+    const grid::GridSpec spec = small_spec(40, 12);
+    struct Place {
+        int ix, iy, iz;
+    };
+    const Place places[] = {{5, 33, 2}, {30, 4, 10}, {39, 39, 6}, {17, 20, 0}};
+    for (const Place& place : places) {
+        const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) -> Cell {
+            if (ix == place.ix && iy == place.iy && iz == place.iz) return valued(60);
+            return {CellStatus::no_echo, 0};
+        }));
+        for (const Camera& camera : {Camera{180, 55, 1}, Camera{180, 0, 1}, Camera{90, 60, 1},
+                                     Camera{0, 30, 1}, Camera{315, 80, 1}, Camera{37, 90, 1}}) {
+            const ViewGeometry geometry(spec, camera, 3, 300, 260);
+            const Layer layer = slice_volume(bricks.view(), geometry, 400, 0.2, 1);
+            double sum = 0;
+            double x = 0;
+            double y = 0;
+            for (int py = 0; py < layer.height; ++py) {
+                for (int px = 0; px < layer.width; ++px) {
+                    const double a = pixel_of(layer, px, py)[3];
+                    sum += a;
+                    x += a * (px + 0.5);
+                    y += a * (py + 0.5);
+                }
+            }
+            ASSERT_GT(sum, 0) << camera.azimuth_deg;
+            const Pixel expected =
+                geometry.project(spec.x_m(place.ix), spec.y_m(place.iy),
+                                 spec.levels_m[static_cast<std::size_t>(place.iz)]);
+            // At the grid's edge half of the cell's reach is cut off, which moves its middle.
+            const double pixels_per_cell = std::max(1000.0, 1500.0) / geometry.metres_per_pixel();
+            const bool at_edge = place.ix == 39 || place.iz == 0;
+            EXPECT_NEAR(x / sum, expected.x, at_edge ? 0.4 * pixels_per_cell : 0.35);
+            EXPECT_NEAR(y / sum, expected.y, at_edge ? 0.4 * pixels_per_cell : 0.35);
+        }
+    }
+}
+
+struct Difference {
+    double rms = 0, worst = 0;
+};
+
+// The slicer against the reference at every few pixels.
+Difference against_reference(const grid::BrickView& view, const ViewGeometry& geometry,
+                             const Layer& layer, int steps, double opacity) {
+    Difference difference;
+    int count = 0;
+    for (int y = 3; y < layer.height; y += 7) {
+        for (int x = 3; x < layer.width; x += 7) {
+            const auto slow = reference_ray(view, geometry, {x + 0.5, y + 0.5}, steps, opacity);
+            const auto fast = pixel_of(layer, x, y);
+            for (std::size_t c = 0; c < 4; ++c) {
+                const double off = std::abs(slow[c] - fast[c]);
+                difference.rms += off * off;
+                difference.worst = std::max(difference.worst, off);
+                ++count;
+            }
+        }
+    }
+    difference.rms = std::sqrt(difference.rms / count);
+    return difference;
+}
+
+TEST(Slicer, AgreesWithTheReferenceMarcherOnAStorm) {
+    grid::GridSpec spec = small_spec(120, 20, 4000, 800);
+    for (const bool even_levels : {true, false}) {
+        if (!even_levels) {
+            for (std::size_t i = 10; i < 20; ++i)
+                spec.levels_m[i] += 150.0 * static_cast<double>(i - 9);
+        }
+        const auto grid = storm_grid(spec);
+        for (const int code_bytes : {1, 2}) {
+            const auto bricks = bricks_of(grid, code_bytes);
+            for (const Camera& camera : {Camera{180, 55, 1}, Camera{130, 80, 1.5}}) {
+                const ViewGeometry geometry(spec, camera, 8, 200, 150);
+                const Layer layer = slice_volume(bricks.view(), geometry, 1024, 1, 2);
+                const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 1);
+                EXPECT_LT(difference.rms, 0.002);
+                EXPECT_LT(difference.worst, 0.03);
+            }
+        }
+    }
+}
+
+TEST(Slicer, MoreSlicesComeNearerToTheReference) {
+    const grid::GridSpec spec = small_spec(120, 20, 4000, 800);
+    const auto bricks = bricks_of(storm_grid(spec));
+    const ViewGeometry geometry(spec, {180, 55, 1}, 8, 200, 150);
+    double previous = 1;
+    for (const int slices : {32, 128, 512}) {
+        const Layer layer = slice_volume(bricks.view(), geometry, slices, 1, 2);
+        const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 1);
+        EXPECT_LT(difference.rms, previous / 2) << slices;
+        previous = difference.rms;
+    }
+}
+
+// Random blocks of every state, so that each corner of the skipping is met.
+TEST(Slicer, SkippingEmptyBricksChangesNothing) {
+    const grid::GridSpec spec = small_spec(60, 33);
+    std::mt19937 random(5);
+    std::vector<Cell> blocks;
+    for (int i = 0; i < 1000; ++i) {
+        const auto draw = static_cast<unsigned>(random() % 20);
+        blocks.push_back(draw < 3 ? valued(static_cast<double>(random() % 80) - 5)
+                                  : Cell{static_cast<CellStatus>(draw % 3), 0});
+    }
+    const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) {
+        return blocks[static_cast<std::size_t>((ix / 7) * 100 + (iy / 7) * 10 + iz / 6)];
+    }));
+    for (const Camera& camera : {Camera{180, 0, 1}, Camera{90, 90, 1}, Camera{180, 55, 1},
+                                 Camera{222, 71, 0.8}, Camera{10, 33, 6}}) {
+        const ViewGeometry geometry(spec, camera, 4, 160, 120);
+        const Layer layer = slice_volume(bricks.view(), geometry, 2048, 0.5, 2);
+        const auto difference = against_reference(bricks.view(), geometry, layer, 8192, 0.5);
+        EXPECT_LT(difference.rms, 0.004) << camera.azimuth_deg;
+        EXPECT_LT(difference.worst, 0.06) << camera.azimuth_deg;
+    }
+}
+
+TEST(Slicer, NothingIsDrawnForCellsWithoutAValue) {
+    for (const auto status :
+         {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded}) {
+        const grid::GridSpec spec = small_spec(40, 8);
+        // One value below the table makes the bricks stored ones.
+        const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int, int) -> Cell {
+            return ix % 16 == 0 ? valued(0) : Cell{status, 0};
+        }));
+        const Layer layer =
+            slice_volume(bricks.view(), ViewGeometry(spec, {180, 45, 1}, 8, 64, 48), 64, 1, 1);
+        for (const float channel : layer.rgba)
+            ASSERT_EQ(channel, 0);
+    }
+}
+
+// Beside cells without a value, whatever their state, echo keeps its own colour and only fades.
+TEST(Slicer, EdgesFadeInTheEchosOwnColour) {
+    const grid::GridSpec spec = small_spec(40, 16);
+    for (const auto status :
+         {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded}) {
+        const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int, int) -> Cell {
+            return ix < 20 ? valued(52) : Cell{status, 0};
+        }));
+        const Layer layer =
+            slice_volume(bricks.view(), ViewGeometry(spec, {180, 0, 1}, 1, 400, 400), 64, 0.3, 1);
+        double previous = 1;
+        int fading = 0;
+        for (int x = 190; x < 215; ++x) {
+            const auto colour = pixel_of(layer, x, 200);
+            EXPECT_LE(colour[3], previous + 1e-6);
+            if (colour[3] > 0 && colour[3] < previous - 1e-6) ++fading;
+            previous = colour[3];
+            if (colour[3] > 1e-4) {
+                EXPECT_NEAR(colour[0] / colour[3], 0xFD / 255.0, 1e-3);
+            }
+            EXPECT_EQ(colour[1], 0);
+        }
+        EXPECT_EQ(previous, 0);
+        EXPECT_GE(fading, 8) << "over the width of a cell, about 10 pixels";
+    }
+}
+
+TEST(Slicer, TheSameBitsForAnyNumberOfThreads) {
+    const grid::GridSpec spec = small_spec(100, 32, 4000, 500);
+    const auto bricks = bricks_of(storm_grid(spec));
+    const ViewGeometry geometry(spec, {163, 48, 1.3}, 8, 333, 222);
+    const Layer one = slice_volume(bricks.view(), geometry, 200, 1, 1);
+    for (const int threads : {2, 3, 8}) {
+        EXPECT_EQ(slice_volume(bricks.view(), geometry, 200, 1, threads).rgba, one.rgba);
+    }
+}
+
+TEST(CompositeOver, MixesByOpacityAtItsPlace) {
+    Image image(3, 2, {10, 20, 30, 255});
+    composite_over({1, 1, {0.5F, 0.25F, 0, 0.5F}}, image, 2, 1);
+    EXPECT_EQ(image.at(2, 1), (Rgba8{133, 74, 15, 255}));
+    EXPECT_EQ(image.at(1, 1), (Rgba8{10, 20, 30, 255}));
+    EXPECT_EQ(image.at(2, 0), (Rgba8{10, 20, 30, 255}));
+}
+
+}  // namespace
+}  // namespace stormcellar::render

@@ -1,0 +1,94 @@
+// tests/render/synthetic_storm.h -- grids for the renderer's tests, from a function of place.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "grid/brick_grid.h"
+#include "grid/grid.h"
+
+namespace stormcellar::render {
+
+inline grid::GridSpec small_spec(int n, int levels, double spacing_m = 1000,
+                                 double level_spacing_m = 500) {
+    grid::GridSpec spec;
+    spec.center_latitude_deg = 35;
+    spec.center_longitude_deg = -97;
+    spec.spacing_m = spacing_m;
+    spec.nx = spec.ny = n;
+    for (int i = 0; i < levels; ++i)
+        spec.levels_m.push_back(level_spacing_m * (i + 1));
+    return spec;
+}
+
+struct Cell {
+    grid::CellStatus status = grid::CellStatus::no_echo;
+    float value = 0;
+};
+inline Cell valued(double dbz) {
+    return {grid::CellStatus::value, static_cast<float>(dbz)};
+}
+
+// `cell` is asked with the cell's numbers.
+inline grid::Grid make_grid_of(const grid::GridSpec& spec,
+                               const std::function<Cell(int, int, int)>& cell) {
+    grid::Grid grid;
+    grid.spec = spec;
+    grid.values.resize(spec.cell_count());
+    grid.status.resize(spec.cell_count());
+    for (int iy = 0; iy < spec.ny; ++iy) {
+        for (int ix = 0; ix < spec.nx; ++ix) {
+            for (int iz = 0; iz < spec.nz(); ++iz) {
+                const Cell c = cell(ix, iy, iz);
+                grid.status[spec.index(ix, iy, iz)] = c.status;
+                grid.values[spec.index(ix, iy, iz)] = c.value;
+            }
+        }
+    }
+    return grid;
+}
+
+inline grid::BrickGrid bricks_of(const grid::Grid& grid, int code_bytes = 1) {
+    return grid::BrickGrid::from(grid, {code_bytes, -32, code_bytes == 1 ? 0.5F : 0.01F});
+}
+
+// A storm with nothing symmetric about it, in a made-up radar's coverage: a leaning core with an
+// anvil to the north-east, a line to the south-west, a cone of silence, a missing sector.
+inline Cell storm_cell(const grid::GridSpec& spec, int ix, int iy, int iz) {
+    const double x = spec.x_m(ix) / 1000;
+    const double y = spec.y_m(iy) / 1000;
+    const double z = spec.levels_m[static_cast<std::size_t>(iz)] / 1000;
+    const double range = std::hypot(x, y);
+    const double beam_bottom = range * std::tan(0.3 / 57.3) + range * range / 17000;
+    const double beam_top = 0.1 + range * std::tan(20 / 57.3);
+    const bool missing_sector = x > 0 && y < 0 && std::abs(std::atan2(x, -y) - 0.6) < 0.07;
+    if (z < beam_bottom || z > beam_top || range > 300 || missing_sector) {
+        return {grid::CellStatus::not_seen, 0};
+    }
+    const auto blob = [&](double cx, double cy, double cz, double rx, double ry, double rz) {
+        return std::exp(-std::pow((x - cx) / rx, 2) - std::pow((y - cy) / ry, 2) -
+                        std::pow((z - cz) / rz, 2));
+    };
+    const double lean = 0.8 * z;
+    double dbz = 70 * blob(60 + lean, 40 + lean, 5, 14, 12, 7);
+    dbz = std::max(dbz, 42 * blob(95, 80, 11, 55, 35, 2.2));
+    dbz = std::max(dbz, 58 * blob(40 + lean, 22, 3, 6, 14, 4));
+    const double along = (x + y) / 1.414 + 130;
+    const double across = (x - y) / 1.414 + 8 * std::sin(along / 14);
+    dbz = std::max(dbz, (48 + 8 * std::sin(along / 9)) *
+                            std::exp(-std::pow(across / 7, 2) - std::pow(along / 80, 2) -
+                                     std::pow((z - 3) / 5, 2)));
+    dbz = std::max(dbz, 24 * blob(-90, 90, 3, 60, 45, 2.5));
+    if (dbz < 2) return {grid::CellStatus::no_echo, 0};
+    return valued(dbz);
+}
+
+inline grid::Grid storm_grid(const grid::GridSpec& spec) {
+    grid::Grid grid =
+        make_grid_of(spec, [&](int ix, int iy, int iz) { return storm_cell(spec, ix, iy, iz); });
+    grid.sites = {{"KTLX", spec.center_latitude_deg, spec.center_longitude_deg, 384}};
+    return grid;
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,121 @@
+#include "render/transfer_function.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "render/colour_table.h"
+
+namespace stormcellar::render {
+namespace {
+
+TEST(ColourTable, HasFifteenClassesOfFiveDecibelsFromFive) {
+    for (std::size_t i = 0; i < nws_reflectivity.size(); ++i) {
+        EXPECT_EQ(nws_reflectivity[i].from_dbz, 5 + 5 * static_cast<float>(i));
+    }
+}
+
+TEST(ColourTable, GivesTheColoursOfTheWeatherService) {
+    EXPECT_FALSE(nws_reflectivity_colour(4.99F));
+    EXPECT_FALSE(nws_reflectivity_colour(std::nanf("")));
+    EXPECT_EQ(nws_reflectivity_colour(5), (Rgba8{0x04, 0xE9, 0xE7, 255}));
+    EXPECT_EQ(nws_reflectivity_colour(22.5F), (Rgba8{0x02, 0xFD, 0x02, 255}));
+    EXPECT_EQ(nws_reflectivity_colour(34.99F), (Rgba8{0x00, 0x8E, 0x00, 255}));
+    EXPECT_EQ(nws_reflectivity_colour(35), (Rgba8{0xFD, 0xF8, 0x02, 255}));
+    EXPECT_EQ(nws_reflectivity_colour(51), (Rgba8{0xFD, 0x00, 0x00, 255}));
+    EXPECT_EQ(nws_reflectivity_colour(67), (Rgba8{0xF8, 0x00, 0xFD, 255}));
+    EXPECT_EQ(nws_reflectivity_colour(95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
+}
+
+const grid::Quantization half_db{1, -32, 0.5F};
+
+int bin_of_dbz(double dbz) {
+    return static_cast<int>((dbz - TransferFunction::first_bin_dbz) / TransferFunction::bin_dbz);
+}
+
+TEST(Extinction, GrowsTenfoldEveryTwentyFiveDecibels) {
+    EXPECT_EQ(extinction_per_m(4.99, 1), 0);
+    EXPECT_EQ(extinction_per_m(std::nan(""), 1), 0);
+    EXPECT_DOUBLE_EQ(extinction_per_m(5, 1) * reference_step_m, extinction_at_5_dbz);
+    EXPECT_NEAR(extinction_per_m(57, 1) / extinction_per_m(32, 1), 10, 1e-9);
+    EXPECT_NEAR(extinction_per_m(40, 2.5) / extinction_per_m(40, 1), 2.5, 1e-12);
+}
+
+TEST(TransferFunction, FirstVisibleCodeIsFiveDbz) {
+    const TransferFunction transfer(half_db, 1, 1000);
+    EXPECT_EQ(half_db.value_of(static_cast<std::uint16_t>(transfer.first_visible_code())), 5);
+}
+
+// Every code of every quantisation falls into the bin whose bounds hold its value.
+TEST(TransferFunction, BinsHoldTheirValues) {
+    for (const grid::Quantization& quantization :
+         {half_db, grid::Quantization{2, -32, 0.01F}, grid::Quantization{1, -30, 1}}) {
+        const TransferFunction transfer(quantization, 1, 1000);
+        for (std::uint32_t code = 3; code <= quantization.largest_code(); ++code) {
+            const double dbz =
+                static_cast<double>(quantization.value_of(static_cast<std::uint16_t>(code)));
+            const int expected =
+                std::min(255, static_cast<int>(std::floor((dbz + 32) / 0.5 + 1.0 / 64)));
+            ASSERT_NEAR(transfer.bin(static_cast<float>(code)), expected,
+                        quantization.code_bytes == 1 ? 0 : 1)
+                << code;
+        }
+    }
+}
+
+TEST(TransferFunction, OpacityRisesWithReflectivity) {
+    const TransferFunction transfer(half_db, 1, 1000);
+    for (int bin = bin_of_dbz(5); bin < TransferFunction::bin_count; ++bin) {
+        EXPECT_GT(transfer.entry(bin, bin).alpha, transfer.entry(bin - 1, bin - 1).alpha);
+        EXPECT_LE(transfer.entry(bin, bin).alpha, 1);
+    }
+}
+
+TEST(TransferFunction, OpacityIsCorrectedForTheStep) {
+    const TransferFunction reference(half_db, 1, reference_step_m);
+    for (const double ratio : {0.1, 0.5, 3.0, 20.0}) {
+        const TransferFunction other(half_db, 1, ratio * reference_step_m);
+        for (const double dbz : {6.0, 23.0, 41.5, 60.0, 75.0}) {
+            const int bin = bin_of_dbz(dbz);
+            const double a = static_cast<double>(reference.entry(bin, bin).alpha);
+            EXPECT_NEAR(static_cast<double>(other.entry(bin, bin).alpha),
+                        1 - std::pow(1 - a, ratio), 2e-6);
+        }
+    }
+}
+
+TEST(TransferFunction, ColoursArePremultiplied) {
+    const TransferFunction transfer(half_db, 1, 1000);
+    const TransferEntry& red = transfer.entry(bin_of_dbz(52), bin_of_dbz(52));
+    EXPECT_FLOAT_EQ(red.red, red.alpha * 253 / 255);
+    EXPECT_EQ(red.green, 0);
+}
+
+// A step that crosses several classes against the slow sum over all values between its ends.
+TEST(TransferFunction, AStepHoldsEveryClassBetweenItsEnds) {
+    const double step_m = 700;
+    const TransferFunction transfer(half_db, 1, step_m);
+    for (const auto& [low, high] : {std::pair{-20.0, 30.0}, std::pair{12.0, 14.0},
+                                    std::pair{33.0, 61.0}, std::pair{5.0, 75.0}}) {
+        double extinction = 0;
+        double weighted_green = 0;
+        int bins = 0;
+        for (double dbz = low; dbz <= high; dbz += 0.5, ++bins) {
+            extinction += extinction_per_m(dbz, 1);
+            const auto colour = nws_reflectivity_colour(static_cast<float>(dbz));
+            if (colour) weighted_green += extinction_per_m(dbz, 1) * (*colour)[1] / 255;
+        }
+        const double alpha = 1 - std::exp(-extinction / bins * step_m);
+        const TransferEntry& entry = transfer.entry(bin_of_dbz(low), bin_of_dbz(high));
+        EXPECT_NEAR(static_cast<double>(entry.alpha), alpha, 1e-6);
+        EXPECT_NEAR(static_cast<double>(entry.green), alpha * weighted_green / extinction, 1e-6);
+        EXPECT_EQ(transfer.entry(bin_of_dbz(high), bin_of_dbz(low)).green, entry.green);
+    }
+}
+
+TEST(TransferFunction, AllCodesBelowTheTableAreClear) {
+    EXPECT_EQ(TransferFunction({1, -200, 0.1F}, 1, 1000).first_visible_code(), 256U);
+}
+
+}  // namespace
+}  // namespace stormcellar::render
