@@ -1,5 +1,7 @@
 #include "grid/column.h"
 
+#include <algorithm>
+
 namespace stormcellar::grid {
 namespace {
 
@@ -68,31 +70,44 @@ CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blen
     return {CellStatus::value, sum / total_weight};
 }
 
+// Levels are taken from the lowest up; each step fills those below the next beam, so that a stretch
+// between two beams that hold the same state is filled at once. Most of the sky is such.
 void fill_column(std::span<const BeamSample> beams, std::span<const float> levels_m,
                  Blending blending, std::span<CellStatus> status, std::span<float> values) {
-    std::size_t above = 0;  // the first beam above the level
-    for (std::size_t level = 0; level < levels_m.size(); ++level) {
-        const float level_m = levels_m[level];
-        while (above < beams.size() && beams[above].height_m <= level_m)
-            ++above;
-        CellResult cell;
-        if (above == 0) {
-            if (level_m >= beams.front().lower_edge_m) cell = alone(beams.front().sample);
-        } else if (above == beams.size()) {
-            if (level_m <= beams.back().upper_edge_m) cell = alone(beams.back().sample);
-        } else {
-            const BeamSample& low = beams[above - 1];
-            const BeamSample& high = beams[above];
-            if (low.adjacent_to_next) {
-                // The beams differ here: low.height_m <= level_m < high.height_m.
-                const float weight = (level_m - low.height_m) / (high.height_m - low.height_m);
-                cell = blend(low.sample, high.sample, weight, blending);
-            } else {
-                cell = beside_a_gap(low, high, level_m);
-            }
-        }
+    const auto put = [&](std::size_t level, CellResult cell) {
         status[level] = cell.status;
-        values[level] = cell.value;
+        if (cell.status == CellStatus::value) values[level] = cell.value;
+    };
+    std::size_t level = 0;
+    for (; level < levels_m.size() && levels_m[level] < beams.front().height_m; ++level) {
+        const bool within = levels_m[level] >= beams.front().lower_edge_m;
+        put(level, within ? alone(beams.front().sample) : CellResult{});
+    }
+    for (std::size_t above = 1; above < beams.size() && level < levels_m.size(); ++above) {
+        const BeamSample& low = beams[above - 1];
+        const BeamSample& high = beams[above];
+        std::size_t end = level;
+        while (end < levels_m.size() && levels_m[end] < high.height_m)
+            ++end;
+        const bool alike = low.sample.status == high.sample.status &&
+                           low.sample.status != CellStatus::value && low.adjacent_to_next;
+        if (alike) {
+            std::fill(status.begin() + static_cast<std::ptrdiff_t>(level),
+                      status.begin() + static_cast<std::ptrdiff_t>(end), low.sample.status);
+            level = end;
+            continue;
+        }
+        // The beams differ here: low.height_m <= levels_m[level] < high.height_m.
+        const float span_m = high.height_m - low.height_m;
+        for (; level < end; ++level) {
+            const float weight = (levels_m[level] - low.height_m) / span_m;
+            put(level, low.adjacent_to_next ? blend(low.sample, high.sample, weight, blending)
+                                            : beside_a_gap(low, high, levels_m[level]));
+        }
+    }
+    for (; level < levels_m.size(); ++level) {
+        const bool within = levels_m[level] <= beams.back().upper_edge_m;
+        put(level, within ? alone(beams.back().sample) : CellResult{});
     }
 }
 

@@ -28,7 +28,8 @@ struct CellResult {
 // Of two samples, `weight_b` in [0, 1] being the second one's share.
 [[nodiscard]] CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending);
 
-// What one sweep gives to a column. Heights rise, or stay equal, from each sweep to the next.
+// What one sweep gives to a column. Heights rise, or stay equal, from each sweep to the next. The
+// edges matter for the first and the last beam and beside a lost cut; elsewhere they are not read.
 struct BeamSample {
     Sample sample;
     float height_m = 0;
@@ -37,9 +38,10 @@ struct BeamSample {
     bool adjacent_to_next = true;
 };
 
-// Fills a column. Between the beams of adjacent sweeps cells are blended, linear in height. Outside
-// (below the lowest, above the highest, between sweeps with a lost cut between them) a cell takes
-// the sample of the nearer beam when it lies within its edges, else it is not seen.
+// Fills a column, at least one beam. Between the beams of adjacent sweeps cells are blended, linear
+// in height. Outside (below the lowest, above the highest, between sweeps with a lost cut between
+// them) a cell takes the sample of the nearer beam when it lies within its edges, else it is not
+// seen. Only cells that hold a value get one written.
 void fill_column(std::span<const BeamSample> beams, std::span<const float> levels_m,
                  Blending blending, std::span<CellStatus> status, std::span<float> values);
 

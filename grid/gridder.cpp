@@ -40,6 +40,11 @@ class RowFiller {
           blending_(blending_of(grid.moment)) {
         for (const double level_m : grid.spec.levels_m)
             levels_m_.push_back(static_cast<float>(level_m));
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            const bool lowest = i == 0 || !chosen[i - 1].adjacent_to_next;
+            const bool highest = i + 1 == chosen.size() || !chosen[i].adjacent_to_next;
+            edges_matter_.push_back(lowest || highest);
+        }
     }
 
     void run(int threads) {
@@ -68,15 +73,31 @@ class RowFiller {
         ArcPlace place;
         place.index = static_cast<std::size_t>(along);
         place.fraction = along - static_cast<float>(place.index);
-        for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-            const PolarSweep& sweep = sweeps_[i];
-            beams[i] = {sweep.sample(column.azimuth_deg, place), sweep.beam_height_m(place),
-                        sweep.lower_edge_m(place), sweep.upper_edge_m(place),
-                        chosen_[i].adjacent_to_next};
-        }
-        fill_column(beams, levels_m_, blending_,
+        const std::size_t count = sample_beams(column.azimuth_deg, place, beams);
+        fill_column(std::span(beams).first(count), levels_m_, blending_,
                     std::span(grid_.status).subspan(first_cell, levels_m_.size()),
                     std::span(grid_.values).subspan(first_cell, levels_m_.size()));
+    }
+
+    // Beams from the lowest up to the first above the top level, which is the last that matters.
+    std::size_t sample_beams(float azimuth_deg, ArcPlace place,
+                             std::vector<BeamSample>& beams) const {
+        std::size_t count = 0;
+        bool below_top = true;
+        while (count < sweeps_.size() && below_top) {
+            const PolarSweep& sweep = sweeps_[count];
+            BeamSample& beam = beams[count];
+            beam.sample = sweep.sample(azimuth_deg, place);
+            beam.height_m = sweep.beam_height_m(place);
+            beam.adjacent_to_next = chosen_[count].adjacent_to_next;
+            if (edges_matter_[count]) {
+                beam.lower_edge_m = sweep.lower_edge_m(place);
+                beam.upper_edge_m = sweep.upper_edge_m(place);
+            }
+            below_top = beam.height_m <= levels_m_.back();
+            ++count;
+        }
+        return count;
     }
 
     Grid& grid_;
@@ -86,6 +107,7 @@ class RowFiller {
     const float table_end_;
     const Blending blending_;
     std::vector<float> levels_m_;
+    std::vector<bool> edges_matter_;  // of each sweep: it has no neighbour above or below
     std::atomic<int> next_row_{0};
 };
 
