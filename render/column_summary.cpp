@@ -22,18 +22,29 @@ void note_status(ColumnSummary& column, CellStatus status, int level) {
     column.has_range_folded = column.has_range_folded || status == CellStatus::range_folded;
 }
 
+// A whole run of 16: cells beyond the grid's top are stored as not seen. Without branches, so that
+// the compiler takes all cells at once.
 template <class Code>
-void note_codes(ColumnSummary& column, const std::byte* codes, int cells, int first_level) {
+void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) {
     std::array<Code, brick_edge> run{};
-    std::memcpy(run.data(), codes, static_cast<std::size_t>(cells) * sizeof(Code));
-    for (int z = 0; z < cells; ++z) {
-        const auto code = static_cast<std::uint16_t>(run[static_cast<std::size_t>(z)]);
-        if (code < grid::first_value_code) {
-            note_status(column, static_cast<CellStatus>(code), first_level + z);
-        } else {
-            note_status(column, CellStatus::value, first_level + z);
-            column.max_code = std::max(column.max_code, code);
-        }
+    std::memcpy(run.data(), codes, sizeof(run));
+    Code largest = 0;
+    Code no_echo = 0;
+    Code folded = 0;
+    for (const Code code : run) {
+        largest = std::max(largest, code);
+        no_echo = static_cast<Code>(no_echo | (code == 1 ? 1 : 0));
+        folded = static_cast<Code>(folded | (code == 2 ? 1 : 0));
+    }
+    if (largest == 0) return;
+    if (column.lowest_seen == ColumnSummary::never) {
+        const auto seen = std::find_if(run.begin(), run.end(), [](Code c) { return c != 0; });
+        column.lowest_seen = static_cast<std::uint16_t>(first_level + (seen - run.begin()));
+    }
+    column.has_no_echo = column.has_no_echo || no_echo != 0;
+    column.has_range_folded = column.has_range_folded || folded != 0;
+    if (largest >= grid::first_value_code) {
+        column.max_code = std::max(column.max_code, std::uint16_t{largest});
     }
 }
 
@@ -60,9 +71,9 @@ void note_run(ColumnSummary& column, const BrickView& view, std::size_t brick, c
         const auto width = static_cast<std::size_t>(view.quantization.code_bytes);
         const std::byte* codes = view.codes.data() + (brick * grid::brick_cells + run.cell) * width;
         if (width == 1) {
-            note_codes<std::uint8_t>(column, codes, run.cells, run.first_level);
+            note_codes<std::uint8_t>(column, codes, run.first_level);
         } else {
-            note_codes<std::uint16_t>(column, codes, run.cells, run.first_level);
+            note_codes<std::uint16_t>(column, codes, run.first_level);
         }
     }
 }

@@ -13,6 +13,7 @@
 // Thread contract: immutable.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -44,13 +45,14 @@ class TransferFunction {
     // For steps of `step_m` in the drawn scene.
     TransferFunction(const grid::Quantization& quantization, double opacity, double step_m);
 
-    // The bin of a code, which may be broken: the mean of several. It is never below the right one
-    // by rounding: values up to 1/64 of a bin short of it belong to it.
+    // The bin of a code, which may be broken (the mean of several), is the whole part of
+    // bin_offset + bin_slope * code, bounded. It is never below the right one by rounding: values
+    // up to 1/64 of a bin short of it belong to it.
+    [[nodiscard]] float bin_offset() const { return bin_offset_; }
+    [[nodiscard]] float bin_slope() const { return bin_slope_; }
     [[nodiscard]] int bin(float code) const {
-        const float position = bin_offset_ + bin_slope_ * code;
-        return position <= 0
-                   ? 0
-                   : (position >= bin_count - 1 ? bin_count - 1 : static_cast<int>(position));
+        return static_cast<int>(
+            std::clamp(bin_offset_ + bin_slope_ * code, 0.0F, bin_count - 1.0F));
     }
     // A step with these bins at its ends; the order does not matter.
     [[nodiscard]] const TransferEntry& entry(int bin, int other_bin) const {
