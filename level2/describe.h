@@ -1,8 +1,9 @@
 // level2/describe.h -- a decoded file as facts: what `stormcellar info --json` prints.
 //
-// Names of fields, and what they mean, are those of the project's reference descriptions
-// (docs/level2.md); "problems" holds the report's. Moments of one name that differ in geometry
-// inside a sweep are described together, their codes in the order of the radials.
+// Names of fields are those of the reference descriptions beside the real volumes (data/golden),
+// with which tests/level2/golden_test.cpp compares; "problems" holds the report's. Moments of one
+// name that differ in geometry inside a sweep are described together, their codes in the order of
+// the radials.
 // Accuracy: counts and checksums exact; means from exact counts of each code, in double.
 #pragma once
 

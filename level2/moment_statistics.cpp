@@ -91,6 +91,7 @@ std::optional<MomentStatistics> moment_statistics(const Sweep& sweep, Moment mom
     MomentStatistics statistics;
     statistics.gates_min = std::numeric_limits<std::uint16_t>::max();
     std::vector<Histogram> histograms;
+    histograms.reserve(kinds.size());
     for (const SweepMoment* kind : kinds)
         histograms.emplace_back(kind->word_size_bits == 8 ? 256 : 65536);
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {

@@ -151,7 +151,7 @@ std::size_t Volume::radial_count() const {
 
 std::optional<AntennaPosition> antenna_position(const Volume& volume) {
     const std::optional<Station> station = find_station(volume.station);
-    const std::optional<AntennaPosition> radar =
+    std::optional<AntennaPosition> radar =
         volume.block ? position_of_block(*volume.block) : std::nullopt;
     if (radar && station) return reconcile(*radar, *station);
     if (radar) return radar;
