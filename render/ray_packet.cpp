@@ -115,6 +115,18 @@ HWY_INLINE void split_pairs(Corners& corners) {
     }
 }
 
+HWY_INLINE bool no_values(const Corners& corners) {
+    const Ints i;
+    IntVec largest = hn::Zero(i);
+    for (int c = 0; c < 4; ++c) {
+        for (std::size_t ray = 0; ray < packet_rays; ray += hn::Lanes(i)) {
+            largest = hn::Max(largest, hn::Max(hn::Load(i, corners.low[c] + ray),
+                                               hn::Load(i, corners.high[c] + ray)));
+        }
+    }
+    return hn::AllFalse(i, hn::Gt(largest, hn::Set(i, grid::first_value_code - 1)));
+}
+
 class Caster {
   public:
     Caster(const PacketVolume& volume, const RayPacket& rays, float* rgba)
@@ -177,6 +189,10 @@ class Caster {
             if (at.paired) split_pairs(corners);
         } else {
             load_corners<std::uint16_t>(volume_.codes, at, corners);
+        }
+        if (no_values(corners)) {
+            std::fill(samples.valued, samples.valued + packet_rays, 0.0F);
+            return;
         }
         for (int part = 0; part < packet_rays / lanes; ++part) {
             mix(corners, part * lanes, x_weight[part], y_weight[part], z_of[part].weight, samples);

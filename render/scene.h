@@ -25,7 +25,7 @@ struct Scene {
     int width = 796, height = 532;  // pixels; 16..8192
     Camera camera;
     int slices = 256;                    // parallel to the image plane; 8..4096
-    double vertical_exaggeration = 8;    // stated in the picture; 0.1..100
+    double vertical_exaggeration = 5;    // stated in the picture; 0.1..100
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // colour bar, title, time, rings

@@ -8,6 +8,11 @@
 namespace stormcellar::render {
 namespace {
 
+// Extinction of the two parts per reference step, and the decibels in which they grow tenfold.
+constexpr double haze_at_5_dbz = 0.012;
+constexpr double haze_decade_db = 40;
+constexpr double core_at_50_dbz = 0.12;
+constexpr double core_decade_db = 10;
 constexpr double class_slack = 1.0 / 64;  // bins
 
 // Running sums over the bins of extinction, and of extinction times colour.
@@ -50,10 +55,9 @@ TransferEntry entry_of(const std::vector<Sums>& sums, std::size_t low, std::size
 
 double extinction_per_m(double dbz, double opacity) {
     if (!(dbz >= static_cast<double>(lowest_class_dbz))) return 0;
-    const double per_step =
-        extinction_at_5_dbz *
-        std::pow(10.0, (dbz - static_cast<double>(lowest_class_dbz)) / extinction_decade_db);
-    return opacity * per_step / reference_step_m;
+    const double haze = haze_at_5_dbz * std::pow(10.0, (dbz - 5) / haze_decade_db);
+    const double core = core_at_50_dbz * std::pow(10.0, (dbz - 50) / core_decade_db);
+    return opacity * (haze + core) / reference_step_m;
 }
 
 TransferFunction::TransferFunction(const grid::Quantization& quantization, double opacity,

@@ -1,10 +1,12 @@
 // render/transfer_function.h -- what a reflectivity looks like: colour, and how opaque.
 //
 // Colour is stepped as the National Weather Service has it. Opacity rises smoothly, so that cores
-// show through what lies round them: the extinction of echo grows tenfold every 25 dB,
-//     k(dBZ) = opacity * k5 * 10^((dBZ - 5) / 25)  for 5 dBZ and more, else 0,
+// show through what lies round them. The extinction of echo is the sum of a haze, which keeps weak
+// echo in sight, and of a steep part, which makes cores solid:
+//     k(v) = opacity * (0.012 * 10^((v - 5 dBZ) / 40 dB) + 0.12 * 10^((v - 50 dBZ) / 10 dB)) / ds0
+// for v of 5 dBZ and more, else 0; ds0 = 1 km. It grows with v all the way.
 // and a path of length s through it has the opacity 1 - exp(-k s). In terms of the opacity a of
-// the reference step ds0 = 1 km that is 1 - (1 - a)^(s / ds0). Lengths are those of the drawn
+// the reference step ds0 that is 1 - (1 - a)^(s / ds0). Lengths are those of the drawn
 // scene, with heights exaggerated.
 //
 // The table holds, for each pair of values at the two ends of a step, the colour and opacity of
@@ -22,10 +24,7 @@
 
 namespace stormcellar::render {
 
-inline constexpr double reference_step_m = 1000;      // ds0
-inline constexpr double extinction_at_5_dbz = 0.002;  // k5, per reference step
-inline constexpr double extinction_decade_db = 25;
-
+inline constexpr double reference_step_m = 1000;  // ds0
 // Per metre; 0 below the lowest class of the colour table and for NaN.
 [[nodiscard]] double extinction_per_m(double dbz, double opacity);
 
@@ -37,7 +36,8 @@ struct TransferEntry {
 
 class TransferFunction {
   public:
-    // Values are sorted into bins of half a decibel, whose lower ends include those of the classes.
+    // Values are sorted into bins of half a decibel, whose lower ends include those of the classes;
+    // all values of a bin look like its lower end.
     static constexpr int bin_count = 256;
     static constexpr double first_bin_dbz = -32;
     static constexpr double bin_dbz = 0.5;

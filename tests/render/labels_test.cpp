@@ -82,6 +82,7 @@ TEST(Labels, SayWhatWasDone) {
     using testing::Contains;
     using testing::HasSubstr;
     Scene scene;
+    scene.vertical_exaggeration = 8;
     const auto texts = texts_of(scene, facts_for("KTLX", 1, true));
     EXPECT_THAT(texts, Contains("KTLX  Oklahoma City, OK"));
     EXPECT_THAT(texts, Contains("1999-05-03 23:56:21 UTC"));

@@ -62,8 +62,12 @@ inline std::array<double, 4> reference_ray(const grid::BrickView& view,
         const Vec3 p = geometry.point(pixel, geometry.near_m() + (k + 0.5) * step);
         const ReferenceSample sample = reference_sample(view, geometry, p);
         if (sample.share <= 0) continue;
-        // The table's classes hold values up to 1/64 of a code below them, as the slicer says.
-        const double value = sample.value + static_cast<double>(view.quantization.step) / 64;
+        // As the transfer function says: by bins, with their slack of 1/64.
+        const double bin = std::floor((sample.value - TransferFunction::first_bin_dbz) /
+                                          TransferFunction::bin_dbz +
+                                      1.0 / 64);
+        const double value =
+            TransferFunction::first_bin_dbz + TransferFunction::bin_dbz * std::min(bin, 255.0);
         const auto classed = nws_reflectivity_colour(static_cast<float>(value));
         if (!classed) continue;
         const double alpha = -std::expm1(-extinction_per_m(value, opacity) * step) * sample.share;
