@@ -1,0 +1,208 @@
+#include "catalog/catalog.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "base/station_table.h"
+#include "catalog/station_database.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view unknown_station = "_unknown";
+constexpr std::string_view database_ending = ".sqlite";
+
+// The database that a station's rows stand in. Nothing unchecked becomes a file name.
+std::string database_name(std::string_view station) {
+    return std::string{is_icao(station) ? station : unknown_station};
+}
+
+// The station that a path seems to belong to, as a first guess of where its row stands.
+std::string guessed_station(const fs::path& path) {
+    const std::string name = path.filename().string().substr(0, 4);
+    if (is_icao(name)) return name;
+    return database_name(path.parent_path().filename().string());
+}
+
+}  // namespace
+
+struct Catalog::Impl {
+    struct Slot {
+        std::mutex mutex;  // guards the database
+        std::unique_ptr<StationDatabase> database;
+    };
+
+    fs::path directory;
+    bool writing = false;
+    std::mutex slots_mutex;  // guards the map, not what its slots hold
+    std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots;
+
+    [[nodiscard]] fs::path path_of(const std::string& name) const {
+        return directory / (name + std::string{database_ending});
+    }
+
+    Slot& slot(const std::string& name) {
+        const std::scoped_lock lock(slots_mutex);
+        auto& place = slots[name];
+        if (!place) place = std::make_unique<Slot>();
+        return *place;
+    }
+
+    // Runs `work` on the database of that name, opened when need be. Missing databases are created
+    // when writing and `create` is set; else not_found.
+    template <class Work>
+    auto with(const std::string& name, bool create, Work work)
+        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
+        Slot& place = slot(name);
+        const std::scoped_lock lock(place.mutex);
+        const fs::path path = path_of(name);
+        if (!place.database) {
+            std::error_code ignored;
+            if (!(writing && create) && !fs::exists(path, ignored)) {
+                return fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
+                            directory.native(), name);
+            }
+            const std::string station = name == unknown_station ? std::string{} : name;
+            auto opened = writing ? StationDatabase::open_for_writing(path, station)
+                                  : StationDatabase::open_for_reading(path, station);
+            if (!opened) return pass_on(opened);
+            place.database = std::move(*opened);
+        }
+        try {
+            return work(*place.database);
+        } catch (const SQLite::Exception& error) {
+            return fail(ErrorCode::io, "{}: {}", path.native(), error.what());
+        }
+    }
+
+    // The names of all databases in the directory, sorted.
+    [[nodiscard]] Result<std::vector<std::string>> names() const {
+        std::vector<std::string> found;
+        std::error_code error;
+        for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+             entry.increment(error)) {
+            const fs::path& path = entry->path();
+            const std::string stem = path.stem().string();
+            if (path.extension() == database_ending && (is_icao(stem) || stem == unknown_station)) {
+                found.push_back(stem);
+            }
+        }
+        if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+};
+
+Catalog::Catalog(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Catalog::Catalog(Catalog&&) noexcept = default;
+Catalog& Catalog::operator=(Catalog&&) noexcept = default;
+Catalog::~Catalog() = default;
+
+const fs::path& Catalog::directory() const {
+    return impl_->directory;
+}
+
+Result<Catalog> Catalog::open_for_writing(fs::path directory) {
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    auto impl = std::make_unique<Impl>();
+    impl->directory = std::move(directory);
+    impl->writing = true;
+    return Catalog(std::move(impl));
+}
+
+Result<Catalog> Catalog::open_for_reading(fs::path directory) {
+    std::error_code ignored;
+    if (!fs::is_directory(directory, ignored)) {
+        return fail(ErrorCode::not_found, "{}: no such catalog directory", directory.native());
+    }
+    auto impl = std::make_unique<Impl>();
+    impl->directory = std::move(directory);
+    return Catalog(std::move(impl));
+}
+
+Result<Registered> Catalog::register_file(const FileFacts& facts) {
+    const std::string name = database_name(facts.station);
+    auto registered = impl_->with(
+        name, true, [&](StationDatabase& database) { return database.register_file(facts); });
+    if (!registered) return registered;
+    if (name != unknown_station) {
+        // Its station may not have been known when the file was smaller.
+        const auto forgotten =
+            impl_->with(std::string{unknown_station}, false, [&](StationDatabase& database) {
+                database.forget(facts.path);
+                return true;
+            });
+        if (!forgotten && forgotten.error().code != ErrorCode::not_found) return pass_on(forgotten);
+    }
+    return registered;
+}
+
+Result<int> Catalog::mark_gone(const fs::path& path) {
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    int marked = 0;
+    for (const std::string& name : *names) {
+        const auto here = impl_->with(
+            name, false, [&](StationDatabase& database) { return database.mark_gone(path); });
+        if (!here) return pass_on(here);
+        marked += *here;
+    }
+    return marked;
+}
+
+Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
+                                 std::int64_t modified_ns) {
+    const auto ask = [&](StationDatabase& database) {
+        return database.is_settled(path, size_bytes, modified_ns);
+    };
+    const std::string guess = guessed_station(path);
+    const auto guessed = impl_->with(guess, false, ask);
+    if (guessed && guessed->has_value()) return **guessed;
+    if (!guessed && guessed.error().code != ErrorCode::not_found) return pass_on(guessed);
+
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    for (const std::string& name : *names) {
+        if (name == guess) continue;
+        const auto here = impl_->with(name, false, ask);
+        if (!here) return pass_on(here);
+        if (here->has_value()) return **here;
+    }
+    return false;
+}
+
+Result<std::vector<StationSummary>> Catalog::stations() {
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    std::vector<StationSummary> summaries;
+    for (const std::string& name : *names) {
+        auto summary =
+            impl_->with(name, false, [](StationDatabase& database) { return database.summary(); });
+        if (!summary) return pass_on(summary);
+        summaries.push_back(std::move(*summary));
+    }
+    return summaries;
+}
+
+Result<std::vector<CatalogEntry>> Catalog::list(std::string_view station, const Query& query) {
+    return impl_->with(database_name(station), false,
+                       [&](StationDatabase& database) { return database.list(query); });
+}
+
+Result<std::optional<CatalogEntry>> Catalog::latest(std::string_view station) {
+    return impl_->with(database_name(station), false,
+                       [](StationDatabase& database) { return database.first(true); });
+}
+
+Result<std::optional<CatalogEntry>> Catalog::oldest(std::string_view station) {
+    return impl_->with(database_name(station), false,
+                       [](StationDatabase& database) { return database.first(false); });
+}
+
+}  // namespace stormcellar::catalog

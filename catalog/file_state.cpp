@@ -1,0 +1,25 @@
+#include <array>
+
+#include "catalog/catalog.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+// In the order of FileState. These words stand in the databases: never change one.
+constexpr std::array<std::string_view, 5> names = {"seen", "complete", "partial", "rejected",
+                                                   "gone"};
+
+}  // namespace
+
+std::string_view file_state_name(FileState state) {
+    return names[static_cast<std::size_t>(state)];
+}
+
+std::optional<FileState> file_state_from_name(std::string_view name) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == name) return static_cast<FileState>(i);
+    }
+    return std::nullopt;
+}
+
+}  // namespace stormcellar::catalog

@@ -1,0 +1,345 @@
+#include "catalog/station_database.h"
+
+#include <utility>
+
+#include <sqlite3.h>
+
+#include "catalog/schema.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How long a statement waits for another process's write before it gives up.
+constexpr int busy_timeout_ms = 10'000;
+
+void bind_path(SQLite::Statement& statement, int index, const fs::path& path) {
+    const std::string& bytes = path.native();
+    statement.bind(index, bytes.data(), static_cast<int>(bytes.size()));
+}
+
+template <class T>
+void bind_optional(SQLite::Statement& statement, int index, const std::optional<T>& value) {
+    if (value) {
+        statement.bind(index, *value);
+    } else {
+        statement.bind(index);
+    }
+}
+
+std::optional<std::int64_t> milliseconds(const std::optional<UtcTime>& time) {
+    if (!time) return std::nullopt;
+    return time->time_since_epoch().count();
+}
+
+UtcTime time_of(std::int64_t ms) {
+    return UtcTime{std::chrono::milliseconds{ms}};
+}
+
+std::optional<UtcTime> optional_time(const SQLite::Column& column) {
+    if (column.isNull()) return std::nullopt;
+    return time_of(column.getInt64());
+}
+
+std::optional<int> optional_int(const SQLite::Column& column) {
+    if (column.isNull()) return std::nullopt;
+    return column.getInt();
+}
+
+// A path as SQLite's own URI form, so that no character of it has a meaning.
+std::string uri_of(const fs::path& path, std::string_view query) {
+    std::string uri = "file:";
+    for (const char c : path.native()) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                           (byte >= 'a' && byte <= 'z') || c == '/' || c == '.' || c == '_' ||
+                           c == '-';
+        if (plain) {
+            uri += c;
+        } else {
+            uri += fmt::format("%{:02X}", byte);
+        }
+    }
+    return uri + std::string{query};
+}
+
+ErrorCode code_of(const SQLite::Exception& error) {
+    switch (error.getErrorCode()) {
+        case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
+            return ErrorCode::corrupt;
+        case SQLITE_FULL:
+            return ErrorCode::no_space;
+        case SQLITE_READONLY:
+        case SQLITE_PERM:
+            return ErrorCode::permission;
+        default:
+            return ErrorCode::io;
+    }
+}
+
+tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
+    return fail(code_of(error), "{}: {}", path.native(), error.what());
+}
+
+// Whether the database is ours and of a version that we know; empty ones are ours to fill.
+Status check_identity(SQLite::Database& database, const fs::path& path) {
+    const int version = database.execAndGet("PRAGMA user_version").getInt();
+    const int id = database.execAndGet("PRAGMA application_id").getInt();
+    const int tables = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt();
+    if (tables == 0) return {};
+    if (id != application_id) {
+        return fail(ErrorCode::corrupt, "{}: is not a catalog of this software", path.native());
+    }
+    if (version > schema_version) {
+        return fail(ErrorCode::unsupported,
+                    "{}: was made by a later version of this software (schema {}, known up to {})",
+                    path.native(), version, schema_version);
+    }
+    return {};
+}
+
+void migrate(SQLite::Database& database) {
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    if (database.execAndGet("PRAGMA user_version").getInt() < 1) {
+        database.exec(create_version_1);
+        database.exec(fmt::format("PRAGMA application_id = {}", application_id));
+        database.exec(fmt::format("PRAGMA user_version = {}", schema_version));
+    }
+    transaction.commit();
+}
+
+constexpr const char* entry_columns =
+    "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, v.start_ms, v.end_ms, "
+    "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation ";
+constexpr const char* entry_join =
+    "FROM volume v JOIN part p ON p.volume_id = v.id JOIN file f ON f.id = p.file_id ";
+
+}  // namespace
+
+StationDatabase::StationDatabase(const std::string& uri, int flags, std::string station)
+    : database_(uri, flags | SQLite::OPEN_URI, busy_timeout_ms), station_(std::move(station)) {}
+
+Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const fs::path& path,
+                                                                           std::string station) {
+    try {
+        std::unique_ptr<StationDatabase> opened(new StationDatabase(
+            uri_of(path, ""), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, std::move(station)));
+        SQLite::Database& database = opened->database_;
+        if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
+        database.exec("PRAGMA journal_mode = WAL");
+        // A power cut may then lose the last rows, never the database; the files are still there.
+        database.exec("PRAGMA synchronous = NORMAL");
+        database.exec("PRAGMA foreign_keys = ON");
+        migrate(database);
+        return opened;
+    } catch (const SQLite::Exception& error) {
+        return open_failure(path, error);
+    }
+}
+
+Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(const fs::path& path,
+                                                                           std::string station) {
+    // A reader that may not write cannot make the WAL's index. While a writer has the database open
+    // the index exists; when there is no WAL nobody writes, and the file alone is the truth.
+    const bool has_wal = fs::exists(fs::path{path.native() + "-wal"});
+    for (const char* query : {"?mode=ro", "?mode=ro&immutable=1"}) {
+        try {
+            std::unique_ptr<StationDatabase> opened(
+                new StationDatabase(uri_of(path, query), SQLite::OPEN_READONLY, station));
+            if (Status ours = check_identity(opened->database_, path); !ours) return pass_on(ours);
+            return opened;
+        } catch (const SQLite::Exception& error) {
+            const bool last = std::string_view{query}.find("immutable") != std::string_view::npos;
+            if (last || has_wal || code_of(error) == ErrorCode::corrupt) {
+                return open_failure(path, error);
+            }
+        }
+    }
+    return fail(ErrorCode::internal, "{}: could not be opened", path.native());
+}
+
+std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
+                                           const VolumeFacts& facts) {
+    const std::int64_t start = *milliseconds(facts.start_time);
+    // The same volume in a file with the same contents is the same volume.
+    SQLite::Statement same(database_,
+                           "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
+                           "JOIN file f ON f.id = p.file_id "
+                           "WHERE v.start_ms = ? AND ifnull(v.number, -1) = ? "
+                           "AND f.content_hash = ? AND f.id <> ?");
+    same.bind(1, start);
+    same.bind(2, facts.volume_number.value_or(-1));
+    same.bind(3, static_cast<std::int64_t>(content_hash));
+    same.bind(4, file_id);
+    if (same.executeStep()) return same.getColumn(0).getInt64();
+
+    SQLite::Statement next(database_,
+                           "SELECT ifnull(max(generation) + 1, 0) FROM volume "
+                           "WHERE start_ms = ? AND ifnull(number, -1) = ?");
+    next.bind(1, start);
+    next.bind(2, facts.volume_number.value_or(-1));
+    next.executeStep();
+    const int generation = next.getColumn(0).getInt();
+
+    SQLite::Statement insert(
+        database_,
+        "INSERT INTO volume (start_ms, end_ms, number, generation, vcp, sweep_count, "
+        "radial_count, complete) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    insert.bind(1, start);
+    bind_optional(insert, 2, milliseconds(facts.end_time));
+    bind_optional(insert, 3, facts.volume_number);
+    insert.bind(4, generation);
+    bind_optional(insert, 5, facts.vcp);
+    insert.bind(6, facts.sweep_count);
+    insert.bind(7, facts.radial_count);
+    insert.bind(8, facts.complete ? 1 : 0);
+    insert.exec();
+    return database_.getLastInsertRowid();
+}
+
+Registered StationDatabase::register_file(const FileFacts& facts) {
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    SQLite::Statement known(database_,
+                            "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
+                            "FROM file WHERE path = ?");
+    bind_path(known, 1, facts.path);
+    const bool exists = known.executeStep();
+    if (exists && known.getColumn(1).getInt64() == static_cast<std::int64_t>(facts.size_bytes) &&
+        known.getColumn(2).getInt64() == facts.modified_ns &&
+        known.getColumn(3).getInt64() == static_cast<std::int64_t>(facts.content_hash) &&
+        known.getColumn(4).getString() == file_state_name(facts.state) &&
+        known.getColumn(5).getString() == facts.reason) {
+        return Registered::unchanged;
+    }
+
+    SQLite::Statement file(
+        database_,
+        "INSERT INTO file (path, size_bytes, modified_ns, content_hash, state, reason, "
+        "registered_ms) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (path) DO UPDATE SET "
+        "size_bytes = excluded.size_bytes, modified_ns = excluded.modified_ns, "
+        "content_hash = excluded.content_hash, state = excluded.state, reason = excluded.reason "
+        "RETURNING id");
+    bind_path(file, 1, facts.path);
+    file.bind(2, static_cast<std::int64_t>(facts.size_bytes));
+    file.bind(3, facts.modified_ns);
+    file.bind(4, static_cast<std::int64_t>(facts.content_hash));
+    file.bind(5, std::string{file_state_name(facts.state)});
+    file.bind(6, facts.reason);
+    file.bind(7, now_utc().time_since_epoch().count());
+    file.executeStep();
+    const std::int64_t file_id = file.getColumn(0).getInt64();
+    file.reset();
+
+    // The file's volumes are described anew: a growing file must not become its own re-send.
+    SQLite::Statement drop_parts(database_, "DELETE FROM part WHERE file_id = ?");
+    drop_parts.bind(1, file_id);
+    drop_parts.exec();
+    database_.exec("DELETE FROM volume WHERE id NOT IN (SELECT volume_id FROM part)");
+
+    int ordinal = 0;
+    for (const VolumeFacts& volume : facts.volumes) {
+        if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
+        const std::int64_t volume_id = store_volume(file_id, facts.content_hash, volume);
+        SQLite::Statement part(database_, "INSERT INTO part VALUES (?, ?, ?)");
+        part.bind(1, file_id);
+        part.bind(2, ordinal++);
+        part.bind(3, volume_id);
+        part.exec();
+    }
+    transaction.commit();
+    return exists ? Registered::updated : Registered::added;
+}
+
+int StationDatabase::mark_gone(const fs::path& path) {
+    SQLite::Statement update(database_,
+                             "UPDATE file SET state = 'gone' WHERE path = ? AND state <> 'gone'");
+    bind_path(update, 1, path);
+    return update.exec();
+}
+
+void StationDatabase::forget(const fs::path& path) {
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    SQLite::Statement remove(database_, "DELETE FROM file WHERE path = ?");
+    bind_path(remove, 1, path);
+    if (remove.exec() > 0) {
+        database_.exec("DELETE FROM volume WHERE id NOT IN (SELECT volume_id FROM part)");
+    }
+    transaction.commit();
+}
+
+std::optional<bool> StationDatabase::is_settled(const fs::path& path, std::uint64_t size_bytes,
+                                                std::int64_t modified_ns) {
+    SQLite::Statement row(database_,
+                          "SELECT size_bytes = ? AND modified_ns = ? AND "
+                          "state IN ('complete', 'partial', 'rejected') FROM file WHERE path = ?");
+    row.bind(1, static_cast<std::int64_t>(size_bytes));
+    row.bind(2, modified_ns);
+    bind_path(row, 3, path);
+    if (!row.executeStep()) return std::nullopt;
+    return row.getColumn(0).getInt() != 0;
+}
+
+StationSummary StationDatabase::summary() {
+    SQLite::Statement row(database_,
+                          "SELECT (SELECT count(*) FROM volume), (SELECT count(*) FROM file WHERE "
+                          "state = 'rejected'), (SELECT min(start_ms) FROM volume), "
+                          "(SELECT max(start_ms) FROM volume)");
+    row.executeStep();
+    return {station_, row.getColumn(0).getInt64(), row.getColumn(1).getInt64(),
+            optional_time(row.getColumn(2)), optional_time(row.getColumn(3))};
+}
+
+std::vector<CatalogEntry> StationDatabase::entries(SQLite::Statement& rows) const {
+    std::vector<CatalogEntry> found;
+    while (rows.executeStep()) {
+        CatalogEntry entry;
+        entry.station = station_;
+        entry.path = rows.getColumn(0).getString();
+        entry.size_bytes = static_cast<std::uint64_t>(rows.getColumn(1).getInt64());
+        entry.state = file_state_from_name(rows.getColumn(2).getString()).value_or(FileState::seen);
+        entry.reason = rows.getColumn(3).getString();
+        entry.registered_time = time_of(rows.getColumn(4).getInt64());
+        entry.volume.start_time = optional_time(rows.getColumn(5));
+        entry.volume.end_time = optional_time(rows.getColumn(6));
+        entry.volume.volume_number = optional_int(rows.getColumn(7));
+        entry.volume.vcp = optional_int(rows.getColumn(8));
+        entry.volume.sweep_count = rows.getColumn(9).getInt();
+        entry.volume.radial_count = rows.getColumn(10).getInt();
+        entry.volume.complete = rows.getColumn(11).getInt() != 0;
+        entry.generation = rows.getColumn(12).getInt();
+        found.push_back(std::move(entry));
+    }
+    return found;
+}
+
+std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
+    SQLite::Statement rows(database_, std::string{entry_columns} + entry_join +
+                                          "WHERE v.start_ms BETWEEN ? AND ? "
+                                          "ORDER BY v.start_ms, v.number, v.generation, f.path");
+    rows.bind(1, milliseconds(query.from).value_or(std::numeric_limits<std::int64_t>::min()));
+    rows.bind(2, milliseconds(query.to).value_or(std::numeric_limits<std::int64_t>::max()));
+    std::vector<CatalogEntry> found = entries(rows);
+    if (query.with_rejected) {
+        SQLite::Statement others(
+            database_,
+            "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, "
+            "NULL, 0, 0, 0, 0 FROM file f WHERE NOT EXISTS "
+            "(SELECT 1 FROM part p WHERE p.file_id = f.id) ORDER BY f.registered_ms, f.path");
+        for (CatalogEntry& entry : entries(others))
+            found.push_back(std::move(entry));
+    }
+    return found;
+}
+
+std::optional<CatalogEntry> StationDatabase::first(bool latest) {
+    const std::string order = latest ? "ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC "
+                                     : "ORDER BY v.start_ms, v.generation, f.path ";
+    SQLite::Statement rows(database_, std::string{entry_columns} + entry_join + order + "LIMIT 1");
+    std::vector<CatalogEntry> found = entries(rows);
+    if (found.empty()) return std::nullopt;
+    return std::move(found.front());
+}
+
+}  // namespace stormcellar::catalog

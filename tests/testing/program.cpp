@@ -1,0 +1,54 @@
+#include "tests/testing/program.h"
+
+#include <array>
+#include <fstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "tests/testing/temporary_directory.h"
+
+extern char** environ;
+
+namespace stormcellar::testing {
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::filesystem::path& program,
+                          const std::vector<std::string>& arguments) {
+    const TemporaryDirectory directory;
+    const std::filesystem::path out = directory / "out";
+    const std::filesystem::path err = directory / "err";
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), flags, 0600);
+
+    std::string name = program.string();
+    std::vector<std::string> copies = arguments;
+    std::vector<char*> argv = {name.data()};
+    for (std::string& copy : copies)
+        argv.push_back(copy.data());
+    argv.push_back(nullptr);
+
+    pid_t child = 0;
+    const int failed = posix_spawn(&child, name.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) throw std::runtime_error("cannot start " + name);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+}
+
+}  // namespace stormcellar::testing
