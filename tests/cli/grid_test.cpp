@@ -92,9 +92,9 @@ TEST_F(GridTest, AFileThatCannotBeReadIsExit1AndNamed) {
 
 TEST_F(GridTest, ReportsFactsAndTimings) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran = grid({volume("KTLX19990503_235621.gz"), "-o", file("out.nc"), "--json",
-                          "--extent-km", "200,100", "--spacing-km", "2", "--levels-km",
-                          "0.1:1:0.3", "--center", "-10,20"});
+    const Ran ran =
+        grid({volume("KTLX19990503_235621.gz"), "-o", file("out.nc"), "--json", "--extent-km",
+              "200,100", "--spacing-km", "2", "--levels-km", "0.1:1:0.3", "--center", "-10,20"});
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
     const auto json = nlohmann::json::parse(ran.out);
@@ -144,8 +144,8 @@ TEST_F(GridTest, OfSeveralVolumesTheFirstIsTakenAndSaidSo) {
 
 TEST_F(GridTest, WhatCannotBeWrittenIsExit1) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran = grid({volume("KTLX19990503_235621.gz"), "-o", file("no/such/out.nc"),
-                          "--extent-km", "20,20"});
+    const Ran ran = grid(
+        {volume("KTLX19990503_235621.gz"), "-o", file("no/such/out.nc"), "--extent-km", "20,20"});
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("no/such"), std::string::npos) << ran.err;
 }

@@ -93,7 +93,8 @@ TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
                 const std::size_t cell = grid.spec.index(ix, iy, iz);
                 ASSERT_EQ(status[at], static_cast<double>(grid.status[cell]));
                 const bool value = grid.status[cell] == CellStatus::value;
-                ASSERT_EQ(field[at], static_cast<double>(value ? grid.values[cell] : NC_FILL_FLOAT));
+                ASSERT_EQ(field[at],
+                          static_cast<double>(value ? grid.values[cell] : NC_FILL_FLOAT));
             }
         }
     }
