@@ -3,6 +3,9 @@
 // The bytes are specified in docs/cache-format.md. A file is written whole by temporary file,
 // fsync and rename, and validated before anything in it is trusted: magic, version, sizes, offsets
 // and the checksum of header, brick table and states at open; checksums of bricks on verify().
+// Header, table, states and names are read into memory and checked there; only the codes are
+// mapped. So a file that another program alters later may show wrong values until verify(), but
+// never leads a reader outside its memory. Each open file holds one descriptor.
 // Thread contract: a GridFile is immutable after open; views may be used from many threads.
 #pragma once
 
@@ -29,7 +32,10 @@ struct GridDescription {
 [[nodiscard]] GridDescription describe(const grid::Grid& grid);
 
 // Writes the file and gives its size on disk in bytes (holes not counted). io and no_space leave
-// nothing behind; bad_argument for names or notes of more than 1 MiB.
+// nothing behind (where only the directory's sync failed, the new file stands, whole);
+// bad_argument for names or notes of more than 1 MiB, more than 4,194,304 bricks, a time beyond
+// the years 1970 to 9999, or a view that does not fit its spec. The same cells and description
+// give the same bytes.
 [[nodiscard]] Result<std::uint64_t> write_grid_file(FileSystem& file_system,
                                                     const std::filesystem::path& path,
                                                     const GridDescription& description,
@@ -50,7 +56,13 @@ class GridFile {
     [[nodiscard]] const GridDescription& description() const;
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this GridFile lives
     [[nodiscard]] std::uint64_t bytes_on_disk() const;
-    // Reads every stored brick and compares its checksum, minimum, maximum and count.
+    // Whether the file still has the size that it had when it was opened: truncated or corrupt when
+    // another program cut or lengthened it. One system call. Codes of a file that is cut between
+    // this call and their use raise SIGBUS, as with any map; nothing of ours ever cuts a file.
+    [[nodiscard]] Status check_whole() const;
+    // Reads the whole file again (not through the map, so a cut file is an error here): header,
+    // table and states are as they were opened; every stored brick has its checksum, minimum,
+    // maximum and count; the places of absent bricks read as zeros.
     [[nodiscard]] Status verify() const;
 
   private:

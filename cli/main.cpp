@@ -16,7 +16,6 @@ int run(int argc, char** argv) {
 
     const Commands commands{
         // Sorted by name.
-        add_grid(app),
         add_info(app),
     };
 

@@ -1,0 +1,39 @@
+// cache/check.h -- what must be true of a grid file beyond its checksum.
+//
+// Inside the cache room only. The writer refuses to write what the reader would refuse to read, by
+// the same functions. Errors are corrupt, with a message that names no file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "base/result.h"
+#include "cache/grid_file.h"
+#include "grid/brick_view.h"
+
+namespace stormcellar::cache {
+
+// Sizes and numbers of the header: the spec, moment, times (years 1970 to 9999), sites (finite)
+// and quantisation (1 or 2 bytes, finite, a positive step); at most format::max_bricks bricks.
+[[nodiscard]] Status check_description(const GridDescription& description,
+                                       const grid::Quantization& quantization);
+
+// Every entry is one of the three kinds in its only form: unused fields zero, counts and codes in
+// range, status blocks used once each and in order; and no status block claims a value.
+[[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
+                                  std::span<const std::byte> states,
+                                  const grid::Quantization& quantization);
+
+[[nodiscard]] std::uint64_t brick_count(const grid::GridSpec& spec);
+
+// Count, minimum and maximum of the cells with a value in a brick of codes.
+struct CodeRange {
+    std::uint16_t value_count = 0;
+    std::uint16_t min_code = 0;
+    std::uint16_t max_code = 0;
+    bool operator==(const CodeRange&) const = default;
+};
+[[nodiscard]] CodeRange code_range(std::span<const std::byte> codes, int code_bytes);
+
+}  // namespace stormcellar::cache

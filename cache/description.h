@@ -1,0 +1,23 @@
+// cache/description.h -- the description section: names and notes as a list of tagged records.
+//
+// Inside the cache room only. Strings are bytes as they came (a file name need not be UTF-8).
+// Records of an unknown kind are skipped, so a later version may add some.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "cache/grid_file.h"
+
+namespace stormcellar::cache {
+
+// The parts of a description that are not in the header: sites and provenance.
+[[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
+
+// Fills sites and provenance. corrupt when a record runs past the end or has an impossible size.
+[[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
+                                        GridDescription& description);
+
+}  // namespace stormcellar::cache

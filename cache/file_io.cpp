@@ -1,0 +1,81 @@
+#include "cache/file_io.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace stormcellar::cache {
+namespace {
+
+ErrorCode code_of(int error_number) {
+    if (error_number == ENOENT || error_number == ENOTDIR) return ErrorCode::not_found;
+    if (error_number == EACCES || error_number == EPERM) return ErrorCode::permission;
+    return ErrorCode::io;
+}
+
+tl::unexpected<Error> system_failure(int error_number) {
+    return fail(code_of(error_number), "{}", std::system_category().message(error_number));
+}
+
+// Fills all of `bytes`; a file that ends before is truncated.
+}  // namespace
+
+Status read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t n =
+            ::pread(file.number(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return system_failure(errno);
+        if (n == 0) return fail(ErrorCode::truncated, "ends at {} bytes", offset);
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+        offset += static_cast<std::uint64_t>(n);
+    }
+    return {};
+}
+
+Result<struct stat> facts_of(const Descriptor& file) {
+    struct stat facts {};
+    if (::fstat(file.number(), &facts) != 0) return system_failure(errno);
+    if (S_ISDIR(facts.st_mode)) return fail(ErrorCode::not_a_file, "is a directory");
+    if (!S_ISREG(facts.st_mode)) return fail(ErrorCode::not_a_file, "is not a regular file");
+    return facts;
+}
+
+Status check_size(std::uint64_t found, std::uint64_t expected) {
+    if (found < expected) {
+        return fail(ErrorCode::truncated, "{} bytes of {}: the file was cut", found, expected);
+    }
+    if (found > expected) {
+        return fail(ErrorCode::corrupt, "{} bytes where {} are expected", found, expected);
+    }
+    return {};
+}
+
+Descriptor::~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+}
+
+Result<Descriptor> open_for_reading(const std::filesystem::path& path) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() < 0) return system_failure(errno);
+    return file;
+}
+
+Map::~Map() {
+    if (start_ != nullptr) ::munmap(const_cast<std::byte*>(start_), size_);
+}
+
+Result<Map> Map::of(const Descriptor& file, std::uint64_t size) {
+    void* start = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, file.number(), 0);
+    if (start == MAP_FAILED) return system_failure(errno);
+    return Map(static_cast<const std::byte*>(start), size);
+}
+
+tl::unexpected<Error> with_path(const std::filesystem::path& path, const Error& error) {
+    return fail(error.code, "{}: {}", path.native(), error.message);
+}
+
+}  // namespace stormcellar::cache

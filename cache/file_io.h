@@ -1,0 +1,68 @@
+// cache/file_io.h -- reading a file that may change under our hands.
+//
+// Inside the cache room only. Messages name no file: the caller puts the path in front.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "base/result.h"
+
+namespace stormcellar::cache {
+
+// An open file, closed at the end.
+class Descriptor {
+  public:
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor();
+    [[nodiscard]] int number() const { return number_; }
+
+  private:
+    int number_;
+};
+
+// A read-only map of a whole file. (Of the whole, because an offset must be a multiple of the
+// machine's page, which may be larger than the format's.)
+class Map {
+  public:
+    static Result<Map> of(const Descriptor& file, std::uint64_t size);
+    Map(Map&& other) noexcept
+        : start_(std::exchange(other.start_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    Map& operator=(Map&&) = delete;
+    Map(const Map&) = delete;
+    Map& operator=(const Map&) = delete;
+    ~Map();
+    [[nodiscard]] std::span<const std::byte> bytes() const { return {start_, size_}; }
+
+  private:
+    Map(const std::byte* start, std::size_t size) : start_(start), size_(size) {}
+    const std::byte* start_;
+    std::size_t size_;
+};
+
+// Opens for reading; never blocks on a FIFO.
+[[nodiscard]] Result<Descriptor> open_for_reading(const std::filesystem::path& path);
+
+// not_a_file unless it is a regular file.
+[[nodiscard]] Result<struct stat> facts_of(const Descriptor& file);
+
+// Fills all of `bytes`; a file that ends before is truncated.
+[[nodiscard]] Status read_at(const Descriptor& file, std::uint64_t offset,
+                             std::span<std::byte> bytes);
+
+// truncated when fewer bytes were found than expected, corrupt when more.
+[[nodiscard]] Status check_size(std::uint64_t found, std::uint64_t expected);
+
+[[nodiscard]] tl::unexpected<Error> with_path(const std::filesystem::path& path,
+                                              const Error& error);
+
+}  // namespace stormcellar::cache

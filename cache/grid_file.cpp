@@ -1,0 +1,203 @@
+// Opening a grid file: nothing in it is used before it was checked.
+//
+// All that steers the reader (header, table, states, names) is read into memory of our own and
+// checked there, so that another program that alters or cuts the file later cannot lead us astray.
+// Only the codes stay on disk and are mapped.
+#include "cache/grid_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "base/checksum.h"
+#include "cache/check.h"
+#include "cache/description.h"
+#include "cache/file_io.h"
+#include "cache/format.h"
+#include "cache/grid_file_mapping.h"
+
+namespace stormcellar::cache {
+namespace {
+
+using format::FileHeader;
+using grid::BrickEntry;
+
+// The fields that say how to read the others. Beyond here sizes can be computed without overflow.
+Status check_identity(const FileHeader& header) {
+    if (header.magic != format::magic) {
+        return fail(ErrorCode::corrupt, "is not a stormcellar grid file");
+    }
+    if (header.byte_order != format::byte_order_mark) {
+        return fail(ErrorCode::unsupported, "was written in another byte order");
+    }
+    if (header.version != format::version || header.required_features != 0) {
+        return fail(ErrorCode::unsupported,
+                    "has version {} and features {:#x}, this software reads version {}",
+                    header.version, header.required_features, format::version);
+    }
+    const bool possible = header.header_size == format::page_size && header.nx >= 1 &&
+                          header.nx <= 16384 && header.ny >= 1 && header.ny <= 16384 &&
+                          header.nz >= 1 && header.nz <= 1024 &&
+                          (header.code_bytes == 1 || header.code_bytes == 2) &&
+                          header.brick_edge == grid::brick_edge && header.projection == 0 &&
+                          header.moment < static_cast<std::uint32_t>(level2::moment_count) &&
+                          header.description_size <= format::max_description_bytes &&
+                          header.states_size <= format::max_metadata_bytes;
+    if (!possible) return fail(ErrorCode::corrupt, "the header holds impossible sizes");
+    return {};
+}
+
+// Every offset must be the one that the sizes give: there is no other layout.
+Result<format::Layout> checked_layout(const FileHeader& header) {
+    const auto along = [](std::uint32_t cells) {
+        return static_cast<std::uint32_t>(grid::bricks_along(static_cast<int>(cells)));
+    };
+    const std::uint64_t bricks = std::uint64_t{header.bricks_x} * header.bricks_y * header.bricks_z;
+    if (header.bricks_x != along(header.nx) || header.bricks_y != along(header.ny) ||
+        header.bricks_z != along(header.nz) || bricks > format::max_bricks) {
+        return fail(ErrorCode::corrupt, "the header holds an impossible number of bricks");
+    }
+    const format::Layout at = format::layout_of(header.nz, header.description_size, bricks,
+                                                header.states_size, header.code_bytes);
+    const bool same = header.levels_offset == at.levels_offset &&
+                      header.description_offset == at.description_offset &&
+                      header.table_offset == at.table_offset &&
+                      header.states_offset == at.states_offset &&
+                      header.codes_offset == at.codes_offset &&
+                      header.codes_size == at.codes_size && header.file_size == at.file_size;
+    if (!same || at.codes_offset > format::max_metadata_bytes) {
+        return fail(ErrorCode::corrupt, "the header holds impossible offsets");
+    }
+    return at;
+}
+
+Status check_checksum(std::vector<std::byte>& metadata, std::uint64_t expected) {
+    const auto field =
+        std::span(metadata).subspan(offsetof(FileHeader, checksum), sizeof(std::uint64_t));
+    std::fill(field.begin(), field.end(), std::byte{0});
+    if (xxh3_64(metadata) != expected) {
+        return fail(ErrorCode::corrupt, "the checksum of header, table and states is wrong");
+    }
+    return {};
+}
+
+UtcTime time_of(std::int64_t milliseconds) {
+    return UtcTime{std::chrono::milliseconds{milliseconds}};
+}
+
+GridDescription description_of(const FileHeader& header, std::span<const std::byte> levels) {
+    GridDescription description;
+    grid::GridSpec& spec = description.spec;
+    spec.projection = static_cast<grid::Projection>(header.projection);
+    spec.center_latitude_deg = header.center_latitude_deg;
+    spec.center_longitude_deg = header.center_longitude_deg;
+    spec.spacing_m = header.spacing_m;
+    spec.nx = static_cast<int>(header.nx);
+    spec.ny = static_cast<int>(header.ny);
+    spec.levels_m.resize(header.nz);
+    std::memcpy(spec.levels_m.data(), levels.data(), levels.size());
+    description.moment = static_cast<level2::Moment>(header.moment);
+    description.time = time_of(header.time_ms);
+    description.start_time = time_of(header.start_time_ms);
+    description.end_time = time_of(header.end_time_ms);
+    return description;
+}
+
+struct Metadata {
+    FileHeader header;
+    format::Layout at;
+    std::vector<std::byte> bytes;
+};
+
+Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size) {
+    Metadata metadata;
+    if (file_size < format::page_size) {
+        return fail(ErrorCode::truncated, "{} bytes: too short for a grid file", file_size);
+    }
+    metadata.bytes.resize(format::page_size);
+    if (Status read = read_at(file, 0, metadata.bytes); !read) return pass_on(read);
+    std::memcpy(&metadata.header, metadata.bytes.data(), sizeof metadata.header);
+    if (Status known = check_identity(metadata.header); !known) return pass_on(known);
+    const auto at = checked_layout(metadata.header);
+    if (!at) return pass_on(at);
+    metadata.at = *at;
+    if (Status whole = check_size(file_size, at->file_size); !whole) return pass_on(whole);
+
+    metadata.bytes.resize(at->codes_offset);
+    const auto rest = std::span(metadata.bytes).subspan(format::page_size);
+    if (Status read = read_at(file, format::page_size, rest); !read) return pass_on(read);
+    if (Status right = check_checksum(metadata.bytes, metadata.header.checksum); !right) {
+        return pass_on(right);
+    }
+    return metadata;
+}
+
+grid::BrickView view_of(const Metadata& metadata, std::span<const std::byte> file) {
+    const FileHeader& header = metadata.header;
+    const format::Layout& at = metadata.at;
+    grid::BrickView view;
+    view.quantization = {static_cast<int>(header.code_bytes), header.first_value, header.step};
+    view.bricks_x = static_cast<int>(header.bricks_x);
+    view.bricks_y = static_cast<int>(header.bricks_y);
+    view.bricks_z = static_cast<int>(header.bricks_z);
+    view.codes = file.subspan(at.codes_offset, at.codes_size);
+    // The table's place is a multiple of 8 in memory that operator new gave.
+    view.bricks = {reinterpret_cast<const BrickEntry*>(metadata.bytes.data() + at.table_offset),
+                   (at.states_offset - at.table_offset) / sizeof(BrickEntry)};
+    view.states =
+        std::span<const std::byte>(metadata.bytes).subspan(at.states_offset, header.states_size);
+    return view;
+}
+
+}  // namespace
+
+Result<GridFile> GridFile::open(const std::filesystem::path& path) {
+    const auto failure = [&](const Error& error) { return with_path(path, error); };
+    Result<Descriptor> file = open_for_reading(path);
+    if (!file) return failure(file.error());
+    const Result<struct stat> facts = facts_of(*file);
+    if (!facts) return failure(facts.error());
+    Result<Metadata> metadata = read_metadata(*file, static_cast<std::uint64_t>(facts->st_size));
+    if (!metadata) return failure(metadata.error());
+
+    const format::Layout at = metadata->at;
+    const std::span<const std::byte> bytes(metadata->bytes);
+    GridDescription description =
+        description_of(metadata->header,
+                       bytes.subspan(at.levels_offset, at.description_offset - at.levels_offset));
+    Status good = decode_description(
+        bytes.subspan(at.description_offset, metadata->header.description_size), description);
+    if (!good) return failure(good.error());
+    Result<Map> map = Map::of(*file, at.file_size);
+    if (!map) return failure(map.error());
+    grid::BrickView view = view_of(*metadata, map->bytes());
+    good = check_description(description, view.quantization);
+    if (good) good = check_bricks(view.bricks, view.states, view.quantization);
+    if (!good) return failure(good.error());
+
+    auto mapping = std::make_unique<Mapping>(
+        Mapping{path, std::move(*file), std::move(metadata->bytes), std::move(*map), at,
+                static_cast<std::uint64_t>(facts->st_blocks) * 512, std::move(description), view});
+    mapping->view.spec = &mapping->description.spec;
+    return GridFile(std::move(mapping));
+}
+
+GridFile::GridFile(std::unique_ptr<Mapping> mapping) : mapping_(std::move(mapping)) {}
+GridFile::GridFile(GridFile&&) noexcept = default;
+GridFile& GridFile::operator=(GridFile&&) noexcept = default;
+GridFile::~GridFile() = default;
+
+const GridDescription& GridFile::description() const {
+    return mapping_->description;
+}
+
+grid::BrickView GridFile::view() const {
+    return mapping_->view;
+}
+
+std::uint64_t GridFile::bytes_on_disk() const {
+    return mapping_->bytes_on_disk;
+}
+
+}  // namespace stormcellar::cache

@@ -1,0 +1,35 @@
+// cache/grid_file_mapping.h -- what an open grid file holds. Inside the cache room only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "cache/file_io.h"
+#include "cache/format.h"
+#include "cache/grid_file.h"
+
+namespace stormcellar::cache {
+
+struct GridFile::Mapping {
+    std::filesystem::path path;
+    Descriptor file;
+    std::vector<std::byte> metadata;  // all bytes before the codes, checked
+    Map map;
+    format::Layout at;
+    std::uint64_t bytes_on_disk = 0;
+    GridDescription description;
+    grid::BrickView view;
+
+    [[nodiscard]] Status check_unchanged_size() const;
+    [[nodiscard]] Status check_metadata() const;
+    [[nodiscard]] Status check_stored_bricks() const;
+    [[nodiscard]] Status check_holes() const;
+    [[nodiscard]] Status check_zeros(std::uint64_t begin, std::uint64_t end) const;
+    [[nodiscard]] std::uint64_t brick_bytes() const {
+        return grid::brick_cells * static_cast<std::uint64_t>(view.quantization.code_bytes);
+    }
+};
+
+}  // namespace stormcellar::cache

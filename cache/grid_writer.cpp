@@ -1,0 +1,234 @@
+// Writing a grid file: metadata first, then every run of stored bricks at its own place.
+#include <algorithm>
+#include <cstring>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <sys/stat.h>
+
+#include "base/checksum.h"
+#include "cache/check.h"
+#include "cache/description.h"
+#include "cache/format.h"
+#include "cache/grid_file.h"
+
+namespace stormcellar::cache {
+namespace {
+
+using grid::BrickEntry;
+using grid::BrickKind;
+using grid::BrickView;
+
+std::int64_t milliseconds_of(UtcTime time) {
+    return time.time_since_epoch().count();
+}
+
+// What the view says of itself must hold before its spans are read.
+Status check_view(const GridDescription& description, const BrickView& view) {
+    const grid::GridSpec& spec = description.spec;
+    const std::uint64_t bricks = brick_count(spec);
+    const bool shape_fits = view.bricks_x == grid::bricks_along(spec.nx) &&
+                            view.bricks_y == grid::bricks_along(spec.ny) &&
+                            view.bricks_z == grid::bricks_along(spec.nz()) &&
+                            view.bricks.size() == bricks;
+    const std::uint64_t code_bytes = static_cast<std::uint64_t>(view.quantization.code_bytes);
+    if (!shape_fits || view.codes.size() != bricks * grid::brick_cells * code_bytes) {
+        return fail(ErrorCode::corrupt, "the bricks do not have the shape of the grid");
+    }
+    for (const BrickEntry& entry : view.bricks) {
+        if (entry.kind != BrickKind::status_only) continue;
+        if ((entry.status_index + std::uint64_t{1}) * format::status_block_bytes >
+            view.states.size()) {
+            return fail(ErrorCode::corrupt, "a brick's states are beyond the states there are");
+        }
+    }
+    return {};
+}
+
+struct Tables {
+    std::vector<BrickEntry> bricks;
+    std::vector<std::byte> states;
+};
+
+std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
+    const std::size_t size =
+        grid::brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
+    return view.codes.subspan(brick * size, size);
+}
+
+// The table in its only form: unused fields zero, status blocks once each and in order. So the
+// same cells give the same bytes, whoever made the view. Counts and checksums are made from the
+// cells, not copied, so that a file never disagrees with its own table.
+Tables canonical_tables(const BrickView& view) {
+    Tables tables;
+    tables.bricks.reserve(view.bricks.size());
+    for (std::size_t i = 0; i < view.bricks.size(); ++i) {
+        const BrickEntry& from = view.bricks[i];
+        BrickEntry entry;
+        entry.kind = from.kind;
+        if (from.kind == BrickKind::uniform) {
+            entry.uniform_status = from.uniform_status;
+        } else if (from.kind == BrickKind::status_only) {
+            const auto block = view.states.subspan(from.status_index * format::status_block_bytes,
+                                                   format::status_block_bytes);
+            entry.status_index =
+                static_cast<std::uint32_t>(tables.states.size() / format::status_block_bytes);
+            entry.checksum = xxh3_64(block);
+            tables.states.insert(tables.states.end(), block.begin(), block.end());
+        } else {
+            const auto codes = codes_of(view, i);
+            const CodeRange range = code_range(codes, view.quantization.code_bytes);
+            entry.value_count = range.value_count;
+            entry.min_code = range.min_code;
+            entry.max_code = range.max_code;
+            entry.checksum = xxh3_64(codes);
+        }
+        tables.bricks.push_back(entry);
+    }
+    return tables;
+}
+
+format::FileHeader header_of(const GridDescription& description, const BrickView& view,
+                             const format::Layout& at, std::uint64_t description_size,
+                             std::uint64_t states_size) {
+    const grid::GridSpec& spec = description.spec;
+    format::FileHeader header;
+    header.magic = format::magic;
+    header.byte_order = format::byte_order_mark;
+    header.version = format::version;
+    header.header_size = static_cast<std::uint32_t>(format::page_size);
+    header.file_size = at.file_size;
+    header.levels_offset = at.levels_offset;
+    header.description_offset = at.description_offset;
+    header.description_size = description_size;
+    header.table_offset = at.table_offset;
+    header.states_offset = at.states_offset;
+    header.states_size = states_size;
+    header.codes_offset = at.codes_offset;
+    header.codes_size = at.codes_size;
+    header.projection = static_cast<std::uint32_t>(spec.projection);
+    header.nx = static_cast<std::uint32_t>(spec.nx);
+    header.ny = static_cast<std::uint32_t>(spec.ny);
+    header.nz = static_cast<std::uint32_t>(spec.nz());
+    header.center_latitude_deg = spec.center_latitude_deg;
+    header.center_longitude_deg = spec.center_longitude_deg;
+    header.spacing_m = spec.spacing_m;
+    header.moment = static_cast<std::uint32_t>(description.moment);
+    header.code_bytes = static_cast<std::uint32_t>(view.quantization.code_bytes);
+    header.first_value = view.quantization.first_value;
+    header.step = view.quantization.step;
+    header.brick_edge = grid::brick_edge;
+    header.bricks_x = static_cast<std::uint32_t>(view.bricks_x);
+    header.bricks_y = static_cast<std::uint32_t>(view.bricks_y);
+    header.bricks_z = static_cast<std::uint32_t>(view.bricks_z);
+    header.time_ms = milliseconds_of(description.time);
+    header.start_time_ms = milliseconds_of(description.start_time);
+    header.end_time_ms = milliseconds_of(description.end_time);
+    return header;
+}
+
+template <class T>
+void put(std::vector<std::byte>& bytes, std::uint64_t offset, std::span<const T> items) {
+    if (!items.empty()) std::memcpy(bytes.data() + offset, items.data(), items.size_bytes());
+}
+
+// All bytes before the codes, checksum included.
+std::vector<std::byte> metadata_bytes(const GridDescription& description, const BrickView& view,
+                                      const format::Layout& at,
+                                      std::span<const std::byte> description_bytes,
+                                      const Tables& tables) {
+    std::vector<std::byte> bytes(at.codes_offset);
+    format::FileHeader header =
+        header_of(description, view, at, description_bytes.size(), tables.states.size());
+    put(bytes, 0, std::span<const format::FileHeader>(&header, 1));
+    put(bytes, at.levels_offset, std::span<const double>(description.spec.levels_m));
+    put(bytes, at.description_offset, description_bytes);
+    put(bytes, at.table_offset, std::span<const BrickEntry>(tables.bricks));
+    put(bytes, at.states_offset, std::span<const std::byte>(tables.states));
+    header.checksum = xxh3_64(bytes);
+    put(bytes, 0, std::span<const format::FileHeader>(&header, 1));
+    return bytes;
+}
+
+// One write for each run of stored bricks that follow each other.
+Status write_codes(AtomicFile& file, const BrickView& view, const format::Layout& at) {
+    const std::uint64_t brick_bytes =
+        grid::brick_cells * static_cast<std::uint64_t>(view.quantization.code_bytes);
+    const auto is_stored = [&](std::size_t i) { return view.bricks[i].kind == BrickKind::stored; };
+    for (std::size_t first = 0; first < view.bricks.size();) {
+        if (!is_stored(first)) {
+            ++first;
+            continue;
+        }
+        std::size_t end = first + 1;
+        while (end < view.bricks.size() && is_stored(end))
+            ++end;
+        const auto run = view.codes.subspan(first * brick_bytes, (end - first) * brick_bytes);
+        if (Status written = file.write_at(at.codes_offset + first * brick_bytes, run); !written) {
+            return written;
+        }
+        first = end;
+    }
+    return {};
+}
+
+// Of the file as it stands now; what was written, when it was already taken away again.
+std::uint64_t size_on_disk(const std::filesystem::path& path, std::uint64_t written) {
+    struct stat facts {};
+    if (::stat(path.c_str(), &facts) != 0) return written;
+    return static_cast<std::uint64_t>(facts.st_blocks) * 512;
+}
+
+Status bad_argument(const std::filesystem::path& path, const Status& status) {
+    return fail(ErrorCode::bad_argument, "{}: {}", path.native(), status.error().message);
+}
+
+}  // namespace
+
+GridDescription describe(const grid::Grid& grid) {
+    return {grid.spec,     grid.moment, grid.time,      grid.start_time,
+            grid.end_time, grid.sites,  grid.provenance};
+}
+
+Result<std::uint64_t> write_grid_file(FileSystem& file_system, const std::filesystem::path& path,
+                                      const GridDescription& description,
+                                      const grid::BrickView& view) {
+    Status good = check_description(description, view.quantization);
+    if (good) good = check_view(description, view);
+    if (!good) return pass_on(bad_argument(path, good));
+    const Tables tables = canonical_tables(view);
+    good = check_bricks(tables.bricks, tables.states, view.quantization);
+    if (!good) return pass_on(bad_argument(path, good));
+
+    const std::vector<std::byte> names = encode_description(description);
+    const format::Layout at = format::layout_of(
+        description.spec.levels_m.size(), names.size(), tables.bricks.size(), tables.states.size(),
+        static_cast<std::uint64_t>(view.quantization.code_bytes));
+    if (names.size() > format::max_description_bytes) {
+        return fail(ErrorCode::bad_argument, "{}: {} bytes of names and notes, more than {}",
+                    path.native(), names.size(), format::max_description_bytes);
+    }
+    if (at.codes_offset > format::max_metadata_bytes) {
+        return fail(ErrorCode::bad_argument, "{}: {} bytes of metadata, more than {}",
+                    path.native(), at.codes_offset, format::max_metadata_bytes);
+    }
+
+    Result<AtomicFile> file = AtomicFile::create(file_system, path);
+    if (!file) return pass_on(file);
+    const std::vector<std::byte> metadata = metadata_bytes(description, view, at, names, tables);
+    Status written = file->set_size(at.file_size);
+    if (written) written = file->write_at(0, metadata);
+    if (written) written = write_codes(*file, view, at);
+    if (written) written = file->commit();
+    if (!written) return pass_on(written);
+
+    const auto stored =
+        std::count_if(tables.bricks.begin(), tables.bricks.end(),
+                      [](const BrickEntry& b) { return b.kind == BrickKind::stored; });
+    return size_on_disk(
+        path, metadata.size() + static_cast<std::uint64_t>(stored) * grid::brick_cells *
+                                    static_cast<std::uint64_t>(view.quantization.code_bytes));
+}
+
+}  // namespace stormcellar::cache

@@ -1,0 +1,131 @@
+// Checking a grid file that is open: is it still what it was when it was written?
+//
+// Reads through the descriptor, never through the map: a file that was cut meanwhile is then an
+// error and not a signal.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include <unistd.h>
+
+#include "base/checksum.h"
+#include "cache/check.h"
+#include "cache/grid_file.h"
+#include "cache/grid_file_mapping.h"
+
+namespace stormcellar::cache {
+
+using grid::BrickEntry;
+using grid::BrickKind;
+
+Status GridFile::check_whole() const {
+    Status whole = mapping_->check_unchanged_size();
+    if (!whole) return with_path(mapping_->path, whole.error());
+    return {};
+}
+
+Status GridFile::verify() const {
+    Status good = mapping_->check_unchanged_size();
+    if (good) good = mapping_->check_metadata();
+    if (good) good = mapping_->check_stored_bricks();
+    if (good) good = mapping_->check_holes();
+    if (!good) return with_path(mapping_->path, good.error());
+    return {};
+}
+
+Status GridFile::Mapping::check_unchanged_size() const {
+    const Result<struct stat> facts = facts_of(file);
+    if (!facts) return pass_on(facts);
+    return check_size(static_cast<std::uint64_t>(facts->st_size), at.file_size);
+}
+
+// The metadata on disk may have changed since it was read: that is damage too, though it cannot
+// lead this reader astray any more.
+Status GridFile::Mapping::check_metadata() const {
+    std::vector<std::byte> bytes(metadata.size());
+    if (Status read = read_at(file, 0, bytes); !read) return read;
+    const auto field = std::span(bytes).subspan(offsetof(format::FileHeader, checksum), 8);
+    std::uint64_t checksum = 0;
+    std::memcpy(&checksum, field.data(), sizeof checksum);
+    std::fill(field.begin(), field.end(), std::byte{0});
+    if (bytes != metadata || checksum != xxh3_64(metadata)) {
+        return fail(ErrorCode::corrupt, "header, table or states were altered");
+    }
+    for (const BrickEntry& entry : view.bricks) {
+        if (entry.kind != BrickKind::status_only) continue;
+        const auto block = view.states.subspan(entry.status_index * format::status_block_bytes,
+                                               format::status_block_bytes);
+        if (xxh3_64(block) != entry.checksum) {
+            return fail(ErrorCode::corrupt, "the states {} have a wrong checksum",
+                        entry.status_index);
+        }
+    }
+    return {};
+}
+
+Status GridFile::Mapping::check_stored_bricks() const {
+    std::vector<std::byte> codes(brick_bytes());
+    std::uint64_t stored = 0;
+    std::uint64_t damaged = 0;
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < view.bricks.size(); ++i) {
+        const BrickEntry& entry = view.bricks[i];
+        if (entry.kind != BrickKind::stored) continue;
+        ++stored;
+        Status read = read_at(file, at.codes_offset + i * codes.size(), codes);
+        if (!read) return read;
+        const CodeRange expected{entry.value_count, entry.min_code, entry.max_code};
+        if (xxh3_64(codes) == entry.checksum &&
+            code_range(codes, view.quantization.code_bytes) == expected) {
+            continue;
+        }
+        ++damaged;
+        if (!first) first = i;
+    }
+    if (damaged == 0) return {};
+    return fail(ErrorCode::corrupt, "{} of {} stored bricks are damaged, the first is brick {}",
+                damaged, stored, *first);
+}
+
+// The places of absent bricks must read as zeros.
+Status GridFile::Mapping::check_holes() const {
+    const auto is_stored = [&](std::size_t i) { return view.bricks[i].kind == BrickKind::stored; };
+    for (std::size_t begin = 0; begin < view.bricks.size();) {
+        if (is_stored(begin)) {
+            ++begin;
+            continue;
+        }
+        std::size_t end = begin + 1;
+        while (end < view.bricks.size() && !is_stored(end))
+            ++end;
+        const Status zeros = check_zeros(at.codes_offset + begin * brick_bytes(),
+                                         at.codes_offset + end * brick_bytes());
+        if (!zeros) return zeros;
+        begin = end;
+    }
+    return {};
+}
+
+Status GridFile::Mapping::check_zeros(std::uint64_t begin, std::uint64_t end) const {
+    std::array<std::byte, format::page_size> page{};
+    while (begin < end) {
+        // Holes are skipped without being read; where the file system cannot tell, all is data.
+        const off_t data = ::lseek(file.number(), static_cast<off_t>(begin), SEEK_DATA);
+        if (data < 0 && errno == ENXIO) return {};
+        if (data >= 0 && static_cast<std::uint64_t>(data) >= end) return {};
+        if (data >= 0) begin = std::max(begin, static_cast<std::uint64_t>(data));
+        const auto part = std::span(page).first(std::min<std::uint64_t>(page.size(), end - begin));
+        if (Status read = read_at(file, begin, part); !read) return read;
+        if (std::any_of(part.begin(), part.end(), [](std::byte b) { return b != std::byte{0}; })) {
+            return fail(ErrorCode::corrupt, "bytes stand at {}, where no brick is stored", begin);
+        }
+        begin += part.size();
+    }
+    return {};
+}
+
+}  // namespace stormcellar::cache

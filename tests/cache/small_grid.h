@@ -1,0 +1,13 @@
+// tests/cache/small_grid.h -- a grid with every kind of brick, small enough to damage byte by byte.
+#pragma once
+
+#include "grid/brick_grid.h"
+#include "grid/grid.h"
+
+namespace stormcellar::testing {
+
+// 40 x 24 x 18 cells: 3 x 2 x 2 bricks. Values, folded, no echo and not seen cells; some bricks
+// are uniform, some hold states alone, some are stored.
+[[nodiscard]] grid::Grid small_grid();
+
+}  // namespace stormcellar::testing
