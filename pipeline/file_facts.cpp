@@ -1,0 +1,67 @@
+#include "pipeline/file_facts.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include <sys/stat.h>
+
+#include "base/station_table.h"
+
+namespace stormcellar::pipeline {
+
+Result<FileStamp> stamp_of(const std::filesystem::path& path) {
+    struct stat facts {};
+    if (::lstat(path.c_str(), &facts) != 0) {
+        const int error_number = errno;
+        const bool missing = error_number == ENOENT || error_number == ENOTDIR;
+        return fail(missing ? ErrorCode::not_found : ErrorCode::io, "{}: {}", path.native(),
+                    std::system_category().message(error_number));
+    }
+    return FileStamp{
+        static_cast<std::uint64_t>(facts.st_size),
+        std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + std::int64_t{facts.st_mtim.tv_nsec},
+        S_ISREG(facts.st_mode)};
+}
+
+bool has_ended(const level2::Volume& volume) {
+    if (volume.sweeps.empty() || volume.sweeps.back().radials.empty()) return false;
+    return volume.sweeps.back().radials.back().status ==
+           static_cast<std::uint8_t>(level2::RadialStatus::end_of_volume);
+}
+
+catalog::VolumeFacts facts_of(const level2::Volume& volume) {
+    catalog::VolumeFacts facts;
+    facts.start_time = volume.start_time();
+    if (volume.header) facts.volume_number = volume.header->volume_number();
+    facts.vcp = volume.vcp;
+    facts.sweep_count = static_cast<int>(volume.sweeps.size());
+    facts.radial_count = static_cast<int>(volume.radial_count());
+    facts.complete = has_ended(volume);
+    for (const level2::Sweep& sweep : volume.sweeps) {
+        for (const level2::Radial& radial : sweep.radials) {
+            facts.end_time = std::max(facts.end_time.value_or(radial.time), radial.time);
+        }
+    }
+    return facts;
+}
+
+std::string reason_of(const level2::DecodeReport& report) {
+    const auto counts = [](const level2::Problem& problem) {
+        return problem.severity != level2::Severity::note;
+    };
+    const auto number = std::count_if(report.problems.begin(), report.problems.end(), counts);
+    if (number == 0) return {};
+    const auto gravest =
+        std::max_element(report.problems.begin(), report.problems.end(),
+                         [](const auto& a, const auto& b) { return a.severity < b.severity; });
+    if (number == 1) return gravest->message;
+    return fmt::format("{} (and {} more)", gravest->message, number - 1);
+}
+
+std::string station_of_name(const std::filesystem::path& path) {
+    const std::string name = path.filename().string().substr(0, 4);
+    return find_station(name) ? name : std::string{};
+}
+
+}  // namespace stormcellar::pipeline

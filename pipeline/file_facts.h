@@ -1,0 +1,38 @@
+// pipeline/file_facts.h -- what the catalog is told about a raw file and its volumes.
+//
+// Inside the pipeline room only. Nothing here opens the file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "catalog/catalog.h"
+#include "level2/decode.h"
+
+namespace stormcellar::pipeline {
+
+// What tells two states of a file apart.
+struct FileStamp {
+    std::uint64_t size_bytes = 0;
+    std::int64_t modified_ns = 0;
+    bool regular = false;  // symbolic links are not followed, so they are not regular
+    bool operator==(const FileStamp&) const = default;
+};
+// not_found when there is no such file, else io.
+[[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path);
+
+[[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume);
+
+// Whether the last radial of the volume says that the volume ends with it.
+[[nodiscard]] bool has_ended(const level2::Volume& volume);
+
+// The gravest problem in one line, with how many there are; empty when there are none that count.
+[[nodiscard]] std::string reason_of(const level2::DecodeReport& report);
+
+// The station that the file's name begins with, when it is one of the table; else empty.
+[[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
+
+}  // namespace stormcellar::pipeline

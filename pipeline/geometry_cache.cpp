@@ -1,0 +1,36 @@
+#include "pipeline/geometry_cache.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+bool same_site(const grid::SitePosition& a, const grid::SitePosition& b) {
+    return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg &&
+           a.altitude_m == b.altitude_m;
+}
+
+}  // namespace
+
+std::shared_ptr<const grid::ColumnGeometry> GeometryCache::find(const grid::SitePosition& site,
+                                                                const grid::GridSpec& spec) {
+    const std::scoped_lock lock(mutex_);
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+        if (same_site(entry->site, site) && entry->spec == spec) {
+            entries_.splice(entries_.begin(), entries_, entry);
+            return entry->geometry;
+        }
+    }
+    return nullptr;
+}
+
+Result<std::shared_ptr<const grid::ColumnGeometry>> GeometryCache::get(
+    const grid::SitePosition& site, const grid::GridSpec& spec) {
+    if (auto found = find(site, spec)) return found;
+    auto made = grid::make_column_geometry(site, spec);
+    if (!made) return made;
+    const std::scoped_lock lock(mutex_);
+    entries_.push_front({site, spec, *made});
+    if (entries_.size() > capacity_) entries_.pop_back();
+    return made;
+}
+
+}  // namespace stormcellar::pipeline

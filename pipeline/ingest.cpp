@@ -1,0 +1,213 @@
+#include "pipeline/ingest.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "base/checksum.h"
+#include "base/file_system.h"
+#include "grid/brick_grid.h"
+#include "level2/decode.h"
+#include "pipeline/file_facts.h"
+#include "pipeline/geometry_cache.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::FileFacts;
+using catalog::FileState;
+using Clock = std::chrono::steady_clock;
+
+// A geometry of the default grid takes a few MiB.
+constexpr std::size_t kept_geometries = 16;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool has_moment(const level2::Volume& volume, level2::Moment moment) {
+    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
+                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
+}
+
+// The reason without the path that begins it: the catalog has the path beside it.
+std::string without_path(const std::string& message, const fs::path& path) {
+    const std::string start = path.native() + ": ";
+    return message.starts_with(start) ? message.substr(start.size()) : message;
+}
+
+}  // namespace
+
+struct Ingestor::Impl {
+    catalog::Catalog& catalog;
+    const cache::Store& store;
+    IngestOptions options;
+    GeometryCache geometries{kept_geometries};
+
+    Result<IngestOutcome> reject(const FileFacts& facts, std::string reason, IngestOutcome outcome);
+    Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
+                                  IngestOutcome outcome);
+    Result<IngestOutcome> grid_all(FileFacts facts, const std::vector<level2::Volume>& volumes,
+                                   IngestOutcome outcome);
+    Status grid_one(const FileFacts& facts, const level2::Volume& volume, IngestOutcome& outcome);
+};
+
+Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
+    : impl_(new Impl{catalog, store, std::move(options), GeometryCache{kept_geometries}}) {}
+Ingestor::~Ingestor() = default;
+
+Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string reason,
+                                             IngestOutcome outcome) {
+    FileFacts rejected = facts;
+    rejected.state = FileState::rejected;
+    rejected.reason = std::move(reason);
+    if (const auto registered = catalog.register_file(rejected); !registered) {
+        return pass_on(registered);
+    }
+    outcome.result = IngestResult::rejected;
+    outcome.station = facts.station;
+    outcome.reason = rejected.reason;
+    return outcome;
+}
+
+// Grids one volume and commits it. A volume whose radar nobody can place has no grid.
+Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& volume,
+                                IngestOutcome& outcome) {
+    const auto antenna = level2::antenna_position(volume);
+    if (!antenna || volume.station.empty()) {
+        outcome.result = IngestResult::no_position;
+        outcome.reason = "neither the file nor the station table says where the radar stands";
+        return {};
+    }
+    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    spec.spacing_m = options.spacing_m;
+    spec.nx = options.nx;
+    spec.ny = options.ny;
+    if (!options.levels_m.empty()) spec.levels_m = options.levels_m;
+
+    const auto start = Clock::now();
+    const auto geometry = geometries.get(site, spec);
+    if (!geometry) return pass_on(geometry);
+    grid::GridderOptions gridder;
+    gridder.moment = options.moment;
+    gridder.threads = options.grid_threads;
+    auto made = grid::make_grid(volume, site, **geometry, gridder);
+    if (!made) return pass_on(made);
+    made->provenance.source_files = {facts.path.filename().string()};
+    made->provenance.partial = facts.state != FileState::complete;
+    if (antenna->disagreement) made->provenance.notes.push_back(*antenna->disagreement);
+    const auto bricks = grid::BrickGrid::from(*made, grid::default_quantization(options.moment));
+    outcome.grid_s += seconds_since(start);
+
+    const auto commit_start = Clock::now();
+    auto path = store.commit(volume.station, cache::describe(*made), bricks.view());
+    outcome.commit_s += seconds_since(commit_start);
+    if (!path) return pass_on(path);
+    outcome.grids.push_back(std::move(*path));
+    return {};
+}
+
+// Grids first, then settles the catalog's row: a crash between the two makes the work be done
+// again, never lost.
+Result<IngestOutcome> Ingestor::Impl::grid_all(FileFacts facts,
+                                               const std::vector<level2::Volume>& volumes,
+                                               IngestOutcome outcome) {
+    outcome.result = IngestResult::no_moment;
+    for (const level2::Volume& volume : volumes) {
+        if (!has_moment(volume, options.moment)) continue;
+        if (const Status gridded = grid_one(facts, volume, outcome); !gridded) {
+            return pass_on(gridded);
+        }
+    }
+    if (!outcome.grids.empty()) outcome.result = IngestResult::gridded;
+    if (const auto registered = catalog.register_file(facts); !registered) {
+        return pass_on(registered);
+    }
+    return outcome;
+}
+
+Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded decoded,
+                                              bool finish_partial, IngestOutcome outcome) {
+    facts.reason = reason_of(decoded.report);
+    const bool complete = decoded.report.complete;
+    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    for (const level2::Volume& volume : volumes)
+        facts.volumes.push_back(facts_of(volume));
+    if (!volumes.empty()) {
+        facts.station = volumes.front().station;
+        outcome.volume_time = volumes.front().start_time();
+    }
+    outcome.station = facts.station;
+    outcome.reason = facts.reason;
+
+    facts.state = FileState::seen;
+    if (const auto registered = catalog.register_file(facts); !registered) {
+        return pass_on(registered);
+    }
+    const bool ended = !volumes.empty() && has_ended(volumes.back());
+    if (!ended && !finish_partial) {
+        outcome.result = IngestResult::incomplete;
+        return outcome;
+    }
+    facts.state = complete ? FileState::complete : FileState::partial;
+    return grid_all(std::move(facts), volumes, std::move(outcome));
+}
+
+Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
+    IngestOutcome outcome;
+    const auto before = stamp_of(path);
+    if (!before) {
+        if (before.error().code != ErrorCode::not_found) return pass_on(before);
+        if (const auto marked = impl_->catalog.mark_gone(path); !marked) return pass_on(marked);
+        outcome.result = IngestResult::vanished;
+        return outcome;
+    }
+    const auto settled = impl_->catalog.is_settled(path, before->size_bytes, before->modified_ns);
+    if (!settled) return pass_on(settled);
+    if (*settled) {
+        outcome.result = IngestResult::unchanged;
+        return outcome;
+    }
+
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_name(path);
+    facts.size_bytes = before->size_bytes;
+    facts.modified_ns = before->modified_ns;
+    if (!before->regular) return impl_->reject(facts, "is not a regular file", outcome);
+    const auto read_start = Clock::now();
+    const auto bytes = read_file(path);
+    outcome.read_s = seconds_since(read_start);
+    const auto after = stamp_of(path);
+    if (!bytes && after) {
+        return impl_->reject(facts, without_path(bytes.error().message, path), outcome);
+    }
+    if (!bytes || !after || *after != *before) {
+        outcome.result = IngestResult::incomplete;
+        outcome.reason = "changed while it was read";
+        return outcome;
+    }
+    facts.content_hash = xxh3_64(*bytes);
+
+    const auto decode_start = Clock::now();
+    level2::DecodeOptions decode_options;
+    decode_options.threads = impl_->options.decode_threads;
+    decode_options.fallback_station = facts.station;
+    auto decoded = level2::decode(*bytes, decode_options);
+    outcome.decode_s = seconds_since(decode_start);
+    if (!decoded) {
+        const ErrorCode code = decoded.error().code;
+        if (!finish_partial && (code == ErrorCode::empty || code == ErrorCode::truncated)) {
+            outcome.result = IngestResult::incomplete;  // there may be more to come
+            outcome.reason = decoded.error().message;
+            return outcome;
+        }
+        return impl_->reject(facts, decoded.error().message, outcome);
+    }
+    return impl_->take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
+}
+
+}  // namespace stormcellar::pipeline
