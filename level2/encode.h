@@ -1,11 +1,17 @@
 // level2/encode.h -- Volume -> bytes: the writer.
 //
-// Writes an Archive II file as the RDA would send it: a 24-byte header (AR2V0006), a metadata
-// record with messages 15, 13, 18, 3, 5 and 2, then LDM bzip2 records of up to 120 message 31
-// radials that never span two sweeps; the last control word is negative. decode(encode(v)) gives
-// the same sweeps, codes, geometry, times and VCP to the bit for volumes of message 31.
-// Errors: bad_argument for a volume that message 31 cannot hold (no station, no position, more
-// than 65,535 gates, rows that do not match).
+// Writes an Archive II file as the RDA would send it: a 24-byte header, a metadata record of 134
+// frames with messages 5 and 2 at their places (the frames of clutter maps and adaptation data stay
+// empty, as TDWRs send them: a Volume does not hold them, and they are not made up), then LDM bzip2
+// records of up to 120 message 31 radials that never span two sweeps; the last control word is
+// negative. decode(encode(v)) gives the same volume to the bit for volumes of message 31; one
+// without a header gets one (AR2V0006.001, the first radial's time).
+// Errors: bad_argument for a volume that message 31 cannot hold (message 1, no station, no volume
+// data block, numbers beyond their fields, rows that do not match). Nothing is rounded in silence,
+// beyond the fields' own steps: elevation of a cut 180/32768 deg, Nyquist velocity 0.01 m/s,
+// unambiguous range 100 m, thresholds 0.1 and 0.125 dB.
+// Source: ICD 2620002W tables II, IV, XI, XVII; ICD 2620010 section 7.
+// Thread contract: encode() is a pure function.
 #pragma once
 
 #include <cstddef>

@@ -173,6 +173,19 @@ Bytes bzip2(std::span<const std::byte> bytes, int level) {
     return out;
 }
 
+Bytes unpack_bzip2(std::span<const std::byte> bytes) {
+    unsigned size = 64U << 20U;
+    Bytes out(size);
+    Bytes in{bytes.begin(), bytes.end()};
+    if (BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(out.data()), &size,
+                                   reinterpret_cast<char*>(in.data()),
+                                   static_cast<unsigned>(in.size()), 0, 0) != BZ_OK) {
+        throw std::runtime_error("not a bzip2 stream");
+    }
+    out.resize(size);
+    return out;
+}
+
 Bytes ldm_record(std::span<const std::byte> messages, bool last, int level) {
     const Bytes stream = bzip2(messages, level);
     const auto length = static_cast<std::uint32_t>(stream.size());

@@ -1,0 +1,14 @@
+// tests/level2/same_volume.h -- whether two volumes are the same to the bit.
+#pragma once
+
+#include <string>
+
+#include "level2/volume.h"
+
+namespace stormcellar::level2 {
+
+// Where the volumes first differ, as "sweep 3, radial 17"; empty when they do not. Numbers are
+// compared as bits, so a NaN equals itself and 0 does not equal -0.
+[[nodiscard]] std::string difference(const Volume& a, const Volume& b);
+
+}  // namespace stormcellar::level2
