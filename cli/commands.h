@@ -32,6 +32,7 @@ struct Command {
 // Every subcommand, one line each in cli/main.cpp.
 using Commands = std::vector<Command>;
 
+Command add_grid(CLI::App& app);
 Command add_info(CLI::App& app);
 
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status

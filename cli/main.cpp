@@ -16,6 +16,7 @@ int run(int argc, char** argv) {
 
     const Commands commands{
         // Sorted by name.
+        add_grid(app),
         add_info(app),
     };
 

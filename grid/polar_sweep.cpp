@@ -40,8 +40,8 @@ std::vector<float> value_table(const level2::SweepMoment& moment) {
     return values;
 }
 
-std::vector<float> limit_curve(const level2::SweepMoment& moment, double attenuation_db_per_km) {
-    const DetectionLimit at_zero_dbz{0, attenuation_db_per_km};
+std::vector<float> spreading_curve(const level2::SweepMoment& moment) {
+    const DetectionLimit at_zero_dbz{0, 0};
     std::vector<float> curve;
     for (std::int32_t gate = 0; gate < moment.gate_stride; ++gate)
         curve.push_back(static_cast<float>(at_zero_dbz.at(moment.range_m(gate))));
@@ -87,9 +87,6 @@ PolarSweep::PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
       upper_edge_(
           height_table(beam, chosen.elevation_deg + options.half_beam_deg, options.table_size)),
       azimuths_(azimuth_table(sweep, chosen)) {
-    const double attenuation_db_per_km =
-        detection_limit(sweep.radials[chosen.radials.front()], {}, options.is_tdwr)
-            .attenuation_db_per_km;
     for (const level2::SweepMoment& moment : sweep.moments) {
         if (moment.moment != options.moment || moment.gate_spacing_m <= 0) continue;
         Kind kind;
@@ -98,7 +95,7 @@ PolarSweep::PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
         kind.first_gate = static_cast<float>(std::max(
             0.0, std::ceil(-static_cast<double>(moment.first_gate_m) / moment.gate_spacing_m)));
         kind.values = value_table(moment);
-        kind.limit_curve_dbz = limit_curve(moment, attenuation_db_per_km);
+        kind.spreading_db = spreading_curve(moment);
         kinds_.push_back(std::move(kind));
     }
     add_rows(sweep, chosen, options);
@@ -113,8 +110,10 @@ void PolarSweep::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
             const level2::SweepMoment& moment = *kinds_[kind].moment;
             row.kind = static_cast<std::uint32_t>(kind);
             row.gate_count = gates_of(moment, radial);
-            row.limit_at_1km_dbz = static_cast<float>(
-                detection_limit(sweep.radials[radial], moment, options.is_tdwr).at_1km_dbz);
+            const DetectionLimit limit =
+                detection_limit(sweep.radials[radial], moment, options.is_tdwr);
+            row.limit_at_1km_dbz = static_cast<float>(limit.at_1km_dbz);
+            row.attenuation_db_per_m = static_cast<float>(limit.attenuation_db_per_km / 1000);
         }
         rows_.push_back(row);
     }
@@ -138,8 +137,10 @@ Sample PolarSweep::sample(float azimuth_deg, ArcPlace place) const {
         const float value = moment.word_size_bits == 8 ? kind.values[code] : moment.value_of(code);
         return {CellStatus::value, value, 0};
     }
-    const float limit_dbz =
-        row.limit_at_1km_dbz + kind.limit_curve_dbz[static_cast<std::size_t>(gate)];
+    const auto range_m = static_cast<float>(moment.range_m(gate));
+    const float limit_dbz = row.limit_at_1km_dbz +
+                            kind.spreading_db[static_cast<std::size_t>(gate)] +
+                            row.attenuation_db_per_m * range_m;
     return {status_of_flag(moment.moment, code), 0, limit_dbz};
 }
 

@@ -74,16 +74,17 @@ class PolarSweep {
     // The radials of a sweep that share gate geometry and coding.
     struct Kind {
         const level2::SweepMoment* moment = nullptr;
-        ArcTable gate;                       // gate number plus one half: its floor is the nearest
-        float first_gate = 0;                // the first that is not at negative range
-        std::vector<float> values;           // by code, for 8-bit codes
-        std::vector<float> limit_curve_dbz;  // by gate, for 0 dBZ at 1 km
+        ArcTable gate;                    // gate number plus one half: its floor is the nearest
+        float first_gate = 0;             // the first that is not at negative range
+        std::vector<float> values;        // by code, for 8-bit codes
+        std::vector<float> spreading_db;  // by gate: 20 log10 of the range in km
     };
     struct Row {
         std::uint32_t kind = 0;
         std::uint32_t radial = 0;
         std::int32_t gate_count = 0;
         float limit_at_1km_dbz = 0;
+        float attenuation_db_per_m = 0;
     };
 
     void add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,

@@ -1,0 +1,60 @@
+// export/netcdf_builder.h -- builds a netCDF-4 file in memory; internal to export.
+//
+// The first failure sticks: later calls do nothing, and finish() gives it. So a writer may say all
+// that a file holds and check once.
+// Thread contract: the netCDF library is not thread-safe; hold library_mutex() while a builder
+// lives.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace stormcellar::netcdf {
+
+[[nodiscard]] std::mutex& library_mutex();
+
+class NetcdfBuilder {
+  public:
+    NetcdfBuilder();
+    NetcdfBuilder(const NetcdfBuilder&) = delete;
+    NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
+    ~NetcdfBuilder();
+
+    // Stands for "no variable" and "the file": its attributes are the global ones.
+    static constexpr int file = -1;
+
+    int dimension(const char* name, std::size_t size);
+    // Types are those of netcdf.h. No dimensions: a scalar.
+    int variable(const char* name, int type, const std::vector<int>& dimensions);
+    void chunks(int variable, const std::vector<std::size_t>& sizes);
+    void deflate(int variable, int level);
+    void fill_value(int variable, float value);
+    void text(int variable, const char* name, std::string_view value);
+    void number(int variable, const char* name, double value);
+    void number(int variable, const char* name, int value);
+    void numbers(int variable, const char* name, std::span<const double> values);
+    void bytes(int variable, const char* name, std::span<const signed char> values);
+
+    void write(int variable, std::span<const double> values);
+    void write(int variable, std::span<const float> values);
+    void write(int variable, std::span<const signed char> values);
+
+    // The bytes of the file; the builder is then closed.
+    Result<std::vector<std::byte>> finish();
+
+  private:
+    bool good(int code, const char* doing);
+
+    int id_ = -1;
+    bool open_ = false;
+    int failure_ = 0;
+    std::string failed_doing_;
+};
+
+}  // namespace stormcellar::netcdf

@@ -1,0 +1,91 @@
+#include "grid/column_geometry.h"
+
+#include <cmath>
+
+#include <GeographicLib/AzimuthalEquidistant.hpp>
+#include <gtest/gtest.h>
+
+#include "grid/gridder.h"
+#include "grid/site_frame.h"
+
+namespace stormcellar::grid {
+namespace {
+
+const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
+
+// The slow way: GeographicLib's own projection, then the geodesic from the site.
+PolarPoint slow_place(const SitePosition& from, const GridSpec& spec, int ix, int iy) {
+    const GeographicLib::AzimuthalEquidistant plane;
+    double latitude_deg = 0;
+    double longitude_deg = 0;
+    plane.Reverse(spec.center_latitude_deg, spec.center_longitude_deg, spec.x_m(ix), spec.y_m(iy),
+                  latitude_deg, longitude_deg);
+    return SiteFrame(from.latitude_deg, from.longitude_deg).to_polar({latitude_deg, longitude_deg});
+}
+
+void expect_places(const SitePosition& from, const GridSpec& spec) {
+    const auto geometry = make_column_geometry(from, spec);
+    ASSERT_TRUE(geometry);
+    for (int iy = 0; iy < spec.ny; iy += 3) {
+        for (int ix = 0; ix < spec.nx; ix += 3) {
+            const ColumnPlace place = (*geometry)->row(iy)[static_cast<std::size_t>(ix)];
+            const PolarPoint slow = slow_place(from, spec, ix, iy);
+            ASSERT_NEAR(place.arc_m, slow.arc_m, 0.02);
+            ASSERT_GE(place.azimuth_deg, 0);
+            ASSERT_LT(place.azimuth_deg, 360);
+            double turn_deg = std::abs(place.azimuth_deg - slow.azimuth_deg);
+            turn_deg = std::min(turn_deg, 360 - turn_deg);
+            if (slow.arc_m > 1) {
+                ASSERT_LT(turn_deg, 2e-5);
+            }
+        }
+    }
+}
+
+TEST(ColumnGeometry, CentredAtTheSite) {
+    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
+    expect_places(site, spec);
+    spec.nx = 61;  // a column over the site itself
+    spec.ny = 61;
+    expect_places(site, spec);
+}
+
+TEST(ColumnGeometry, CentredElsewhere) {
+    GridSpec spec = default_spec(36.1, -96.2);
+    spec.nx = spec.ny = 100;
+    spec.spacing_m = 4000;
+    expect_places(site, spec);
+}
+
+TEST(ColumnGeometry, AtThePoleAndAcrossTheAntimeridian) {
+    GridSpec spec = default_spec(89.9, 10);
+    spec.nx = spec.ny = 40;
+    expect_places({"XPOL", 89.5, 100, 0}, spec);
+    spec = default_spec(13.45, -179.9);
+    spec.nx = spec.ny = 40;
+    expect_places({"XANT", 13.45, 179.95, 80}, spec);
+}
+
+TEST(ColumnGeometry, ColumnPositionsAreOnTheProjectionsPlane) {
+    const GridSpec spec = default_spec(35, -97);
+    const GeoPoint point = column_position(spec, 459, 0);
+    const PolarPoint polar = SiteFrame(35, -97).to_polar(point);
+    EXPECT_NEAR(polar.arc_m, std::hypot(229500, 229500), 1e-6);
+    EXPECT_NEAR(polar.azimuth_deg, 135, 1e-9);
+}
+
+TEST(ColumnGeometry, RefusesWhatIsNotOnTheEarth) {
+    const GridSpec spec = default_spec(35, -97);
+    EXPECT_FALSE(make_column_geometry({"XXXX", 91, 0, 0}, spec));
+    EXPECT_FALSE(make_column_geometry({"XXXX", std::nan(""), 0, 0}, spec));
+    EXPECT_FALSE(make_column_geometry({"XXXX", 35, HUGE_VAL, 0}, spec));
+    EXPECT_FALSE(make_column_geometry({"XXXX", 35, 0, 1e5}, spec));
+    GridSpec bad = spec;
+    bad.nx = 0;
+    const auto refused = make_column_geometry(site, bad);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+}
+
+}  // namespace
+}  // namespace stormcellar::grid
