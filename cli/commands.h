@@ -32,6 +32,8 @@ struct Command {
 // Every subcommand, one line each in cli/main.cpp.
 using Commands = std::vector<Command>;
 
+Command add_cache(CLI::App& app);
+Command add_catalog(CLI::App& app);
 Command add_grid(CLI::App& app);
 Command add_info(CLI::App& app);
 

@@ -1,0 +1,222 @@
+// stormcellar catalog stations|list|latest|oldest|get: query the shadow directories.
+#include "catalog/catalog.h"
+
+#include <filesystem>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "base/file_system.h"
+#include "cli/commands.h"
+#include "cli/query_options.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::Catalog;
+using catalog::CatalogEntry;
+
+struct CatalogOptions {
+    std::string directory;
+    std::string station;
+    TimeRangeOptions times;
+    bool rejected = false;
+    bool json = false;
+    std::string output;
+    bool force = false;
+};
+
+nlohmann::json to_json(const CatalogEntry& entry) {
+    return {{"station", entry.station},
+            {"path", entry.path.string()},
+            {"size", entry.size_bytes},
+            {"state", catalog::file_state_name(entry.state)},
+            {"reason", entry.reason},
+            {"start_time", json_time(entry.volume.start_time)},
+            {"end_time", json_time(entry.volume.end_time)},
+            {"volume_number",
+             entry.volume.volume_number ? nlohmann::json(*entry.volume.volume_number) : nullptr},
+            {"generation", entry.generation},
+            {"vcp", entry.volume.vcp ? nlohmann::json(*entry.volume.vcp) : nullptr},
+            {"n_sweeps", entry.volume.sweep_count},
+            {"n_radials", entry.volume.radial_count},
+            {"complete", entry.volume.complete},
+            {"registered_time", format_utc(entry.registered_time)}};
+}
+
+void print_entry(const CatalogEntry& entry) {
+    const std::string start =
+        entry.volume.start_time ? format_utc(*entry.volume.start_time) : std::string{"-"};
+    const std::string vcp = entry.volume.vcp ? fmt::format("{}", *entry.volume.vcp) : "-";
+    fmt::print("{:<4}  {:<24}  VCP {:>3}  {:>3} sweeps  {:>6} radials  {:<8}  {}{}\n",
+               entry.station.empty() ? "-" : entry.station, start, vcp, entry.volume.sweep_count,
+               entry.volume.radial_count, catalog::file_state_name(entry.state),
+               printable(entry.path.native()),
+               entry.reason.empty() ? "" : "  (" + printable(entry.reason) + ")");
+}
+
+int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
+    if (json) {
+        nlohmann::json document = nlohmann::json::array();
+        for (const CatalogEntry& entry : entries)
+            document.push_back(to_json(entry));
+        print_json(document);
+    } else {
+        for (const CatalogEntry& entry : entries)
+            print_entry(entry);
+    }
+    return entries.empty() ? exit_nothing_matched : exit_done;
+}
+
+int run_stations(const CatalogOptions& options) {
+    auto opened = Catalog::open_for_reading(options.directory);
+    if (!opened) return report_error(opened.error());
+    const auto stations = opened->stations();
+    if (!stations) return report_error(stations.error());
+    nlohmann::json document = nlohmann::json::array();
+    for (const catalog::StationSummary& summary : *stations) {
+        if (options.json) {
+            document.push_back({{"station", summary.station},
+                                {"n_volumes", summary.volume_count},
+                                {"n_rejected", summary.rejected_count},
+                                {"oldest", json_time(summary.oldest)},
+                                {"latest", json_time(summary.latest)}});
+            continue;
+        }
+        fmt::print("{:<8}  {:>6} volumes  {:>4} rejected  {}\n",
+                   summary.station.empty() ? "unknown" : summary.station, summary.volume_count,
+                   summary.rejected_count,
+                   summary.oldest ? fmt::format("{} to {}", format_utc(*summary.oldest),
+                                                format_utc(*summary.latest))
+                                  : "");
+    }
+    if (options.json) print_json(document);
+    return stations->empty() ? exit_nothing_matched : exit_done;
+}
+
+// The entries that the options name, of one station or of all.
+Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options) {
+    const auto range = parse_time_range(options.times);
+    if (!range) return pass_on(range);
+    auto opened = Catalog::open_for_reading(options.directory);
+    if (!opened) return pass_on(opened);
+    const catalog::Query query{range->from, range->to, options.rejected};
+    if (!options.station.empty()) return opened->list(options.station, query);
+
+    const auto stations = opened->stations();
+    if (!stations) return pass_on(stations);
+    std::vector<CatalogEntry> all;
+    for (const catalog::StationSummary& summary : *stations) {
+        auto entries = opened->list(summary.station, query);
+        if (!entries) return entries;
+        all.insert(all.end(), entries->begin(), entries->end());
+    }
+    return all;
+}
+
+int run_list(const CatalogOptions& options) {
+    const auto entries = matching(options);
+    if (!entries && entries.error().code == ErrorCode::not_found &&
+        fs::is_directory(options.directory)) {
+        report_error(entries.error());
+        return exit_nothing_matched;
+    }
+    if (!entries) return report_error(entries.error());
+    return print_entries(*entries, options.json);
+}
+
+int run_one(const CatalogOptions& options, bool latest) {
+    auto opened = Catalog::open_for_reading(options.directory);
+    if (!opened) return report_error(opened.error());
+    const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
+    if (!entry) {
+        report_error(entry.error());
+        return entry.error().code == ErrorCode::not_found ? exit_nothing_matched : exit_failed;
+    }
+    if (!entry->has_value()) return exit_nothing_matched;
+    if (options.json) {
+        print_json(to_json(**entry));
+    } else {
+        print_entry(**entry);
+    }
+    return exit_done;
+}
+
+// Copies one raw file; an existing file is left alone unless --force.
+Status copy_raw(const fs::path& from, const fs::path& to, bool force) {
+    if (!force && fs::exists(to)) {
+        return fail(ErrorCode::bad_argument, "{}: exists (--force replaces it)", to.native());
+    }
+    const auto bytes = read_file(from);
+    if (!bytes) return pass_on(bytes);
+    return write_file_atomically(real_file_system(), to, *bytes);
+}
+
+int run_get(const CatalogOptions& options) {
+    const auto entries = matching(options);
+    if (!entries) return report_error(entries.error());
+    if (entries->empty()) return exit_nothing_matched;
+    std::error_code error;
+    fs::create_directories(options.output, error);
+    if (error) {
+        return report_error(
+            {ErrorCode::io, fmt::format("{}: {}", options.output, error.message())});
+    }
+    int status = exit_done;
+    fs::path last;
+    for (const CatalogEntry& entry : *entries) {
+        if (entry.path == last) continue;  // a file of several volumes is one file
+        last = entry.path;
+        const fs::path to = fs::path{options.output} / entry.path.filename();
+        if (const Status copied = copy_raw(entry.path, to, options.force); !copied) {
+            status = report_error(copied.error());
+            continue;
+        }
+        fmt::print("{}\n", printable(to.native()));
+    }
+    return status;
+}
+
+CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string& name,
+                    const std::string& about) {
+    CLI::App* app = parent.add_subcommand(name, about);
+    app->add_option("--catalog", options.directory, "The catalog's directory (state/catalog)")
+        ->required();
+    return app;
+}
+
+}  // namespace
+
+Command add_catalog(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("catalog", "Query the catalog of raw files");
+    command->require_subcommand(1);
+    const auto options = std::make_shared<CatalogOptions>();
+    const std::string station_help = "ICAO of the radar, e.g. KTLX";
+
+    CLI::App* stations = add_query(*command, *options, "stations", "The stations it knows");
+    CLI::App* list = add_query(*command, *options, "list", "Volumes, oldest first");
+    list->add_option("--station", options->station, station_help + "; all when left out");
+    add_time_range(*list, options->times);
+    list->add_flag("--rejected", options->rejected, "Also files that hold no volume");
+    CLI::App* latest = add_query(*command, *options, "latest", "The newest volume");
+    CLI::App* oldest = add_query(*command, *options, "oldest", "The oldest volume");
+    for (CLI::App* one : {latest, oldest})
+        one->add_option("--station", options->station, station_help)->required();
+    CLI::App* get = add_query(*command, *options, "get", "Copy raw files out of the archive");
+    get->add_option("--station", options->station, station_help)->required();
+    add_time_range(*get, options->times);
+    get->add_option("-o,--output", options->output, "The directory to copy into")->required();
+    get->add_flag("--force", options->force, "Replace files that are there already");
+    for (CLI::App* one : {stations, list, latest, oldest})
+        one->add_flag("--json", options->json, "Print one JSON document");
+
+    return {command, [=] {
+                if (stations->parsed()) return run_stations(*options);
+                if (list->parsed()) return run_list(*options);
+                if (get->parsed()) return run_get(*options);
+                return run_one(*options, latest->parsed());
+            }};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,41 @@
+#include "cli/query_options.h"
+
+#include <fmt/format.h>
+
+namespace stormcellar::cli {
+
+void add_time_range(CLI::App& app, TimeRangeOptions& options) {
+    app.add_option("--from", options.from,
+                   "From this time on: UTC as 2022-03-17T00:08:42Z, or -1h, -2d, now");
+    app.add_option("--to", options.to, "Up to this time, itself included; as --from");
+}
+
+Result<TimeRange> parse_time_range(const TimeRangeOptions& options) {
+    TimeRange range;
+    const UtcTime now = now_utc();
+    if (!options.from.empty()) {
+        const auto from = parse_utc(options.from, now);
+        if (!from) return fail(ErrorCode::bad_argument, "--from: {}", from.error().message);
+        range.from = *from;
+    }
+    if (!options.to.empty()) {
+        const auto to = parse_utc(options.to, now);
+        if (!to) return fail(ErrorCode::bad_argument, "--to: {}", to.error().message);
+        range.to = *to;
+    }
+    if (range.from && range.to && *range.from > *range.to) {
+        return fail(ErrorCode::bad_argument, "--from {} is after --to {}", format_utc(*range.from),
+                    format_utc(*range.to));
+    }
+    return range;
+}
+
+void print_json(const nlohmann::json& document) {
+    fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+nlohmann::json json_time(const std::optional<UtcTime>& time) {
+    return time ? nlohmann::json(format_utc(*time)) : nlohmann::json(nullptr);
+}
+
+}  // namespace stormcellar::cli

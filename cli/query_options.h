@@ -1,0 +1,33 @@
+// cli/query_options.h -- times, JSON and small things that several query commands share.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/result.h"
+#include "base/utc_time.h"
+
+namespace stormcellar::cli {
+
+// --from and --to as they were typed; both inclusive, empty: open.
+struct TimeRangeOptions {
+    std::string from;
+    std::string to;
+};
+void add_time_range(CLI::App& app, TimeRangeOptions& options);
+
+struct TimeRange {
+    std::optional<UtcTime> from, to;
+};
+// bad_argument when one of them is no time, or they are the wrong way round.
+[[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
+
+// The document on stdout, two spaces a level. Bytes that are not UTF-8 become U+FFFD.
+void print_json(const nlohmann::json& document);
+
+[[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,103 @@
+// stormcellar catalog and stormcellar cache, run as a user runs them on two real volumes.
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file_system.h"
+#include "pipeline/ingest.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+using nlohmann::json;
+using testing::ProgramResult;
+
+class QueryTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        auto catalog = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+        const auto store =
+            *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+        pipeline::IngestOptions options;
+        options.spacing_m = 4000;
+        options.nx = options.ny = 115;
+        pipeline::Ingestor ingestor(catalog, store, options);
+        for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
+            ASSERT_TRUE(ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, true));
+        }
+    }
+    ProgramResult run(std::vector<std::string> arguments) {
+        const bool catalog = arguments.at(0) == "catalog";
+        arguments.push_back(catalog ? "--catalog" : "--cache");
+        arguments.push_back(directory_ / (catalog ? "catalog" : "cache"));
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    }
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(QueryTest, CatalogListsVolumesInTimeOrder) {
+    const auto ran = run({"catalog", "list", "--station", "KBGM", "--json"});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    const json entries = json::parse(ran.out);
+    ASSERT_EQ(entries.size(), 2U);
+    EXPECT_EQ(entries[0]["start_time"], "2005-08-22T02:44:14Z");
+    EXPECT_EQ(entries[0]["n_radials"], 4028);  // golden
+    EXPECT_EQ(entries[1]["state"], "complete");
+    EXPECT_EQ(run({"catalog", "list", "--from", "2005-08-22T02:50"}).out.find("024414"),
+              std::string::npos);
+}
+
+TEST_F(QueryTest, NothingMatchedIsThreeAndBadUsageIsTwo) {
+    EXPECT_EQ(run({"catalog", "list", "--from", "2020-01-01"}).status, 3);
+    EXPECT_EQ(run({"catalog", "latest", "--station", "KTLX"}).status, 3);
+    EXPECT_EQ(run({"cache", "list", "--domain", "KTLX"}).status, 3);
+    const auto ran = run({"catalog", "list", "--from", "yesterday"});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find("--from"), std::string::npos);
+    EXPECT_EQ(run({"catalog", "list", "--from", "2006-01-01", "--to", "2005-01-01"}).status, 2);
+    EXPECT_EQ(testing::run_program(STORMCELLAR_PROGRAM, {"catalog", "list"}).status, 2);
+}
+
+TEST_F(QueryTest, LatestAndOldestNameTheirFiles) {
+    EXPECT_EQ(json::parse(run({"catalog", "latest", "--station", "KBGM", "--json"}).out)["path"],
+              (*testing::data_directory() / "sequence-kbgm" / "KBGM20050822_025001.gz").string());
+    EXPECT_NE(run({"catalog", "oldest", "--station", "KBGM"}).out.find("024414"),
+              std::string::npos);
+    EXPECT_NE(run({"catalog", "stations"}).out.find("KBGM"), std::string::npos);
+}
+
+TEST_F(QueryTest, GetCopiesRawBytesAndLeavesWhatIsThere) {
+    const std::string out = directory_ / "out";
+    const std::vector<std::string> get = {"catalog",          "get", "--station", "KBGM", "--to",
+                                          "2005-08-22T02:45", "-o",  out};
+    ASSERT_EQ(run(get).status, 0);
+    EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.gz"),
+              *read_file(*testing::data_directory() / "sequence-kbgm" / "KBGM20050822_024414.gz"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 1);
+    EXPECT_EQ(run(get).status, 2) << "it exists";
+    auto forced = get;
+    forced.emplace_back("--force");
+    EXPECT_EQ(run(forced).status, 0);
+}
+
+TEST_F(QueryTest, CacheIsListedAndADamagedGridIsNamed) {
+    const json grids = json::parse(run({"cache", "list", "--json"}).out);
+    ASSERT_EQ(grids.size(), 2U);
+    EXPECT_EQ(grids[0]["domain"], "KBGM");
+    EXPECT_EQ(json::parse(run({"cache", "stat", "--json"}).out)[0]["grids"], 2);
+    EXPECT_EQ(run({"cache", "verify"}).status, 0);
+    const std::string path = grids[1]["path"];
+    std::filesystem::resize_file(path, 5000);
+    const auto ran = run({"cache", "verify"});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find(path), std::string::npos);
+    EXPECT_NE(ran.out.find("2 grids checked, 1 bad"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
