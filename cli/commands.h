@@ -7,11 +7,11 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "base/printable.h"
 #include "base/result.h"
 
 namespace stormcellar::cli {
@@ -41,7 +41,6 @@ Command add_info(CLI::App& app);
 // that fits the code: bad_argument is bad usage, everything else is failed work.
 int report_error(const Error& error);
 
-// Control characters and bytes that are not UTF-8 as \xNN, so that a name can go to a terminal.
-[[nodiscard]] std::string printable(std::string_view text);
+using ::stormcellar::printable;
 
 }  // namespace stormcellar::cli

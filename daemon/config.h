@@ -1,0 +1,43 @@
+// daemon/config.h -- what stormcellard.toml says.
+//
+// The shipped file (daemon/stormcellard.toml) explains every key and holds every default; a test
+// compares the two. Distances are kilometres in the file and metres here.
+// Thread contract: plain data.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+#include "pipeline/ingest.h"
+
+namespace stormcellar::daemon {
+
+struct Config {
+    // Absolute, symbolic links resolved; none lies within another.
+    std::filesystem::path drop;
+    std::filesystem::path state = "/var/lib/stormcellar";
+    std::filesystem::path cache = "/var/cache/stormcellar";
+
+    pipeline::IngestOptions ingest;
+    int workers = 0;  // 0: one a processor; see worker_count()
+    std::chrono::milliseconds quiet{30'000};
+    std::chrono::milliseconds reread{500};
+    std::chrono::milliseconds rescan{60'000};
+    std::size_t queue_limit = 65'536;  // files
+    std::string log_level = "info";
+
+    [[nodiscard]] int worker_count() const;
+};
+
+// True when two configurations make the same grids in the same way.
+[[nodiscard]] bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions& b);
+
+// Relative paths are taken from the directory of the file. Unknown keys, wrong types, values out of
+// range and paths within one another are bad_argument: "FILE:LINE: [section] key: why".
+// Nothing is created and the directories need not exist.
+[[nodiscard]] Result<Config> load_config(const std::filesystem::path& file);
+
+}  // namespace stormcellar::daemon

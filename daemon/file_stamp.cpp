@@ -1,0 +1,17 @@
+#include "daemon/file_stamp.h"
+
+namespace stormcellar::daemon {
+
+FileStamp stamp_of(const struct stat& facts) {
+    return {static_cast<std::uint64_t>(facts.st_ino), static_cast<std::uint64_t>(facts.st_size),
+            std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec};
+}
+
+FileFound look_at(const std::filesystem::path& path) {
+    struct stat facts {};
+    if (::lstat(path.c_str(), &facts) != 0) return {};
+    if (S_ISREG(facts.st_mode)) return {Standing::regular, stamp_of(facts)};
+    return {S_ISDIR(facts.st_mode) ? Standing::directory : Standing::other, stamp_of(facts)};
+}
+
+}  // namespace stormcellar::daemon

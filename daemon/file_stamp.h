@@ -1,0 +1,31 @@
+// daemon/file_stamp.h -- what tells one state of a raw file from another without reading it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include <sys/stat.h>
+
+namespace stormcellar::daemon {
+
+struct FileStamp {
+    std::uint64_t inode = 0;
+    std::uint64_t size_bytes = 0;
+    std::int64_t modified_ns = 0;  // since the epoch
+
+    bool operator==(const FileStamp&) const = default;
+};
+
+[[nodiscard]] FileStamp stamp_of(const struct stat& facts);
+
+// What stands at a path. Symbolic links are never followed.
+enum class Standing { regular, directory, other, missing };
+struct FileFound {
+    Standing standing = Standing::missing;
+    FileStamp stamp;
+};
+// A path that may not be looked at counts as missing.
+[[nodiscard]] FileFound look_at(const std::filesystem::path& path);
+
+}  // namespace stormcellar::daemon

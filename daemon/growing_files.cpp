@@ -1,0 +1,76 @@
+#include "daemon/growing_files.h"
+
+#include <algorithm>
+
+namespace stormcellar::daemon {
+
+bool GrowingFiles::add_new(const std::filesystem::path& path, const FileStamp& stamp,
+                           SteadyTime now) {
+    if (files_.contains(path)) return true;
+    if (files_.size() >= limit_) return false;
+    if (files_.empty()) next_poll_ = now + settle;
+    files_[path] = {.looked_at = {}, .last = stamp, .since = now, .changed_at = now};
+    return true;
+}
+
+bool GrowingFiles::add_incomplete(const std::filesystem::path& path, const FileStamp& stamp,
+                                  SteadyTime now) {
+    if (!files_.contains(path) && files_.size() >= limit_) return false;
+    if (files_.empty()) next_poll_ = now + settle;
+    files_[path] = {
+        .looked_at = stamp, .last = stamp, .since = now, .changed_at = now, .incomplete = true};
+    return true;
+}
+
+std::optional<GrowingFiles::Due> GrowingFiles::decide(const std::filesystem::path& path,
+                                                      const File& file, SteadyTime now) const {
+    const bool quiet = now - file.changed_at >= quiet_;
+    if (file.incomplete && file.last == file.looked_at) {
+        if (quiet) return Due{path, file.last, true};
+        return std::nullopt;
+    }
+    // An empty file is most likely one whose writer has just begun.
+    const bool settled = now - file.changed_at >= settle && file.last.size_bytes > 0;
+    const bool overdue = now - file.since >= quiet_;
+    if (settled || quiet || overdue) return Due{path, file.last, false};
+    return std::nullopt;
+}
+
+std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& look) {
+    std::vector<Due> due;
+    if (files_.empty() || now < next_poll_) return due;
+    next_poll_ = now + settle;
+    for (auto entry = files_.begin(); entry != files_.end();) {
+        auto& [path, file] = *entry;
+        const FileFound found = look(path);
+        if (found.standing != Standing::regular) {
+            entry = files_.erase(entry);
+            continue;
+        }
+        if (found.stamp != file.last) {
+            file.last = found.stamp;
+            file.changed_at = now;
+        }
+        if (auto decided = decide(path, file, now)) {
+            due.push_back(std::move(*decided));
+            entry = files_.erase(entry);
+        } else {
+            ++entry;
+        }
+    }
+    return due;
+}
+
+std::optional<SteadyTime> GrowingFiles::next_time() const {
+    if (files_.empty()) return std::nullopt;
+    return next_poll_;
+}
+
+std::optional<SteadyTime> GrowingFiles::found_incomplete_at(
+    const std::filesystem::path& path) const {
+    const auto found = files_.find(path);
+    if (found == files_.end() || !found->second.incomplete) return std::nullopt;
+    return found->second.since;
+}
+
+}  // namespace stormcellar::daemon

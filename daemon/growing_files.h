@@ -1,0 +1,77 @@
+// daemon/growing_files.h -- files that are not whole yet, and when to look at them again.
+//
+// Two kinds. A NEW file was made and not closed (a writer that keeps it open; a hard link), or was
+// written a moment ago when a scan found it: it is looked at when it has stood unchanged for
+// `settle`, or after `quiet` when it never rests. An INCOMPLETE file was looked at and its volume
+// has not ended: it is looked at again when it has changed and settled, and finished as it is when
+// it has been quiet (no change of size, time or inode) for `quiet`.
+// Changes are seen by polling the stamps, which works for files that are never closed and on file
+// systems without events. At most `limit` files are kept; beyond it they are left to the next scan.
+// Pure bookkeeping: the caller gives the time (a monotonic clock) and the stamps.
+// Thread contract: one thread.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "daemon/file_stamp.h"
+#include "daemon/schedule.h"
+
+namespace stormcellar::daemon {
+
+class GrowingFiles {
+  public:
+    using Duration = SteadyTime::duration;
+    static constexpr Duration settle = std::chrono::seconds{1};  // also how often stamps are read
+
+    GrowingFiles(Duration quiet, std::size_t limit) : quiet_(quiet), limit_(limit) {}
+
+    void set_quiet(Duration quiet) { quiet_ = quiet; }
+    // False when there is no room left. A file that is known keeps its times.
+    bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now);
+    // `stamp` as it was before the file was read. Replaces what was known of the path.
+    bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now);
+    void forget(const std::filesystem::path& path) { files_.erase(path); }
+
+    struct Due {
+        std::filesystem::path path;
+        FileStamp stamp;
+        bool finish_partial = false;
+    };
+    // Reads the stamps when a poll is due; what it returns is no longer kept. A file that vanished
+    // or became something else is forgotten.
+    using Look = std::function<FileFound(const std::filesystem::path&)>;
+    std::vector<Due> poll(SteadyTime now, const Look& look = look_at);
+
+    [[nodiscard]] std::optional<SteadyTime> next_time() const;
+    [[nodiscard]] bool contains(const std::filesystem::path& path) const {
+        return files_.contains(path);
+    }
+    [[nodiscard]] std::size_t count() const { return files_.size(); }
+    // When the file was last looked at and found incomplete; none for all others.
+    [[nodiscard]] std::optional<SteadyTime> found_incomplete_at(
+        const std::filesystem::path& path) const;
+
+  private:
+    struct File {
+        FileStamp looked_at;  // incomplete: the stamp that was ingested
+        FileStamp last;
+        SteadyTime since;       // when it was added
+        SteadyTime changed_at;  // when `last` was first seen
+        bool incomplete = false;
+    };
+    [[nodiscard]] std::optional<Due> decide(const std::filesystem::path& path, const File& file,
+                                            SteadyTime now) const;
+
+    Duration quiet_;
+    std::size_t limit_;
+    SteadyTime next_poll_{};
+    std::map<std::filesystem::path, File> files_;
+};
+
+}  // namespace stormcellar::daemon

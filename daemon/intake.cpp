@@ -1,0 +1,161 @@
+#include "daemon/intake.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr std::size_t most_growing = 16'384;
+constexpr std::size_t most_problems = 16;
+constexpr std::int64_t recent_ns = 1'000'000'000;
+
+}  // namespace
+
+Clock real_clock() {
+    return {[] { return std::chrono::steady_clock::now(); },
+            [] {
+                return std::int64_t{std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::system_clock::now().time_since_epoch())
+                                        .count()};
+            }};
+}
+
+Intake::Intake(const Config& config, Clock clock)
+    : clock_(std::move(clock)),
+      reread_(config.reread),
+      schedule_(config.queue_limit),
+      growing_(config.quiet, most_growing) {}
+
+void Intake::set_times(const Config& config) {
+    reread_ = config.reread;
+    growing_.set_quiet(config.quiet);
+}
+
+void Intake::offer(Job job, const FileStamp& stamp) {
+    const std::filesystem::path path = job.path;
+    if (schedule_.offer(std::move(job)) == Offered::refused) {
+        refused_ = true;
+        seen_.forget(path);
+    } else {
+        seen_.add(path, stamp);
+    }
+}
+
+void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
+    Job job{.path = path, .closed_at = clock_.steady(), .newest_ns = clock_.wall_ns()};
+    if (const auto incomplete_at = growing_.found_incomplete_at(path)) {
+        const SteadyTime earliest = *incomplete_at + reread_;
+        if (earliest > clock_.steady()) job.not_before = earliest;
+    }
+    growing_.forget(path);
+    offer(std::move(job), stamp);
+}
+
+void Intake::file_created(const std::filesystem::path& path, const FileStamp& stamp) {
+    if (!growing_.add_new(path, stamp, clock_.steady())) {
+        refused_ = true;
+        seen_.forget(path);
+    }
+}
+
+void Intake::file_found(const std::filesystem::path& path, const FileStamp& stamp) {
+    if (growing_.contains(path)) return;  // its stamp is read every second anyway
+    if (seen_.contains(path, stamp)) {
+        seen_.found_again(path);
+        return;
+    }
+    // Written this very moment: most likely there is more to come.
+    const std::int64_t age_ns = clock_.wall_ns() - stamp.modified_ns;
+    if (age_ns >= 0 && age_ns < recent_ns) {
+        file_created(path, stamp);
+    } else {
+        offer({.path = path, .closed_at = std::nullopt, .newest_ns = stamp.modified_ns}, stamp);
+    }
+}
+
+// The sink finds nothing there and marks the rows; no hurry, so it goes behind everything else. A
+// refused one is no loss: the row says so when it is next looked at.
+void Intake::file_gone(const std::filesystem::path& path) {
+    growing_.forget(path);
+    seen_.forget(path);
+    schedule_.offer({.path = path, .closed_at = std::nullopt, .newest_ns = 0});
+}
+
+void Intake::events_lost() {
+    ++overflows_;
+    lost_ = true;
+}
+
+void Intake::drop_vanished() {
+    lost_ = true;
+}
+
+void Intake::directory_problem(const Error& error) {
+    if (problems_.size() < most_problems) problems_.push_back(error);
+}
+
+void Intake::poll_growing() {
+    for (GrowingFiles::Due& due : growing_.poll(clock_.steady())) {
+        offer({.path = std::move(due.path),
+               .finish_partial = due.finish_partial,
+               .closed_at = std::nullopt,
+               .newest_ns = due.stamp.modified_ns},
+              due.stamp);
+    }
+}
+
+void Intake::job_ended(const Finished& finished) {
+    const std::filesystem::path& path = finished.job.path;
+    if (!finished.taken) {
+        schedule_.retry(finished.job, finished.ended);
+        // A full disk fails them all: there is no use in decoding the next one only to see that.
+        if (finished.taken.error().code == ErrorCode::no_space) {
+            schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
+        }
+        return;
+    }
+    SteadyTime again{};
+    switch (finished.taken->ingest.result) {
+        case pipeline::IngestResult::incomplete:
+            again = finished.ended + reread_;
+            if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended)) {
+                refused_ = true;
+                seen_.forget(path);
+            }
+            break;
+        case pipeline::IngestResult::vanished:
+            seen_.forget(path);
+            break;
+        default:
+            break;
+    }
+    schedule_.finished(path, again);
+}
+
+void Intake::begin_scan() {
+    lost_ = false;
+    refused_ = false;
+    seen_.begin_scan();
+}
+
+void Intake::end_scan(bool whole) {
+    if (whole) seen_.end_scan();
+}
+
+bool Intake::needs_scan() const {
+    return lost_ || (refused_ && schedule_.waiting_count() < schedule_.limit() / 2);
+}
+
+std::optional<SteadyTime> Intake::next_time(bool can_start) const {
+    const auto job = can_start ? schedule_.next_time() : std::nullopt;
+    const auto poll = growing_.next_time();
+    if (!job || !poll) return job ? job : poll;
+    return std::min(*job, *poll);
+}
+
+Pending Intake::pending() const {
+    return {schedule_.waiting_count(), schedule_.running_count(), growing_.count()};
+}
+
+}  // namespace stormcellar::daemon

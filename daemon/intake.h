@@ -1,0 +1,80 @@
+// daemon/intake.h -- from what the watcher sees to jobs that are due.
+//
+// Owns the memory of what was seen (seen_files.h), the files that are not whole yet
+// (growing_files.h) and the schedule, and keeps the three in agreement. Nothing is lost when one of
+// them is full: the file is forgotten, and needs_scan() says when a scan shall find it again.
+// Thread contract: one thread.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "daemon/config.h"
+#include "daemon/growing_files.h"
+#include "daemon/schedule.h"
+#include "daemon/seen_files.h"
+#include "daemon/status.h"
+#include "daemon/watcher.h"
+#include "daemon/worker_pool.h"
+
+namespace stormcellar::daemon {
+
+// What time it is, for both questions: how long (steady) and which is newest (wall).
+struct Clock {
+    std::function<SteadyTime()> steady;
+    std::function<std::int64_t()> wall_ns;  // since the epoch
+};
+[[nodiscard]] Clock real_clock();
+
+class Intake final : public WatchListener {
+  public:
+    Intake(const Config& config, Clock clock);
+
+    // New times to wait, after a reload.
+    void set_times(const Config& config);
+
+    void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
+    void file_created(const std::filesystem::path& path, const FileStamp& stamp) override;
+    void file_found(const std::filesystem::path& path, const FileStamp& stamp) override;
+    void file_gone(const std::filesystem::path& path) override;
+    void events_lost() override;
+    void drop_vanished() override;
+    void directory_problem(const Error& error) override;
+
+    // Offers the growing files that are due.
+    void poll_growing();
+    std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
+    void job_ended(const Finished& finished);
+
+    // Around a scan of the watcher; `whole`: the drop directory could be read.
+    void begin_scan();
+    void end_scan(bool whole);
+    // Events were lost, the drop directory vanished, or there is room again for what was refused.
+    [[nodiscard]] bool needs_scan() const;
+
+    // When there is something to do: growing files to poll and, if a job can start, a job.
+    [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start) const;
+    [[nodiscard]] Pending pending() const;
+    // How often the kernel dropped events, since the last call.
+    std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
+    std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
+
+  private:
+    void offer(Job job, const FileStamp& stamp);
+
+    Clock clock_;
+    std::chrono::milliseconds reread_;
+    Schedule schedule_;
+    GrowingFiles growing_;
+    SeenFiles seen_;
+    bool refused_ = false;  // something did not fit since the last scan began
+    bool lost_ = false;
+    std::uint64_t overflows_ = 0;
+    std::vector<Error> problems_;
+};
+
+}  // namespace stormcellar::daemon

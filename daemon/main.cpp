@@ -1,0 +1,152 @@
+// stormcellard: the service. Usage: stormcellard --config FILE [--check-config]
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "base/printable.h"
+#include "base/version.h"
+#include "daemon/config.h"
+#include "daemon/ingest_sink.h"
+#include "daemon/instance_lock.h"
+#include "daemon/log.h"
+#include "daemon/service.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr int exit_failed = 1;
+constexpr int exit_bad_usage = 2;
+
+constexpr std::string_view usage =
+    "usage: stormcellard --config FILE [--check-config]\n"
+    "  --config FILE    what to watch and how (TOML)\n"
+    "  --check-config   say whether FILE is right, and end\n"
+    "  --version, --help\n";
+
+struct Arguments {
+    std::optional<std::filesystem::path> config;
+    bool check = false;
+    bool help = false;
+    bool version = false;
+};
+
+// None when the arguments make no sense.
+std::optional<Arguments> parse(int argc, char** argv) {
+    Arguments arguments;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        if (word == "--config" && i + 1 < argc) {
+            arguments.config = argv[++i];
+        } else if (word.starts_with("--config=")) {
+            arguments.config = word.substr(9);
+        } else if (word == "--check-config") {
+            arguments.check = true;
+        } else if (word == "--version") {
+            arguments.version = true;
+        } else if (word == "--help" || word == "-h") {
+            arguments.help = true;
+        } else {
+            return std::nullopt;
+        }
+    }
+    if (!arguments.help && !arguments.version && !arguments.config) return std::nullopt;
+    return arguments;
+}
+
+int complain(const Error& error) {
+    fmt::print(stderr, "stormcellard: {}\n", printable(error.message));
+    return exit_failed;
+}
+
+Status make_directory(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
+    return {};
+}
+
+Status check_drop(const std::filesystem::path& drop) {
+    std::error_code error;
+    const auto status = std::filesystem::status(drop, error);
+    if (!std::filesystem::exists(status)) {
+        return fail(ErrorCode::not_found, "{}: the drop directory does not exist", drop.native());
+    }
+    if (!std::filesystem::is_directory(status)) {
+        return fail(ErrorCode::not_a_file, "{}: the drop directory is no directory", drop.native());
+    }
+    return {};
+}
+
+std::unique_ptr<EventSource> open_events() {
+    Result<std::unique_ptr<EventSource>> events = open_inotify();
+    if (events) return std::move(*events);
+    spdlog::warn("{}; until then files are found by rescans only",
+                 printable(events.error().message));
+    return no_events();
+}
+
+int serve(const Config& config, const std::filesystem::path& file) {
+    set_up_logging(config.log_level);
+    for (const Status& ready :
+         {check_drop(config.drop), make_directory(config.state), make_directory(config.cache)}) {
+        if (!ready) return complain(ready.error());
+    }
+    const Result<InstanceLock> lock = InstanceLock::acquire(config.state);
+    if (!lock) return complain(lock.error());
+    const Result<Signals> signals = Signals::open();
+    if (!signals) return complain(signals.error());
+    const Result<std::unique_ptr<IngestSink>> sink = IngestSink::open(config);
+    if (!sink) return complain(sink.error());
+
+    const std::unique_ptr<EventSource> events = open_events();
+    SystemdNotifier notifier;
+    Service service(config, file, {**sink, *events, notifier, real_file_system(), &*signals});
+    switch (service.run()) {
+        case Stopped::cleanly:
+            return EXIT_SUCCESS;
+        case Stopped::at_start:
+            return exit_failed;
+        case Stopped::with_jobs:
+            // What the jobs have written appears whole or not at all, so this loses nothing.
+            std::_Exit(exit_failed);
+    }
+    return exit_failed;
+}
+
+int run(int argc, char** argv) {
+    const std::optional<Arguments> arguments = parse(argc, argv);
+    if (!arguments) {
+        fmt::print(stderr, "{}", usage);
+        return exit_bad_usage;
+    }
+    if (arguments->help || arguments->version) {
+        fmt::print("{}", arguments->help ? std::string{usage}
+                                         : fmt::format("stormcellard {}\n", software_version));
+        return EXIT_SUCCESS;
+    }
+    const Result<Config> config = load_config(*arguments->config);
+    if (!config) return complain(config.error());
+    if (arguments->check) {
+        fmt::print("{}: ok\n", printable(arguments->config->native()));
+        return EXIT_SUCCESS;
+    }
+    return serve(*config, *arguments->config);
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
+
+int main(int argc, char** argv) {
+    try {
+        return stormcellar::daemon::run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "stormcellard: {}\n", stormcellar::printable(error.what()));
+        return 1;
+    }
+}

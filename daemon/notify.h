@@ -1,0 +1,50 @@
+// daemon/notify.h -- what the service manager is told (sd_notify(3)), and its watchdog.
+// Without a service manager all of it does nothing.
+// Thread contract: one thread.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "daemon/schedule.h"
+
+namespace stormcellar::daemon {
+
+class Notifier {
+  public:
+    Notifier() = default;
+    Notifier(const Notifier&) = delete;
+    Notifier& operator=(const Notifier&) = delete;
+    virtual ~Notifier() = default;
+
+    // Lines of VARIABLE=value.
+    virtual void send(const std::string& state) = 0;
+    // How long the manager waits for WATCHDOG=1 before it restarts us; none: it does not.
+    [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
+};
+
+// Talks to $NOTIFY_SOCKET.
+class SystemdNotifier final : public Notifier {
+  public:
+    void send(const std::string& state) override;
+    [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
+};
+
+// "RELOADING=1" with the monotonic time that systemd wants with it.
+[[nodiscard]] std::string reloading_state();
+
+// Decides when the watchdog is fed: four times a period, and only while no job has been running for
+// longer than a whole period, so that a stuck decoder is not hidden by a loop that still turns.
+class WatchdogFeed {
+  public:
+    explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
+    [[nodiscard]] bool is_due(SteadyTime now, std::optional<SteadyTime> oldest_job_start);
+    [[nodiscard]] std::optional<SteadyTime> next_time() const;
+
+  private:
+    std::optional<std::chrono::microseconds> period_;
+    SteadyTime next_{};
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,217 @@
+#include "daemon/service.h"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <utility>
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+
+#include "base/printable.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+// Scans that something calls for are this far apart at least.
+constexpr std::chrono::seconds least_scan_gap{1};
+constexpr std::chrono::seconds longest_sleep{10};
+constexpr std::chrono::seconds time_to_drain{20};
+
+}  // namespace
+
+Service::Service(Config config, std::filesystem::path config_file, ServiceParts parts)
+    : config_(std::move(config)),
+      config_file_(std::move(config_file)),
+      parts_(std::move(parts)),
+      intake_(config_, parts_.clock),
+      watcher_(config_.drop, parts_.events, intake_),
+      status_(config_.drop, config_.cache),
+      status_file_(parts_.file_system, config_.state, parts_.notifier),
+      watchdog_(parts_.notifier.watchdog()),
+      pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }) {}
+
+void Service::request_stop() {
+    stop_requested_ = true;
+    wake_up_.set();
+}
+
+Stopped Service::run() {
+    if (!start()) return Stopped::at_start;
+    while (!stop_requested_) {
+        turn();
+        wait();
+    }
+    return stop();
+}
+
+bool Service::start() {
+    if (!scan()) return false;
+    const Pending pending = intake_.pending();
+    status_.set_state("running");
+    status_file_.publish(status_, pending, parts_.clock.steady(), true);
+    parts_.notifier.send("READY=1");
+    spdlog::info("ready: watching {} ({} directories), {} files to look at, {} workers",
+                 printable(config_.drop.native()), watcher_.directory_count(),
+                 pending.waiting + pending.growing, config_.worker_count());
+    return true;
+}
+
+void Service::turn() {
+    handle_signals();
+    if (stop_requested_) return;
+    wake_up_.clear();
+    collect();
+    watcher_.read_events();
+    scan_if_due();
+    intake_.poll_growing();
+    start_jobs();
+    keep_house();
+}
+
+SteadyTime Service::next_time() const {
+    SteadyTime time = std::min(parts_.clock.steady() + longest_sleep, next_scan_);
+    for (const auto& due : {intake_.next_time(pool_.has_free_worker()), status_file_.next_time(),
+                            watchdog_.next_time()}) {
+        if (due) time = std::min(time, *due);
+    }
+    if (intake_.needs_scan()) time = std::min(time, last_scan_ + least_scan_gap);
+    return time;
+}
+
+void Service::wait() {
+    std::array<pollfd, 3> sources = {
+        pollfd{wake_up_.descriptor(), POLLIN, 0},
+        {parts_.events.descriptor(), POLLIN, 0},
+        {parts_.signals == nullptr ? -1 : parts_.signals->descriptor(), POLLIN, 0}};
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(next_time() - parts_.clock.steady());
+    // An interrupted poll is a short sleep; a negative descriptor is left out.
+    ::poll(sources.data(), sources.size(),
+           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+}
+
+void Service::handle_signals() {
+    if (parts_.signals == nullptr) return;
+    while (const std::optional<int> signal = parts_.signals->next()) {
+        if (*signal == SIGHUP) {
+            reload();
+        } else {
+            spdlog::info("stopping: asked to by {}", *signal == SIGTERM ? "SIGTERM" : "SIGINT");
+            stop_requested_ = true;
+        }
+    }
+}
+
+void Service::reload() {
+    parts_.notifier.send(reloading_state());
+    if (const Result<Config> fresh = load_config(config_file_)) {
+        apply(*fresh);
+    } else {
+        spdlog::error("reload: {}; the configuration stays as it was",
+                      printable(fresh.error().message));
+    }
+    parts_.notifier.send("READY=1");
+}
+
+void Service::apply(const Config& fresh) {
+    if (fresh.drop != config_.drop || fresh.state != config_.state ||
+        fresh.cache != config_.cache) {
+        spdlog::warn("reload: [paths] cannot change while the service runs: restart it");
+    }
+    if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
+        spdlog::warn("reload: the grid, threads and queue_limit change at a restart only");
+    }
+    config_.workers = fresh.workers;
+    config_.quiet = fresh.quiet;
+    config_.reread = fresh.reread;
+    config_.rescan = fresh.rescan;
+    config_.log_level = fresh.log_level;
+    pool_.resize(config_.worker_count());
+    intake_.set_times(config_);
+    next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
+    set_log_level(config_.log_level);
+    spdlog::info("reloaded: {} workers, quiet after {} s, log level {}", config_.worker_count(),
+                 std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
+}
+
+void Service::collect() {
+    const SteadyTime now = parts_.clock.steady();
+    for (const Finished& finished : pool_.collect()) {
+        reporter_.report(finished, now);
+        status_.add(finished);
+        intake_.job_ended(finished);
+        status_file_.changed();
+    }
+}
+
+void Service::scan_if_due() {
+    const SteadyTime now = parts_.clock.steady();
+    const bool called_for = intake_.needs_scan() && now - last_scan_ >= least_scan_gap;
+    if (called_for || now >= next_scan_) scan();
+}
+
+bool Service::scan() {
+    const SteadyTime began = parts_.clock.steady();
+    intake_.begin_scan();
+    const Status scanned = watcher_.scan();
+    intake_.end_scan(scanned.has_value());
+    if (!scanned && !drop_missing_) {
+        spdlog::error("drop directory {}; looking again every {} s",
+                      printable(scanned.error().message),
+                      std::chrono::duration<double>(config_.rescan).count());
+    } else if (scanned && drop_missing_) {
+        spdlog::info("drop directory {} is back", printable(config_.drop.native()));
+    }
+    drop_missing_ = !scanned;
+    status_.count_scan(watcher_.directory_count());
+    status_file_.changed();
+    last_scan_ = parts_.clock.steady();
+    // A tree that takes long to read must not be read all the time.
+    next_scan_ =
+        last_scan_ + std::max<SteadyTime::duration>(config_.rescan, 10 * (last_scan_ - began));
+    return scanned.has_value();
+}
+
+void Service::start_jobs() {
+    while (pool_.has_free_worker()) {
+        std::optional<Job> job = intake_.next_job();
+        if (!job) return;
+        pool_.submit(std::move(*job));
+        status_file_.changed();
+    }
+}
+
+void Service::keep_house() {
+    const SteadyTime now = parts_.clock.steady();
+    if (const std::uint64_t overflows = intake_.take_overflows(); overflows > 0) {
+        for (std::uint64_t i = 0; i < overflows; ++i)
+            status_.count_overflow();
+        spdlog::warn("the kernel dropped events (fs.inotify.max_queued_events): scanning");
+    }
+    for (const Error& problem : intake_.take_directory_problems())
+        reporter_.report_directory(problem, now);
+    reporter_.report_held_back(now);
+    status_file_.publish(status_, intake_.pending(), now, false);
+    if (watchdog_.is_due(now, pool_.oldest_start())) parts_.notifier.send("WATCHDOG=1");
+}
+
+Stopped Service::stop() {
+    parts_.notifier.send("STOPPING=1");
+    status_.set_state("stopping");
+    status_file_.publish(status_, intake_.pending(), parts_.clock.steady(), true);
+    const bool drained = pool_.drain(time_to_drain);
+    collect();
+    const std::size_t left = intake_.pending().waiting;
+    if (!drained) {
+        spdlog::error("stopped with files still being read after {} s", time_to_drain.count());
+        return Stopped::with_jobs;
+    }
+    status_.set_state("stopped");
+    status_file_.publish(status_, intake_.pending(), parts_.clock.steady(), true);
+    spdlog::info("stopped: {} files ingested, {} left for the next start", status_.ingested(),
+                 left);
+    return Stopped::cleanly;
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,85 @@
+// daemon/service.h -- the loop of the daemon.
+//
+// One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
+// in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
+//   start    scan the drop directory, queue what is there, then say READY
+//   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
+//   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
+// Thread contract: run() once; request_stop() from any thread.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+
+#include "base/file_system.h"
+#include "daemon/config.h"
+#include "daemon/inotify.h"
+#include "daemon/intake.h"
+#include "daemon/notify.h"
+#include "daemon/reporter.h"
+#include "daemon/signals.h"
+#include "daemon/sink.h"
+#include "daemon/status_file.h"
+#include "daemon/wake_up.h"
+#include "daemon/watcher.h"
+#include "daemon/worker_pool.h"
+
+namespace stormcellar::daemon {
+
+// All must outlive the service.
+struct ServiceParts {
+    Sink& sink;
+    EventSource& events;
+    Notifier& notifier;
+    FileSystem& file_system;
+    const Signals* signals = nullptr;  // none: only request_stop() ends it
+    Clock clock = real_clock();
+};
+
+enum class Stopped {
+    cleanly,
+    at_start,   // the drop directory cannot be read
+    with_jobs,  // jobs did not end in time: the process must be ended without waiting for them
+};
+
+class Service {
+  public:
+    // `config_file` is what SIGHUP reads again.
+    Service(Config config, std::filesystem::path config_file, ServiceParts parts);
+
+    Stopped run();
+    void request_stop();
+
+  private:
+    bool start();
+    void turn();
+    void wait();
+    Stopped stop();
+    void handle_signals();
+    void reload();
+    void apply(const Config& fresh);
+    void collect();
+    void scan_if_due();
+    bool scan();
+    void start_jobs();
+    void keep_house();
+    [[nodiscard]] SteadyTime next_time() const;
+
+    Config config_;
+    std::filesystem::path config_file_;
+    ServiceParts parts_;
+    Intake intake_;
+    Watcher watcher_;
+    Reporter reporter_;
+    StatusBook status_;
+    StatusFile status_file_;
+    WatchdogFeed watchdog_;
+    WakeUp wake_up_;
+    std::atomic<bool> stop_requested_ = false;
+    bool drop_missing_ = false;
+    SteadyTime last_scan_{}, next_scan_{};
+    WorkerPool pool_;  // last: its threads use what stands above
+};
+
+}  // namespace stormcellar::daemon

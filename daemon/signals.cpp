@@ -1,0 +1,41 @@
+#include "daemon/signals.h"
+
+#include <cerrno>
+#include <csignal>
+#include <system_error>
+#include <utility>
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+namespace stormcellar::daemon {
+
+Result<Signals> Signals::open() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+        sigaddset(&set, signal);
+    std::signal(SIGPIPE, SIG_IGN);
+    if (::pthread_sigmask(SIG_BLOCK, &set, nullptr) != 0) {
+        return fail(ErrorCode::internal, "signals cannot be blocked");
+    }
+    const int descriptor = ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+    if (descriptor < 0) {
+        return fail(ErrorCode::io, "signalfd: {}", std::system_category().message(errno));
+    }
+    return Signals(descriptor);
+}
+
+Signals::Signals(Signals&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+Signals::~Signals() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::optional<int> Signals::next() const {
+    signalfd_siginfo facts{};
+    if (::read(descriptor_, &facts, sizeof facts) != ssize_t{sizeof facts}) return std::nullopt;
+    return static_cast<int>(facts.ssi_signo);
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,30 @@
+// daemon/tree_walk.h -- the regular files below a directory.
+//
+// Walks by descriptors (openat, no symbolic link is followed), so a directory that is swapped for a
+// link while the walk runs cannot lead it out of the tree. Temporary names are left out
+// (drop_names.h), files and directories alike. Depth is bounded: max_walk_depth.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "base/result.h"
+#include "daemon/file_stamp.h"
+
+namespace stormcellar::daemon {
+
+inline constexpr int max_walk_depth = 16;
+
+struct WalkVisitor {
+    // Called before the directory's entries are read, so that a watch set here misses nothing.
+    std::function<void(const std::filesystem::path&)> directory;
+    std::function<void(const std::filesystem::path&, const FileStamp&)> file;
+    // A directory below the root that cannot be read, or lies too deep; one line. The walk goes on.
+    std::function<void(const std::string&)> problem;
+};
+
+// Fails (not_found, permission, io) when the root itself cannot be read.
+[[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor);
+
+}  // namespace stormcellar::daemon

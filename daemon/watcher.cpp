@@ -1,0 +1,136 @@
+#include "daemon/watcher.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <sys/inotify.h>
+
+#include "daemon/drop_names.h"
+#include "daemon/tree_walk.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
+    const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
+    return end.first == directory.end();
+}
+
+}  // namespace
+
+Watcher::Watcher(std::filesystem::path drop, EventSource& events, WatchListener& listener)
+    : drop_(std::move(drop)), events_(events), listener_(listener) {}
+
+Status Watcher::scan() {
+    return scan_below(drop_);
+}
+
+Status Watcher::scan_below(const std::filesystem::path& directory) {
+    return walk(directory, {[this](const std::filesystem::path& found) { add_watch(found); },
+                            [this](const std::filesystem::path& path, const FileStamp& stamp) {
+                                listener_.file_found(path, stamp);
+                            },
+                            [this](const std::string& problem) {
+                                listener_.directory_problem({ErrorCode::io, problem});
+                            }});
+}
+
+void Watcher::add_watch(const std::filesystem::path& directory) {
+    const Result<int> watch = events_.watch(directory);
+    if (!watch) {
+        // A directory that went away meanwhile is no problem; the walk says so of the root.
+        if (watch.error().code != ErrorCode::not_found) listener_.directory_problem(watch.error());
+        return;
+    }
+    // One directory under a new name keeps its watch, and one name may have a new directory.
+    if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second != directory) {
+        watch_of_.erase(old->second);
+    }
+    if (const auto old = watch_of_.find(directory);
+        old != watch_of_.end() && old->second != *watch) {
+        path_of_.erase(old->second);
+    }
+    path_of_[*watch] = directory;
+    watch_of_[directory] = *watch;
+}
+
+void Watcher::forget_watch(int watch) {
+    const auto found = path_of_.find(watch);
+    if (found == path_of_.end()) return;
+    if (const auto entry = watch_of_.find(found->second);
+        entry != watch_of_.end() && entry->second == watch) {
+        watch_of_.erase(entry);
+    }
+    path_of_.erase(found);
+}
+
+void Watcher::unwatch_tree(const std::filesystem::path& directory) {
+    std::vector<int> watches;
+    for (auto entry = watch_of_.lower_bound(directory);
+         entry != watch_of_.end() && is_within(entry->first, directory); ++entry) {
+        watches.push_back(entry->second);
+    }
+    for (const int watch : watches) {
+        events_.unwatch(watch);
+        forget_watch(watch);
+    }
+}
+
+void Watcher::read_events() {
+    for (const DirectoryEvent& event : events_.read())
+        handle(event);
+}
+
+void Watcher::handle(const DirectoryEvent& event) {
+    if ((event.mask & IN_Q_OVERFLOW) != 0) {
+        listener_.events_lost();
+        return;
+    }
+    const auto found = path_of_.find(event.watch);
+    if (found == path_of_.end()) return;  // an event from before its watch was taken away
+    const std::filesystem::path directory = found->second;
+    if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
+        unwatch_tree(drop_);
+        listener_.drop_vanished();
+        return;
+    }
+    if ((event.mask & (IN_IGNORED | IN_UNMOUNT)) != 0) {
+        forget_watch(event.watch);
+        return;
+    }
+    if (is_temporary_name(event.name)) return;
+    const std::filesystem::path path = directory / event.name;
+    if ((event.mask & IN_ISDIR) != 0) {
+        handle_directory(event, path);
+    } else {
+        handle_file(event, path);
+    }
+}
+
+void Watcher::handle_directory(const DirectoryEvent& event, const std::filesystem::path& path) {
+    if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
+        unwatch_tree(path);
+    } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {
+        const Status scanned = scan_below(path);
+        if (!scanned && scanned.error().code != ErrorCode::not_found) {
+            listener_.directory_problem(scanned.error());
+        }
+    }
+}
+
+void Watcher::handle_file(const DirectoryEvent& event, const std::filesystem::path& path) {
+    if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
+        listener_.file_gone(path);
+        return;
+    }
+    const FileFound found = look_at(path);
+    if (found.standing != Standing::regular) return;
+    if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0) {
+        listener_.file_closed(path, found.stamp);
+    } else if ((event.mask & IN_CREATE) != 0) {
+        listener_.file_created(path, found.stamp);
+    }
+}
+
+}  // namespace stormcellar::daemon

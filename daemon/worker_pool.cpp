@@ -1,0 +1,107 @@
+#include "daemon/worker_pool.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <pthread.h>
+
+namespace stormcellar::daemon {
+
+WorkerPool::WorkerPool(Sink& sink, int workers, std::function<void()> wake)
+    : sink_(sink), wake_(std::move(wake)) {
+    resize(workers);
+}
+
+WorkerPool::~WorkerPool() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_)
+        thread.join();
+}
+
+void WorkerPool::resize(int workers) {
+    int missing = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_ = std::max(1, workers);
+        missing = std::max(0, wanted_ - alive_);
+        alive_ += missing;
+    }
+    changed_.notify_all();
+    for (int i = 0; i < missing; ++i)
+        threads_.emplace_back([this] { work(); });
+}
+
+bool WorkerPool::has_free_worker() const {
+    const std::lock_guard lock(mutex_);
+    return !stopping_ && static_cast<int>(running_.size() + inbox_.size()) < wanted_;
+}
+
+void WorkerPool::submit(Job job) {
+    {
+        const std::lock_guard lock(mutex_);
+        inbox_.push_back(std::move(job));
+    }
+    changed_.notify_one();
+}
+
+std::vector<Finished> WorkerPool::collect() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(outbox_, {});
+}
+
+std::optional<SteadyTime> WorkerPool::oldest_start() const {
+    const std::lock_guard lock(mutex_);
+    if (running_.empty()) return std::nullopt;
+    return *running_.begin();
+}
+
+bool WorkerPool::drain(std::chrono::milliseconds within) {
+    std::unique_lock lock(mutex_);
+    stopping_ = true;
+    inbox_.clear();
+    changed_.notify_all();
+    return changed_.wait_for(lock, within, [this] { return running_.empty(); });
+}
+
+std::optional<WorkerPool::Begun> WorkerPool::wait_for_job() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stopping_ || alive_ > wanted_ || !inbox_.empty(); });
+    if (stopping_ || inbox_.empty()) {
+        --alive_;
+        return std::nullopt;
+    }
+    Begun begun{std::move(inbox_.front()), std::chrono::steady_clock::now()};
+    inbox_.pop_front();
+    running_.insert(begun.at);
+    return begun;
+}
+
+Result<Taken> WorkerPool::take(const Job& job) {
+    try {
+        return sink_.take(job.path, job.finish_partial);
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::internal, "{}: {}", job.path.native(), error.what());
+    }
+}
+
+void WorkerPool::work() {
+    ::pthread_setname_np(::pthread_self(), "ingest");
+    while (std::optional<Begun> begun = wait_for_job()) {
+        Result<Taken> taken = take(begun->job);
+        const SteadyTime ended = std::chrono::steady_clock::now();
+        {
+            const std::lock_guard lock(mutex_);
+            running_.erase(running_.find(begun->at));
+            outbox_.push_back({std::move(begun->job), std::move(taken), begun->at, ended});
+        }
+        changed_.notify_all();
+        wake_();
+    }
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,70 @@
+// daemon/worker_pool.h -- the threads that take files in.
+//
+// A job is handed over only when a worker is free, so nothing queues here. A worker outlives every
+// file: what is thrown becomes an error of the job.
+// Thread contract: one thread owns the pool; `wake` is called from the workers and must only
+// signal.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "base/result.h"
+#include "daemon/schedule.h"
+#include "daemon/sink.h"
+
+namespace stormcellar::daemon {
+
+struct Finished {
+    Job job;
+    Result<Taken> taken;
+    SteadyTime started, ended;
+};
+
+class WorkerPool {
+  public:
+    WorkerPool(Sink& sink, int workers, std::function<void()> wake);
+    WorkerPool(const WorkerPool&) = delete;
+    WorkerPool& operator=(const WorkerPool&) = delete;
+    ~WorkerPool();  // waits for the running jobs
+
+    // More threads start at once; surplus ones end after their job.
+    void resize(int workers);
+    [[nodiscard]] bool has_free_worker() const;
+    void submit(Job job);  // only when a worker is free
+    // What has ended since the last call.
+    std::vector<Finished> collect();
+    // When the longest running job began; none when all are idle.
+    [[nodiscard]] std::optional<SteadyTime> oldest_start() const;
+    // No job begins any more; true when the running ones ended within the time.
+    bool drain(std::chrono::milliseconds within);
+
+  private:
+    struct Begun {
+        Job job;
+        SteadyTime at;
+    };
+    void work();
+    std::optional<Begun> wait_for_job();
+    Result<Taken> take(const Job& job);
+
+    Sink& sink_;
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;  // all below but threads_
+    std::condition_variable changed_;
+    std::deque<Job> inbox_;
+    std::vector<Finished> outbox_;
+    std::multiset<SteadyTime> running_;  // when each running job began
+    int wanted_ = 0;
+    int alive_ = 0;
+    bool stopping_ = false;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace stormcellar::daemon
