@@ -1,0 +1,215 @@
+#include "daemon/config.h"
+
+#include <gtest/gtest.h>
+
+#include "grid/grid_spec.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+class ConfigFile : public ::testing::Test {
+  protected:
+    Result<Config> load(const std::string& text) {
+        write_file(file(), text);
+        return load_config(file());
+    }
+    // The message without the directory, which differs in each run.
+    std::string complaint(const std::string& text) {
+        const Result<Config> config = load(text);
+        if (config) return "no complaint";
+        EXPECT_EQ(config.error().code, ErrorCode::bad_argument);
+        EXPECT_EQ(config.error().message.find('\n'), std::string::npos) << config.error().message;
+        const std::string directory = directory_.path().native() + "/";
+        EXPECT_TRUE(config.error().message.starts_with(directory)) << config.error().message;
+        return config.error().message.substr(directory.size());
+    }
+    [[nodiscard]] std::filesystem::path file() const { return directory_ / "s.toml"; }
+
+    testing::TemporaryDirectory directory_;
+};
+
+constexpr const char* paths = "[paths]\ndrop = \"/d\"\nstate = \"/s\"\ncache = \"/c\"\n";
+
+TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
+    const Result<Config> shipped =
+        load_config(testing::source_directory() / "daemon/stormcellard.toml");
+    ASSERT_TRUE(shipped) << shipped.error().message;
+    const Result<Config> bare = load("[paths]\ndrop = \"/var/spool/ldm/nexrad2\"\n");
+    ASSERT_TRUE(bare) << bare.error().message;
+    EXPECT_EQ(shipped->drop, bare->drop);
+    EXPECT_EQ(shipped->state, bare->state);
+    EXPECT_EQ(shipped->cache, bare->cache);
+    EXPECT_EQ(shipped->workers, bare->workers);
+    EXPECT_EQ(shipped->quiet, bare->quiet);
+    EXPECT_EQ(shipped->reread, bare->reread);
+    EXPECT_EQ(shipped->rescan, bare->rescan);
+    EXPECT_EQ(shipped->queue_limit, bare->queue_limit);
+    EXPECT_EQ(shipped->log_level, bare->log_level);
+    EXPECT_EQ(shipped->ingest.moment, bare->ingest.moment);
+    EXPECT_EQ(shipped->ingest.spacing_m, bare->ingest.spacing_m);
+    EXPECT_EQ(shipped->ingest.nx, bare->ingest.nx);
+    EXPECT_EQ(shipped->ingest.ny, bare->ingest.ny);
+    EXPECT_EQ(shipped->ingest.decode_threads, bare->ingest.decode_threads);
+    // The default list is left to the grid room; the shipped file spells it out.
+    EXPECT_TRUE(bare->ingest.levels_m.empty());
+    EXPECT_EQ(shipped->ingest.levels_m, grid::default_spec(0, 0).levels_m);
+}
+
+TEST_F(ConfigFile, EveryKeyIsTaken) {
+    const Result<Config> config = load(std::string(paths) +
+                                       "[ingest]\nworkers = 3\nthreads = 2\nquiet_seconds = 1.5\n"
+                                       "reread_seconds = 0\nmoment = \"VEL\"\nspacing_km = 0.5\n"
+                                       "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
+                                       "[watch]\nrescan_seconds = 7\nqueue_limit = 99\n"
+                                       "[log]\nlevel = \"debug\"\n");
+    ASSERT_TRUE(config) << config.error().message;
+    EXPECT_EQ(config->drop, "/d");
+    EXPECT_EQ(config->state, "/s");
+    EXPECT_EQ(config->cache, "/c");
+    EXPECT_EQ(config->worker_count(), 3);
+    EXPECT_EQ(config->ingest.decode_threads, 2);
+    EXPECT_EQ(config->ingest.grid_threads, 2);
+    EXPECT_EQ(config->quiet, std::chrono::milliseconds{1500});
+    EXPECT_EQ(config->reread, std::chrono::milliseconds{0});
+    EXPECT_EQ(config->ingest.moment, level2::Moment::vel);
+    EXPECT_EQ(config->ingest.spacing_m, 500);
+    EXPECT_EQ(config->ingest.nx, 200);
+    EXPECT_EQ(config->ingest.ny, 100);
+    EXPECT_EQ(config->ingest.levels_m, (std::vector<double>{500, 1000, 2500}));
+    EXPECT_EQ(config->rescan, std::chrono::seconds{7});
+    EXPECT_EQ(config->queue_limit, 99U);
+    EXPECT_EQ(config->log_level, "debug");
+}
+
+TEST_F(ConfigFile, NoWorkersMeansOneForEachProcessor) {
+    const Result<Config> config = load(paths);
+    ASSERT_TRUE(config);
+    EXPECT_GE(config->worker_count(), 1);
+    EXPECT_GE(config->ingest.decode_threads, 1);
+}
+
+TEST_F(ConfigFile, RelativePathsStartAtTheFile) {
+    const Result<Config> config =
+        load("[paths]\ndrop = \"in/\"\nstate = \"./state\"\ncache = \"../cache\"\n");
+    ASSERT_TRUE(config) << config.error().message;
+    const auto here = std::filesystem::canonical(directory_.path());
+    EXPECT_EQ(config->drop, here / "in");
+    EXPECT_EQ(config->state, here / "state");
+    EXPECT_EQ(config->cache, here.parent_path() / "cache");
+}
+
+TEST_F(ConfigFile, LevelsAsBottomTopStepReachTheTop) {
+    const Result<Config> config =
+        load(std::string(paths) + "[ingest]\nlevels_km = \"0.1:0.5:0.1\"\n");
+    ASSERT_TRUE(config) << config.error().message;
+    EXPECT_EQ(config->ingest.levels_m, (std::vector<double>{100, 200, 300, 400, 500}));
+}
+
+TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
+    const std::string p = paths;  // four lines
+    EXPECT_EQ(complaint(p + "[ingest]\nworker = 2\n"), "s.toml:6: unknown key [ingest] worker");
+    EXPECT_EQ(complaint(p + "[ingets]\nworkers = 2\n"), "s.toml:5: unknown section [ingets]");
+    EXPECT_EQ(complaint("workers = 2\n" + p), "s.toml:1: unknown key workers");
+    EXPECT_EQ(complaint("log = 2\n" + p), "s.toml:1: log must be a section: [log]");
+    EXPECT_EQ(complaint(p + "[ingest]\n\nworkers = \"2\"\n"),
+              "s.toml:7: [ingest] workers: must be a whole number, is text");
+    EXPECT_EQ(complaint(p + "[ingest]\nworkers = 2.5\n"),
+              "s.toml:6: [ingest] workers: must be a whole number, is a number");
+    EXPECT_EQ(complaint(p + "[ingest]\nworkers = -1\n"),
+              "s.toml:6: [ingest] workers: -1 is out of range, must be 0 to 256");
+    EXPECT_EQ(complaint(p + "[ingest]\nquiet_seconds = nan\n"),
+              "s.toml:6: [ingest] quiet_seconds: nan is out of range, must be 1 to 86400");
+    EXPECT_EQ(complaint(p + "[ingest]\nquiet_seconds = true\n"),
+              "s.toml:6: [ingest] quiet_seconds: must be a number, is true or false");
+    EXPECT_EQ(complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
+              "s.toml:6: [ingest] moment: \"REFL\" is no moment; one of REF VEL SW ZDR PHI RHO "
+              "CFP");
+    EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
+              "s.toml:6: [ingest] extent_km: must be [width, height]");
+    EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),
+              "s.toml:6: [ingest] extent_km: 460.5 km is not 1 to 16384 cells of 1 km");
+    EXPECT_EQ(complaint(p + "[ingest]\nlevels_km = \"16:0.5:1\"\n"),
+              "s.toml:6: [ingest] levels_km: \"16:0.5:1\" is not BOTTOM:TOP:STEP, as in "
+              "\"0.5:16:0.5\"");
+    EXPECT_EQ(complaint(p + "[ingest]\nlevels_km = []\n"),
+              "s.toml:6: [ingest] levels_km: must name a level");
+    EXPECT_EQ(complaint(p + "[ingest]\nlevels_km = [1, \"2\"]\n"),
+              "s.toml:6: [ingest] levels_km: must be an array of numbers, holds text");
+    EXPECT_EQ(complaint(p + "[log]\nlevel = \"loud\"\n"),
+              "s.toml:6: [log] level: \"loud\" is none of debug, info, warning, error");
+}
+
+// What the grid room refuses is refused here, with the line.
+TEST_F(ConfigFile, LevelsThatDoNotRiseAreRefused) {
+    EXPECT_TRUE(complaint(std::string(paths) + "[ingest]\nlevels_km = [2, 1]\n")
+                    .starts_with("s.toml:6: [ingest] levels_km: "));
+    EXPECT_TRUE(complaint(std::string(paths) + "[ingest]\nlevels_km = \"0:100:10\"\n")
+                    .starts_with("s.toml:6: [ingest] levels_km: "));
+}
+
+TEST_F(ConfigFile, TheEarliestLineIsNamed) {
+    EXPECT_EQ(complaint(std::string(paths) + "[log]\nlevel = 1\n[ingest]\nworkers = 999\n"),
+              "s.toml:6: [log] level: must be text in quotes, is a number");
+}
+
+TEST_F(ConfigFile, BrokenTomlNamesTheLine) {
+    EXPECT_TRUE(complaint("[paths]\ndrop = \n").starts_with("s.toml:2: not valid TOML: "));
+    EXPECT_TRUE(
+        complaint("[paths]\ndrop = \"/a\"\ndrop = \"/b\"\n").starts_with("s.toml:3: not valid"));
+}
+
+TEST_F(ConfigFile, DropMustBeNamed) {
+    EXPECT_EQ(complaint(""), "s.toml: [paths] drop: the drop directory must be named");
+    EXPECT_EQ(complaint("\n[paths]\nstate = \"/s\"\n"),
+              "s.toml:2: [paths] drop: the drop directory must be named");
+    EXPECT_EQ(complaint("[paths]\ndrop = \"\"\n").substr(0, 10), "s.toml:2: ");
+}
+
+TEST_F(ConfigFile, PathsWithinOneAnotherAreRefused) {
+    EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/s\"\ncache = \"/d/cache\"\n"),
+              "s.toml:4: [paths] cache: /d/cache is or lies within /d (drop); the three must be "
+              "apart");
+    EXPECT_EQ(complaint("[paths]\ndrop = \"/s/in\"\nstate = \"/s/\"\ncache = \"/c\"\n"),
+              "s.toml:2: [paths] drop: /s/in is or lies within /s (state); the three must be "
+              "apart");
+    EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/x\"\ncache = \"/x\"\n").substr(0, 9),
+              "s.toml:3:");
+    // A name that merely begins alike is apart.
+    EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/d2\"\ncache = \"/d3\"\n"),
+              "no complaint");
+}
+
+TEST_F(ConfigFile, ALinkDoesNotHideThatPathsAreTheSame) {
+    std::filesystem::create_directory(directory_ / "real");
+    std::filesystem::create_symlink(directory_ / "real", directory_ / "link");
+    EXPECT_EQ(complaint("[paths]\ndrop = \"real\"\nstate = \"s\"\ncache = \"link/cache\"\n")
+                  .substr(0, 25),
+              "s.toml:4: [paths] cache: ");
+}
+
+TEST_F(ConfigFile, MissingOrOddFilesAreClear) {
+    const Result<Config> missing = load_config(directory_ / "none.toml");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+    EXPECT_NE(missing.error().message.find("none.toml"), std::string::npos);
+    const Result<Config> directory = load_config(directory_.path());
+    ASSERT_FALSE(directory);
+    EXPECT_EQ(directory.error().code, ErrorCode::not_a_file);
+}
+
+TEST(SameGrids, DifferInAnythingThatMakesAGrid) {
+    const pipeline::IngestOptions a;
+    EXPECT_TRUE(same_grids(a, a));
+    pipeline::IngestOptions b = a;
+    b.levels_m = {500};
+    EXPECT_FALSE(same_grids(a, b));
+    b = a;
+    b.spacing_m = 500;
+    EXPECT_FALSE(same_grids(a, b));
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

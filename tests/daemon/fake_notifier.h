@@ -1,0 +1,33 @@
+// tests/daemon/fake_notifier.h -- remembers what the service manager would be told.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "daemon/notify.h"
+
+namespace stormcellar::daemon {
+
+class FakeNotifier final : public Notifier {
+  public:
+    void send(const std::string& state) override {
+        const std::lock_guard lock(mutex_);
+        sent_.push_back(state);
+    }
+    [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override {
+        return period;
+    }
+    [[nodiscard]] std::vector<std::string> sent() const {
+        const std::lock_guard lock(mutex_);
+        return sent_;
+    }
+
+    std::optional<std::chrono::microseconds> period;  // set before it is used
+
+  private:
+    mutable std::mutex mutex_;
+    std::vector<std::string> sent_;
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,64 @@
+// tests/daemon/fake_sink.h -- a sink that does what the test says, and remembers what it was given.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "daemon/sink.h"
+
+namespace stormcellar::daemon {
+
+class FakeSink final : public Sink {
+  public:
+    using Answer =
+        std::function<Result<pipeline::IngestOutcome>(const std::filesystem::path&, bool finish)>;
+
+    explicit FakeSink(Answer answer) : answer_(std::move(answer)) {}
+
+    Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override {
+        Taken taken;
+        taken.stamp = look_at(path).stamp;
+        Result<pipeline::IngestOutcome> outcome = answer_(path, finish_partial);
+        {
+            const std::lock_guard lock(mutex_);
+            calls_.push_back(path.filename().native() + (finish_partial ? "!" : ""));
+        }
+        called_.notify_all();
+        if (!outcome) return pass_on(outcome);
+        taken.ingest = *outcome;
+        return taken;
+    }
+
+    // False when it takes too long.
+    bool wait_for_calls(std::size_t count) {
+        std::unique_lock lock(mutex_);
+        return called_.wait_for(lock, std::chrono::seconds{20},
+                                [&] { return calls_.size() >= count; });
+    }
+    // "NAME", with "!" when it was to be finished; in the order in which they ended.
+    std::vector<std::string> calls() {
+        const std::lock_guard lock(mutex_);
+        return calls_;
+    }
+
+  private:
+    Answer answer_;
+    std::mutex mutex_;
+    std::condition_variable called_;
+    std::vector<std::string> calls_;
+};
+
+inline pipeline::IngestOutcome outcome_of(pipeline::IngestResult result) {
+    pipeline::IngestOutcome outcome;
+    outcome.result = result;
+    outcome.station = "KTLX";
+    outcome.volume_time = UtcTime{std::chrono::milliseconds{1'647'475'722'000}};
+    if (result == pipeline::IngestResult::gridded) outcome.grids = {"/c/grid.scg"};
+    return outcome;
+}
+
+}  // namespace stormcellar::daemon

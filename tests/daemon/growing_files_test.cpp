@@ -1,0 +1,131 @@
+#include "daemon/growing_files.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::daemon {
+namespace {
+
+using std::chrono::seconds;
+
+const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
+constexpr FileStamp small{1, 100, 5};
+constexpr FileStamp large{1, 200, 6};
+
+// A disk of stamps, and a clock that moves a second at a time.
+class Growing : public ::testing::Test {
+  protected:
+    // Moves to t0 + `second` and gives what is due there: "a" or "a!" when it shall be finished.
+    std::string due_at(int second) {
+        std::string text;
+        const auto look = [this](const std::filesystem::path& path) -> FileFound {
+            const auto found = disk_.find(path);
+            if (found == disk_.end()) return {};
+            return {Standing::regular, found->second};
+        };
+        for (const auto& due : files_.poll(t0 + seconds{second}, look)) {
+            text += due.path.native() + (due.finish_partial ? "!" : "");
+        }
+        return text;
+    }
+
+    std::map<std::filesystem::path, FileStamp> disk_;
+    GrowingFiles files_{seconds{30}, 3};
+};
+
+TEST_F(Growing, AnIncompleteFileIsFinishedWhenItWasQuietLongEnough) {
+    disk_["a"] = small;
+    files_.add_incomplete("a", small, t0);
+    for (int second = 1; second < 30; ++second)
+        ASSERT_EQ(due_at(second), "") << second;
+    EXPECT_EQ(due_at(30), "a!");
+    EXPECT_EQ(due_at(99), "") << "once";
+    EXPECT_EQ(files_.count(), 0U);
+}
+
+TEST_F(Growing, AnIncompleteFileThatGrowsIsReadAgainWhenItRests) {
+    disk_["a"] = small;
+    files_.add_incomplete("a", small, t0);
+    EXPECT_EQ(due_at(25), "");
+    disk_["a"] = large;
+    EXPECT_EQ(due_at(26), "") << "just changed";
+    EXPECT_EQ(due_at(27), "a");
+    // The quiet time begins anew with the next reading.
+    files_.add_incomplete("a", large, t0 + seconds{28});
+    EXPECT_EQ(due_at(57), "");
+    EXPECT_EQ(due_at(58), "a!");
+}
+
+TEST_F(Growing, AFileThatChangedWhileItWasReadIsReadAgain) {
+    disk_["a"] = large;
+    files_.add_incomplete("a", small, t0);
+    EXPECT_EQ(due_at(1), "");
+    EXPECT_EQ(due_at(2), "a");
+}
+
+TEST_F(Growing, ANewFileIsOfferedWhenItRests) {
+    disk_["a"] = small;
+    files_.add_new("a", small, t0);
+    EXPECT_EQ(due_at(1), "a");
+}
+
+TEST_F(Growing, ANewFileThatNeverRestsIsOfferedAfterTheQuietTime) {
+    files_.add_new("a", small, t0);
+    for (int second = 1; second < 30; ++second) {
+        disk_["a"] = {1, static_cast<std::uint64_t>(second), 0};
+        ASSERT_EQ(due_at(second), "") << second;
+    }
+    disk_["a"] = {1, 30, 0};
+    EXPECT_EQ(due_at(30), "a");
+}
+
+TEST_F(Growing, AnEmptyNewFileHasTheWholeQuietTime) {
+    disk_["a"] = {1, 0, 0};
+    files_.add_new("a", {1, 0, 0}, t0);
+    EXPECT_EQ(due_at(29), "");
+    EXPECT_EQ(due_at(30), "a");
+}
+
+TEST_F(Growing, AFileThatVanishesIsForgotten) {
+    files_.add_new("a", small, t0);
+    files_.add_incomplete("b", small, t0);
+    EXPECT_EQ(due_at(1), "");
+    EXPECT_EQ(files_.count(), 0U);
+    EXPECT_FALSE(files_.next_time());
+}
+
+TEST_F(Growing, StampsAreReadOnceASecond) {
+    files_.add_new("a", small, t0);
+    EXPECT_EQ(files_.next_time(), t0 + seconds{1});
+    int looks = 0;
+    const auto look = [&](const std::filesystem::path&) -> FileFound {
+        ++looks;
+        return {Standing::regular, {1, 0, 0}};
+    };
+    for (int ms = 0; ms < 5000; ms += 10)
+        (void)files_.poll(t0 + std::chrono::milliseconds{ms}, look);
+    EXPECT_EQ(looks, 4);
+}
+
+TEST_F(Growing, HasABound) {
+    EXPECT_TRUE(files_.add_new("a", small, t0));
+    EXPECT_TRUE(files_.add_new("b", small, t0));
+    EXPECT_TRUE(files_.add_incomplete("c", small, t0));
+    EXPECT_FALSE(files_.add_new("d", small, t0));
+    EXPECT_FALSE(files_.add_incomplete("d", small, t0));
+    EXPECT_TRUE(files_.add_incomplete("a", small, t0)) << "what it has may change its kind";
+    files_.forget("b");
+    EXPECT_TRUE(files_.add_new("d", small, t0));
+}
+
+TEST_F(Growing, KnowsWhenAFileWasFoundIncomplete) {
+    files_.add_new("a", small, t0);
+    files_.add_incomplete("b", small, t0 + seconds{3});
+    EXPECT_FALSE(files_.found_incomplete_at("a"));
+    EXPECT_EQ(files_.found_incomplete_at("b"), t0 + seconds{3});
+    EXPECT_FALSE(files_.found_incomplete_at("c"));
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

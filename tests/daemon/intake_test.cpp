@@ -1,0 +1,259 @@
+#include "daemon/intake.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/fake_sink.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using pipeline::IngestResult;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+// Time stands still unless the test moves it.
+class IntakeTest : public ::testing::Test {
+  protected:
+    static Config config() {
+        Config made;
+        made.quiet = seconds{30};
+        made.reread = milliseconds{500};
+        made.queue_limit = 4;
+        return made;
+    }
+    [[nodiscard]] std::filesystem::path at(const char* name) const { return directory_ / name; }
+    // A file of which the intake may read the stamp; written long ago.
+    FileStamp make(const char* name, std::string_view text = "1") {
+        write_file(at(name), text);
+        FileStamp stamp = look_at(at(name)).stamp;
+        stamp.modified_ns -= 100 * second_ns;
+        return stamp;
+    }
+    std::string next() {
+        const auto job = intake_.next_job();
+        if (!job) return "";
+        return job->path.filename().native() + (job->finish_partial ? "!" : "");
+    }
+    void end(const char* name, Result<pipeline::IngestOutcome> outcome) {
+        Finished finished{.job = {}, .taken = Taken{}, .started = now_, .ended = now_};
+        finished.job.path = at(name);
+        if (outcome) {
+            finished.taken = Taken{look_at(at(name)).stamp, *outcome};
+        } else {
+            finished.taken = tl::unexpected<Error>(outcome.error());
+        }
+        intake_.job_ended(finished);
+    }
+    void end(const char* name, IngestResult result) { end(name, outcome_of(result)); }
+
+    testing::TemporaryDirectory directory_;
+    SteadyTime now_ = SteadyTime{} + std::chrono::hours{1};
+    std::int64_t wall_ns_ = 1'900'000'000 * second_ns;
+    Intake intake_{config(), {[this] { return now_; }, [this] { return wall_ns_; }}};
+};
+
+TEST_F(IntakeTest, AClosedFileIsAJobAtOnceWithTheTimeOfItsClose) {
+    intake_.file_closed(at("a"), make("a"));
+    const auto job = intake_.next_job();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->closed_at, now_);
+    end("a", IngestResult::gridded);
+    EXPECT_EQ(next(), "");
+}
+
+TEST_F(IntakeTest, WhatIsClosedNowGoesBeforeTheBacklog) {
+    intake_.file_found(at("old"), make("old"));
+    intake_.file_closed(at("new"), make("new"));
+    EXPECT_EQ(next(), "new");
+    EXPECT_EQ(next(), "old");
+}
+
+TEST_F(IntakeTest, ScansOfferAFileOnceUntilItChanges) {
+    const FileStamp stamp = make("a");
+    intake_.begin_scan();
+    intake_.file_found(at("a"), stamp);
+    intake_.end_scan(true);
+    EXPECT_EQ(next(), "a");
+    end("a", IngestResult::rejected);
+    for (int i = 0; i < 3; ++i) {
+        intake_.begin_scan();
+        intake_.file_found(at("a"), stamp);
+        intake_.end_scan(true);
+        EXPECT_EQ(next(), "");
+    }
+    intake_.begin_scan();
+    intake_.file_found(at("a"), {stamp.inode, stamp.size_bytes + 1, stamp.modified_ns});
+    EXPECT_EQ(next(), "a");
+}
+
+TEST_F(IntakeTest, AFileWrittenThisMomentIsLeftToRest) {
+    FileStamp stamp = make("a");
+    stamp = look_at(at("a")).stamp;
+    wall_ns_ = stamp.modified_ns + second_ns / 10;
+    intake_.file_found(at("a"), stamp);
+    EXPECT_EQ(next(), "");
+    now_ += seconds{1};
+    intake_.poll_growing();
+    EXPECT_EQ(next(), "a");
+}
+
+// A clock that went back must not make files wait for ever.
+TEST_F(IntakeTest, AFileFromTheFutureIsTakenAtOnce) {
+    FileStamp stamp = make("a");
+    stamp.modified_ns = wall_ns_ + 3600 * second_ns;
+    intake_.file_found(at("a"), stamp);
+    EXPECT_EQ(next(), "a");
+}
+
+TEST_F(IntakeTest, AnIncompleteFileIsFinishedWhenItWasQuiet) {
+    intake_.file_closed(at("a"), make("a"));
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    EXPECT_EQ(intake_.pending().growing, 1U);
+    now_ += seconds{29};
+    intake_.poll_growing();
+    EXPECT_EQ(next(), "");
+    now_ += seconds{1};
+    intake_.poll_growing();
+    EXPECT_EQ(next(), "a!");
+    end("a", IngestResult::gridded);
+    EXPECT_EQ(intake_.pending().growing, 0U);
+}
+
+TEST_F(IntakeTest, AFileClosedForEachChunkIsNotReadForEachChunk) {
+    intake_.file_closed(at("a"), make("a", "1"));
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    int reads = 0;
+    for (int ms = 0; ms < 5000; ms += 50, now_ += milliseconds{50}) {
+        intake_.file_closed(at("a"), make("a", std::to_string(ms)));
+        if (next() == "a") {
+            ++reads;
+            end("a", IngestResult::incomplete);
+        }
+    }
+    EXPECT_LE(reads, 10);
+    EXPECT_GE(reads, 8);
+}
+
+TEST_F(IntakeTest, TheCloseOfTheLastChunkCountsForTheLatency) {
+    intake_.file_closed(at("a"), make("a"));
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    now_ += milliseconds{100};
+    const SteadyTime closed = now_;
+    intake_.file_closed(at("a"), make("a", "12"));
+    EXPECT_EQ(next(), "");
+    now_ += milliseconds{400};
+    const auto job = intake_.next_job();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->closed_at, closed) << "the wait is part of the latency";
+    EXPECT_FALSE(job->finish_partial);
+}
+
+TEST_F(IntakeTest, AFileThatIsNeverClosedIsReadWhenItRests) {
+    make("a", "1");
+    intake_.file_created(at("a"), look_at(at("a")).stamp);
+    EXPECT_EQ(next(), "");
+    now_ += seconds{1};
+    intake_.poll_growing();
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    append_to_file(at("a"), "more");
+    now_ += seconds{1};
+    intake_.poll_growing();  // sees the change
+    now_ += seconds{1};
+    intake_.poll_growing();  // sees that it rests
+    EXPECT_EQ(next(), "a");
+}
+
+TEST_F(IntakeTest, AFileThatFailsStaysAndWaits) {
+    intake_.file_closed(at("a"), make("a"));
+    ASSERT_EQ(next(), "a");
+    end("a", fail(ErrorCode::io, "cache: no"));
+    EXPECT_EQ(intake_.pending().waiting, 1U);
+    EXPECT_EQ(next(), "");
+    now_ += seconds{1};
+    EXPECT_EQ(next(), "a");
+}
+
+TEST_F(IntakeTest, AFullDiskHoldsEveryFile) {
+    intake_.file_closed(at("a"), make("a"));
+    intake_.file_closed(at("b"), make("b"));
+    ASSERT_EQ(next(), "a");
+    end("a", fail(ErrorCode::no_space, "cache: full"));
+    EXPECT_EQ(next(), "") << "b would fail as well";
+    now_ += seconds{1};
+    EXPECT_NE(next(), "");
+    EXPECT_NE(next(), "");
+}
+
+TEST_F(IntakeTest, WhatDoesNotFitIsFoundByAScanOnceThereIsRoom) {
+    const FileStamp stamp = make("x");
+    intake_.begin_scan();
+    for (const char* name : {"a", "b", "c", "d", "e"})
+        intake_.file_found(at(name), stamp);
+    intake_.end_scan(true);
+    EXPECT_FALSE(intake_.needs_scan()) << "the queue is still full";
+    for (const char* name : {"a", "b", "c"}) {
+        ASSERT_EQ(next(), name);
+        end(name, IngestResult::gridded);
+    }
+    EXPECT_TRUE(intake_.needs_scan());
+    intake_.begin_scan();
+    for (const char* name : {"a", "b", "c", "d", "e"})
+        intake_.file_found(at(name), stamp);
+    intake_.end_scan(true);
+    EXPECT_FALSE(intake_.needs_scan());
+    EXPECT_EQ(next(), "d");
+    EXPECT_EQ(next(), "e");
+    EXPECT_EQ(next(), "") << "what was taken is not offered again";
+}
+
+TEST_F(IntakeTest, LostEventsCallForAScan) {
+    EXPECT_FALSE(intake_.needs_scan());
+    intake_.events_lost();
+    EXPECT_TRUE(intake_.needs_scan());
+    EXPECT_EQ(intake_.take_overflows(), 1U);
+    EXPECT_EQ(intake_.take_overflows(), 0U);
+    intake_.begin_scan();
+    EXPECT_FALSE(intake_.needs_scan());
+}
+
+TEST_F(IntakeTest, AScanOfAVanishedDropDirectoryForgetsNothing) {
+    const FileStamp stamp = make("a");
+    intake_.file_found(at("a"), stamp);
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::gridded);
+    intake_.begin_scan();
+    intake_.end_scan(false);
+    intake_.begin_scan();
+    intake_.file_found(at("a"), stamp);
+    EXPECT_EQ(next(), "");
+}
+
+TEST_F(IntakeTest, AFileThatWentIsLookedAtLastSoThatItsRowsAreMarked) {
+    intake_.file_gone(at("gone"));
+    intake_.file_found(at("old"), make("old"));
+    EXPECT_EQ(next(), "old");
+    EXPECT_EQ(next(), "gone");
+    end("gone", IngestResult::vanished);
+    EXPECT_EQ(intake_.pending().running, 1U);
+}
+
+TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
+    EXPECT_FALSE(intake_.next_time(true));
+    intake_.file_closed(at("a"), make("a"));
+    EXPECT_FALSE(intake_.next_time(false)) << "no worker is free";
+    EXPECT_LE(*intake_.next_time(true), now_);
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    EXPECT_EQ(intake_.next_time(false), now_ + seconds{1});
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

@@ -1,0 +1,194 @@
+#include "daemon/schedule.h"
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
+
+Job job(const std::string& path, std::int64_t newest_ns = 0) {
+    Job made;
+    made.path = path;
+    made.newest_ns = newest_ns;
+    return made;
+}
+
+std::string next_path(Schedule& schedule, SteadyTime now) {
+    const auto next = schedule.next(now);
+    return next ? next->path.native() : "";
+}
+
+TEST(Schedule, GivesTheNewestFirstAndEqualOnesAsTheyCame) {
+    Schedule schedule(10);
+    for (const auto& [path, newest] : std::vector<std::pair<std::string, std::int64_t>>{
+             {"old", 1}, {"new", 9}, {"same-a", 5}, {"same-b", 5}}) {
+        EXPECT_EQ(schedule.offer(job(path, newest)), Offered::queued);
+    }
+    EXPECT_EQ(next_path(schedule, t0), "new");
+    EXPECT_EQ(next_path(schedule, t0), "same-a");
+    EXPECT_EQ(next_path(schedule, t0), "same-b");
+    EXPECT_EQ(next_path(schedule, t0), "old");
+    EXPECT_EQ(next_path(schedule, t0), "");
+    EXPECT_EQ(schedule.running_count(), 4U);
+}
+
+TEST(Schedule, OneEntryAPath) {
+    Schedule schedule(10);
+    Job first = job("a", 1);
+    first.closed_at = t0;
+    first.finish_partial = true;
+    Job second = job("a", 7);
+    second.closed_at = t0 + seconds{1};
+    schedule.offer(first);
+    EXPECT_EQ(schedule.offer(second), Offered::merged);
+    EXPECT_EQ(schedule.waiting_count(), 1U);
+    const auto merged = schedule.next(t0);
+    ASSERT_TRUE(merged);
+    EXPECT_EQ(merged->newest_ns, 7);
+    EXPECT_EQ(merged->closed_at, t0 + seconds{1}) << "the latest close counts";
+    EXPECT_FALSE(merged->finish_partial) << "a file that was closed again is not quiet";
+    EXPECT_FALSE(schedule.next(t0));
+}
+
+TEST(Schedule, AMergedOfferWithoutACloseKeepsTheClose) {
+    Schedule schedule(10);
+    Job first = job("a");
+    first.closed_at = t0;
+    schedule.offer(first);
+    schedule.offer(job("a"));
+    EXPECT_EQ(schedule.next(t0)->closed_at, t0);
+}
+
+TEST(Schedule, WhatIsOfferedWhileItRunsIsLookedAtOnceMore) {
+    Schedule schedule(10);
+    schedule.offer(job("a"));
+    ASSERT_EQ(next_path(schedule, t0), "a");
+    EXPECT_EQ(schedule.offer(job("a")), Offered::merged);
+    EXPECT_EQ(schedule.offer(job("a")), Offered::merged);
+    EXPECT_EQ(next_path(schedule, t0), "") << "never twice at a time";
+    schedule.finished("a", t0 + seconds{2});
+    EXPECT_EQ(next_path(schedule, t0 + seconds{1}), "") << "not before the time that was asked";
+    EXPECT_EQ(schedule.next_time(), t0 + seconds{2});
+    EXPECT_EQ(next_path(schedule, t0 + seconds{2}), "a");
+    schedule.finished("a");
+    EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "") << "once, not twice";
+    EXPECT_EQ(schedule.running_count(), 0U);
+}
+
+TEST(Schedule, AJobWaitsForItsTime) {
+    Schedule schedule(10);
+    Job later = job("later", 9);
+    later.not_before = t0 + milliseconds{500};
+    schedule.offer(later);
+    schedule.offer(job("now", 1));
+    EXPECT_EQ(next_path(schedule, t0), "now");
+    EXPECT_EQ(next_path(schedule, t0), "");
+    EXPECT_EQ(schedule.next_time(), t0 + milliseconds{500});
+    EXPECT_EQ(next_path(schedule, t0 + milliseconds{500}), "later");
+}
+
+TEST(Schedule, RefusesBeyondItsLimitButMergesWhatItHas) {
+    Schedule schedule(2);
+    schedule.offer(job("a"));
+    schedule.offer(job("b"));
+    EXPECT_EQ(schedule.offer(job("c")), Offered::refused);
+    EXPECT_EQ(schedule.offer(job("a")), Offered::merged);
+    ASSERT_EQ(next_path(schedule, t0), "b") << "a was merged, so it came later";
+    schedule.finished("b");
+    EXPECT_EQ(schedule.offer(job("c")), Offered::queued);
+}
+
+TEST(Schedule, AFailedJobWaitsLongerEachTimeAndIsNeverDropped) {
+    Schedule schedule(10);
+    schedule.offer(job("a"));
+    SteadyTime now = t0;
+    std::vector<std::int64_t> waits;
+    for (int i = 0; i < 9; ++i) {
+        std::optional<Job> next = schedule.next(now);
+        ASSERT_TRUE(next);
+        schedule.retry(*next, now);
+        const SteadyTime then = *schedule.next_time();
+        EXPECT_FALSE(schedule.next(then - milliseconds{1}));
+        waits.push_back(std::chrono::duration_cast<seconds>(then - now).count());
+        now = then;
+    }
+    EXPECT_EQ(waits, (std::vector<std::int64_t>{1, 2, 4, 8, 16, 32, 60, 60, 60}));
+}
+
+TEST(Schedule, AChangeWhileAJobFailsDoesNotEndTheWait) {
+    Schedule schedule(10);
+    schedule.offer(job("a"));
+    const auto running = schedule.next(t0);
+    schedule.offer(job("a"));
+    schedule.retry(*running, t0);
+    EXPECT_EQ(schedule.waiting_count(), 1U);
+    EXPECT_FALSE(schedule.next(t0));
+    const auto again = schedule.next(t0 + seconds{1});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->failures, 1);
+}
+
+TEST(Schedule, AHoldConcernsEveryJob) {
+    Schedule schedule(10);
+    schedule.offer(job("a"));
+    schedule.hold_until(t0 + seconds{4});
+    EXPECT_FALSE(schedule.next(t0 + seconds{3}));
+    EXPECT_EQ(schedule.next_time(), t0 + seconds{4});
+    EXPECT_TRUE(schedule.next(t0 + seconds{4}));
+}
+
+// Against the obvious: a list that is searched.
+TEST(Schedule, AgreesWithAPlainListUnderRandomUse) {
+    std::mt19937 random(20261121);
+    Schedule schedule(8);
+    std::vector<Job> waiting, running;  // in the order of their last offer
+    const auto find = [](std::vector<Job>& jobs, const std::filesystem::path& path) {
+        return std::find_if(jobs.begin(), jobs.end(),
+                            [&](const Job& other) { return other.path == path; });
+    };
+    for (int step = 0; step < 20'000; ++step) {
+        const std::string path(1, static_cast<char>('a' + random() % 12));
+        const bool runs = find(running, path) != running.end();
+        if (random() % 3 != 0 && !runs) {
+            const Job offered = job(path, random() % 5);
+            const auto known = find(waiting, path);
+            const Offered expected = known != waiting.end()                 ? Offered::merged
+                                     : waiting.size() + running.size() >= 8 ? Offered::refused
+                                                                            : Offered::queued;
+            ASSERT_EQ(schedule.offer(offered), expected);
+            if (expected == Offered::merged) {
+                const std::int64_t newest = std::max(known->newest_ns, offered.newest_ns);
+                waiting.erase(known);
+                waiting.push_back(job(path, newest));
+            } else if (expected == Offered::queued) {
+                waiting.push_back(offered);
+            }
+        } else if (runs) {
+            schedule.finished(path);
+            running.erase(find(running, path));
+        } else {
+            const auto newest = std::max_element(
+                waiting.begin(), waiting.end(),
+                [](const Job& a, const Job& b) { return a.newest_ns < b.newest_ns; });
+            const auto next = schedule.next(t0);
+            ASSERT_EQ(next.has_value(), newest != waiting.end());
+            if (!next) continue;
+            ASSERT_EQ(next->path, newest->path);
+            running.push_back(*newest);
+            waiting.erase(newest);
+        }
+        ASSERT_EQ(schedule.waiting_count(), waiting.size());
+        ASSERT_EQ(schedule.running_count(), running.size());
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

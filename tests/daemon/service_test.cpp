@@ -1,0 +1,233 @@
+#include "daemon/service.h"
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/inotify.h>
+
+#include "tests/daemon/fake_notifier.h"
+#include "tests/daemon/fake_sink.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using pipeline::IngestResult;
+
+// A whole service on a real directory, with a sink that does what the test says.
+class ServiceTest : public ::testing::Test {
+  protected:
+    ServiceTest() {
+        fs::create_directories(root_ / "drop");
+        fs::create_directories(root_ / "state");
+        config_.drop = root_ / "drop";
+        config_.state = root_ / "state";
+        config_.cache = root_ / "cache";
+        config_.workers = 2;
+        config_.quiet = std::chrono::milliseconds{1000};
+        config_.reread = std::chrono::milliseconds{0};
+    }
+    ~ServiceTest() override { stop(); }
+
+    void start(FakeSink::Answer answer, std::unique_ptr<EventSource> events = nullptr) {
+        sink_ = std::make_unique<FakeSink>(std::move(answer));
+        events_ = events ? std::move(events) : *open_inotify();
+        service_ = std::make_unique<Service>(
+            config_, root_ / "stormcellard.toml",
+            ServiceParts{*sink_, *events_, notifier_, real_file_system(), signals_});
+        thread_ = std::thread([this] { stopped_ = service_->run(); });
+    }
+    Stopped stop() {
+        if (service_) service_->request_stop();
+        if (thread_.joinable()) thread_.join();
+        return stopped_;
+    }
+    bool wait_for_message(const std::string& start) {
+        for (int i = 0; i < 2000; ++i) {
+            const auto sent = notifier_.sent();
+            if (std::any_of(sent.begin(), sent.end(),
+                            [&](const auto& text) { return text.starts_with(start); })) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        return false;
+    }
+    [[nodiscard]] nlohmann::json status() const {
+        std::ifstream file(root_ / "state/status.json");
+        return nlohmann::json::parse(file);
+    }
+    static FakeSink::Answer always(IngestResult result) {
+        return [result](const auto&, bool) { return outcome_of(result); };
+    }
+
+    testing::TemporaryDirectory root_;
+    Config config_;
+    FakeNotifier notifier_;
+    const Signals* signals_ = nullptr;
+    std::unique_ptr<FakeSink> sink_;
+    std::unique_ptr<EventSource> events_;
+    std::unique_ptr<Service> service_;
+    std::thread thread_;
+    Stopped stopped_ = Stopped::with_jobs;
+};
+
+TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
+    write_file(config_.drop / "before", "1");
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    ASSERT_TRUE(sink_->wait_for_calls(1));
+    write_file(config_.drop / "during", "1");
+    ASSERT_TRUE(sink_->wait_for_calls(2));
+    EXPECT_EQ(stop(), Stopped::cleanly);
+    EXPECT_EQ(sink_->calls(), (std::vector<std::string>{"before", "during"}));
+    EXPECT_EQ(status()["state"], "stopped");
+    EXPECT_EQ(status()["ingested"], 2);
+    EXPECT_EQ(status()["latency_s"]["count"], 1) << "nobody saw the first one's close";
+    EXPECT_TRUE(wait_for_message("STOPPING=1"));
+}
+
+TEST_F(ServiceTest, FinishesAnIncompleteFileThatStaysQuiet) {
+    start([](const auto&, bool finish) {
+        return outcome_of(finish ? IngestResult::gridded : IngestResult::incomplete);
+    });
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    write_file(config_.drop / "a", "1");
+    ASSERT_TRUE(sink_->wait_for_calls(2));
+    stop();
+    EXPECT_EQ(sink_->calls(), (std::vector<std::string>{"a", "a!"}));
+}
+
+TEST_F(ServiceTest, TriesAgainWhatCouldNotBeStored) {
+    std::atomic<int> attempts = 0;
+    start([&](const auto&, bool) -> Result<pipeline::IngestOutcome> {
+        if (++attempts < 3) return fail(ErrorCode::no_space, "cache: full");
+        return outcome_of(IngestResult::gridded);
+    });
+    write_file(config_.drop / "a", "1");
+    ASSERT_TRUE(sink_->wait_for_calls(3));
+    stop();
+    EXPECT_EQ(status()["failures"], 2);
+    EXPECT_EQ(status()["ingested"], 1);
+}
+
+TEST_F(ServiceTest, LivesOnRescansWhereThereAreNoEvents) {
+    config_.rescan = std::chrono::milliseconds{200};
+    start(always(IngestResult::gridded), no_events());
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    fs::create_directory(config_.drop / "day");
+    write_file(config_.drop / "day/a", "1");
+    EXPECT_TRUE(sink_->wait_for_calls(1));
+}
+
+// Every event is dropped by the kernel: only the scan that follows can find the files.
+TEST_F(ServiceTest, ScansWhenEventsWereLost) {
+    class Overflowing final : public EventSource {
+      public:
+        Overflowing() : real_(std::move(*open_inotify())) {}
+        [[nodiscard]] int descriptor() const override { return real_->descriptor(); }
+        Result<int> watch(const fs::path& directory) override { return real_->watch(directory); }
+        void unwatch(int watch) override { real_->unwatch(watch); }
+        std::vector<DirectoryEvent> read() override {
+            if (real_->read().empty()) return {};
+            return {{-1, IN_Q_OVERFLOW, ""}};
+        }
+
+      private:
+        std::unique_ptr<EventSource> real_;
+    };
+    start(always(IngestResult::gridded), std::make_unique<Overflowing>());
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    for (int i = 0; i < 100; ++i)
+        write_file(config_.drop / std::to_string(i), "1");
+    ASSERT_TRUE(sink_->wait_for_calls(100));
+    stop();
+    std::vector<std::string> calls = sink_->calls();
+    std::sort(calls.begin(), calls.end());
+    EXPECT_EQ(std::unique(calls.begin(), calls.end()), calls.end()) << "each once";
+    EXPECT_GE(status()["overflows"], 1);
+}
+
+TEST_F(ServiceTest, ASmallQueueLosesNothing) {
+    config_.queue_limit = 16;
+    for (int i = 0; i < 200; ++i)
+        write_file(config_.drop / std::to_string(i), "1");
+    start(always(IngestResult::gridded));
+    EXPECT_TRUE(sink_->wait_for_calls(200));
+}
+
+TEST_F(ServiceTest, GoesOnWhenTheDropDirectoryVanishesAndReturns) {
+    config_.rescan = std::chrono::milliseconds{200};
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    fs::remove_all(config_.drop);
+    std::this_thread::sleep_for(std::chrono::milliseconds{300});
+    fs::create_directory(config_.drop);
+    write_file(config_.drop / "a", "1");
+    EXPECT_TRUE(sink_->wait_for_calls(1));
+    EXPECT_EQ(stop(), Stopped::cleanly);
+}
+
+TEST_F(ServiceTest, AMissingDropDirectoryEndsTheStart) {
+    fs::remove(config_.drop);
+    start(always(IngestResult::gridded));
+    thread_.join();
+    EXPECT_EQ(stopped_, Stopped::at_start);
+    EXPECT_FALSE(fs::exists(config_.drop)) << "it belongs to LDM, so it is not made";
+}
+
+TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {
+    for (int i = 0; i < 50; ++i)
+        write_file(config_.drop / std::to_string(i), "1");
+    start([](const auto&, bool) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{100});
+        return outcome_of(IngestResult::gridded);
+    });
+    ASSERT_TRUE(sink_->wait_for_calls(2));
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_EQ(stop(), Stopped::cleanly);
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds{2});
+    EXPECT_LT(sink_->calls().size(), 20U);
+    EXPECT_EQ(status()["ingested"], sink_->calls().size()) << "what ended while stopping counts";
+}
+
+TEST_F(ServiceTest, FeedsTheWatchdogWhenIdle) {
+    notifier_.period = std::chrono::milliseconds{200};
+    start(always(IngestResult::gridded));
+    EXPECT_TRUE(wait_for_message("WATCHDOG=1"));
+}
+
+// Signals are blocked in this thread, so that the process-wide ones reach the service only.
+TEST_F(ServiceTest, ReloadsOnHangUpAndStopsOnTermination) {
+    const Result<Signals> signals = Signals::open();
+    ASSERT_TRUE(signals);
+    signals_ = &*signals;
+    write_file(root_ / "stormcellard.toml",
+               "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"elsewhere\"\n"
+               "[ingest]\nworkers = 3\n[log]\nlevel = \"warning\"\n");
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    ::pthread_kill(thread_.native_handle(), SIGHUP);
+    ASSERT_TRUE(wait_for_message("RELOADING=1\nMONOTONIC_USEC="));
+    for (int i = 0; i < 200; ++i) {
+        const auto sent = notifier_.sent();
+        if (std::count(sent.begin(), sent.end(), "READY=1") == 2) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    const auto sent = notifier_.sent();
+    EXPECT_EQ(std::count(sent.begin(), sent.end(), "READY=1"), 2) << "ready again";
+    ::pthread_kill(thread_.native_handle(), SIGTERM);
+    thread_.join();
+    EXPECT_EQ(stopped_, Stopped::cleanly);
+    set_log_level("info");
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

@@ -1,0 +1,80 @@
+#include "daemon/status_file.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/daemon/fake_notifier.h"
+#include "tests/testing/power_cut_file_system.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+
+const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
+
+class StatusFileTest : public ::testing::Test {
+  protected:
+    [[nodiscard]] std::string state_on_disk() const {
+        std::ifstream file(state_ / "status.json");
+        if (!file) return "none";
+        return nlohmann::json::parse(file)["state"];
+    }
+    [[nodiscard]] std::size_t entries() const {
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(state_.path()), {}));
+    }
+
+    testing::TemporaryDirectory state_;
+    FakeNotifier notifier_;
+    StatusBook book_{"/d", "/c"};
+};
+
+TEST_F(StatusFileTest, IsWrittenAtMostOnceASecondAndOnlyForAChange) {
+    StatusFile file(real_file_system(), state_.path(), notifier_);
+    file.publish(book_, {}, t0, false);
+    EXPECT_EQ(state_on_disk(), "none") << "nothing has changed";
+    file.changed();
+    file.publish(book_, {}, t0, false);
+    EXPECT_EQ(state_on_disk(), "starting");
+    book_.set_state("running");
+    file.changed();
+    EXPECT_EQ(file.next_time(), t0 + milliseconds{1000});
+    file.publish(book_, {}, t0 + milliseconds{999}, false);
+    EXPECT_EQ(state_on_disk(), "starting");
+    file.publish(book_, {}, t0 + milliseconds{1000}, false);
+    EXPECT_EQ(state_on_disk(), "running");
+    EXPECT_FALSE(file.next_time());
+    book_.set_state("stopped");
+    file.publish(book_, {}, t0 + milliseconds{1001}, true);
+    EXPECT_EQ(state_on_disk(), "stopped");
+    EXPECT_EQ(entries(), 1U) << "no temporary file is left";
+    EXPECT_EQ(notifier_.sent().size(), 3U);
+    EXPECT_TRUE(notifier_.sent()[0].starts_with("STATUS=ingested 0"));
+}
+
+TEST_F(StatusFileTest, TakesTheLeftoverOfAKilledDaemonAway) {
+    std::ofstream(state_ / ".stormcellar-tmp-status") << "half";
+    StatusFile file(real_file_system(), state_.path(), notifier_);
+    file.publish(book_, {}, t0, true);
+    EXPECT_EQ(state_on_disk(), "starting");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(StatusFileTest, AFullDiskLeavesTheLastWholeDocument) {
+    testing::PowerCutFileSystem disk;
+    StatusFile file(disk, state_.path(), notifier_);
+    file.publish(book_, {}, t0, true);
+    ASSERT_EQ(state_on_disk(), "starting");
+    disk.set_space(10);
+    book_.set_state("running");
+    file.publish(book_, {}, t0, true);
+    EXPECT_EQ(state_on_disk(), "starting");
+    EXPECT_EQ(entries(), 1U);
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

@@ -1,0 +1,128 @@
+#include "daemon/status.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/daemon/fake_sink.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using pipeline::IngestResult;
+using std::chrono::milliseconds;
+
+Finished finished(const std::string& path, IngestResult result, int latency_ms) {
+    Finished made{.job = {}, .taken = Taken{{}, outcome_of(result)}, .started = {}, .ended = {}};
+    made.job.path = path;
+    made.started = SteadyTime{} + milliseconds{1'000'000};
+    made.ended = made.started + milliseconds{10};
+    if (latency_ms >= 0) made.job.closed_at = made.ended - milliseconds{latency_ms};
+    return made;
+}
+
+TEST(Latency, RunsFromTheCloseToTheEndOfTheJob) {
+    EXPECT_DOUBLE_EQ(*latency_of(finished("a", IngestResult::gridded, 85)), 0.085);
+    EXPECT_FALSE(latency_of(finished("a", IngestResult::gridded, -1)));
+}
+
+TEST(Latency, SummariesAreByNearestRank) {
+    std::vector<double> values(100);
+    std::iota(values.begin(), values.end(), 1);
+    std::reverse(values.begin(), values.end());
+    const LatencySummary hundred = summarise(values);
+    EXPECT_EQ(hundred.count, 100U);
+    EXPECT_EQ(hundred.median, 50);
+    EXPECT_EQ(hundred.p95, 95);
+    EXPECT_EQ(hundred.max, 100);
+    const LatencySummary one = summarise({7});
+    EXPECT_EQ(one.median, 7);
+    EXPECT_EQ(one.p95, 7);
+    EXPECT_EQ(summarise({3, 1, 2}).median, 2);
+    EXPECT_EQ(summarise({}).count, 0U);
+}
+
+TEST(StatusBook, CountsEachEnd) {
+    StatusBook book("/d", "/c");
+    for (const int latency_ms : {100, 300, 200})
+        book.add(finished("/d/a\nb", IngestResult::gridded, latency_ms));
+    book.add(finished("/d/old", IngestResult::gridded, -1));
+    Finished partial = finished("/d/p", IngestResult::gridded, -1);
+    partial.taken->ingest.reason = "ends early";
+    book.add(partial);
+    book.add(finished("/d/r", IngestResult::rejected, 1));
+    book.add(finished("/d/n", IngestResult::no_moment, 1));
+    book.add(finished("/d/u", IngestResult::unchanged, 1));
+    book.add(finished("/d/v", IngestResult::vanished, 1));
+    Finished failed = finished("/d/f", IngestResult::gridded, 1);
+    failed.taken = fail(ErrorCode::io, "no");
+    book.add(failed);
+    book.count_overflow();
+    book.count_scan(3);
+    book.set_state("running");
+
+    const auto status = nlohmann::json::parse(book.json({4, 2, 1}, now_utc()));
+    EXPECT_EQ(status["state"], "running");
+    EXPECT_EQ(status["ingested"], 5);
+    EXPECT_EQ(status["grids"], 5);
+    EXPECT_EQ(status["partial"], 1);
+    EXPECT_EQ(status["rejected"], 1);
+    EXPECT_EQ(status["no_moment"], 1);
+    EXPECT_EQ(status["unchanged"], 1);
+    EXPECT_EQ(status["vanished"], 1);
+    EXPECT_EQ(status["failures"], 1);
+    EXPECT_EQ(status["overflows"], 1);
+    EXPECT_EQ(status["directories"], 3);
+    EXPECT_EQ(status["pending"], nlohmann::json({{"waiting", 4}, {"running", 2}, {"growing", 1}}));
+    EXPECT_EQ(status["latency_s"]["count"], 3);
+    EXPECT_NEAR(status["latency_s"]["median"], 0.2, 1e-9);
+    EXPECT_NEAR(status["latency_s"]["max"], 0.3, 1e-9);
+    ASSERT_EQ(status["volumes"].size(), 5U);
+    EXPECT_EQ(status["volumes"][0]["file"], "/d/a\\x0ab");
+    EXPECT_EQ(status["volumes"][0]["station"], "KTLX");
+    EXPECT_EQ(status["volumes"][0]["time"], "2022-03-17T00:08:42Z");
+    EXPECT_NEAR(status["volumes"][1]["latency_s"], 0.3, 1e-9);
+    EXPECT_TRUE(status["volumes"][3]["latency_s"].is_null());
+}
+
+TEST(StatusBook, NothingYetIsNullAndNotZero) {
+    const StatusBook book("/d", "/c");
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["state"], "starting");
+    EXPECT_EQ(status["latency_s"]["count"], 0);
+    EXPECT_TRUE(status["latency_s"]["median"].is_null());
+}
+
+TEST(StatusBook, StaysBounded) {
+    StatusBook book("/d", "/c");
+    for (int i = 0; i < 10'000; ++i)
+        book.add(finished("/d/" + std::to_string(i), IngestResult::gridded, i));
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["ingested"], 10'000);
+    EXPECT_EQ(status["latency_s"]["count"], 4096);
+    EXPECT_EQ(status["volumes"].size(), 64U);
+    EXPECT_EQ(status["volumes"].back()["file"], "/d/9999");
+}
+
+TEST(StatusBook, TheLineNamesTheLatestVolume) {
+    StatusBook book("/d", "/c");
+    EXPECT_EQ(book.line({}), "ingested 0, rejected 0, waiting 0, running 0, growing 0");
+    book.add(finished("/d/a", IngestResult::gridded, 1));
+    EXPECT_EQ(book.line({3, 2, 1}),
+              "ingested 1 (latest KTLX 2022-03-17T00:08:42Z), rejected 0, waiting 3, running 2, "
+              "growing 1");
+}
+
+// A name that is not UTF-8 must not break the document.
+TEST(StatusBook, OddBytesInNamesAreEscaped) {
+    StatusBook book("/d\xFF", "/c");
+    book.add(finished("/d/\xC3\x28", IngestResult::gridded, 1));
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["drop"], "/d\\xff");
+    EXPECT_EQ(status["volumes"][0]["file"], "/d/\\xc3(");
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

@@ -1,0 +1,321 @@
+#include "daemon/watcher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/daemon/write_file.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Remembers what was said, as "closed NAME" and so on, names relative to the drop directory.
+class Notes final : public WatchListener {
+  public:
+    explicit Notes(fs::path drop) : drop_(std::move(drop)) {}
+    void file_closed(const fs::path& path, const FileStamp&) override { note("closed", path); }
+    void file_created(const fs::path& path, const FileStamp&) override { note("created", path); }
+    void file_found(const fs::path& path, const FileStamp&) override { note("found", path); }
+    void file_gone(const fs::path& path) override { note("gone", path); }
+    void events_lost() override { said.emplace_back("lost"); }
+    void drop_vanished() override { said.emplace_back("vanished"); }
+    void directory_problem(const Error& error) override { problems.push_back(error); }
+
+    [[nodiscard]] bool has(const std::string& line) const {
+        return std::find(said.begin(), said.end(), line) != said.end();
+    }
+    // The files that were reported to be taken, however that was.
+    [[nodiscard]] std::set<std::string> taken() const {
+        std::set<std::string> names;
+        for (const std::string& line : said) {
+            if (line.starts_with("closed ")) names.insert(line.substr(7));
+            if (line.starts_with("found ")) names.insert(line.substr(6));
+        }
+        return names;
+    }
+
+    std::vector<std::string> said;
+    std::vector<Error> problems;
+
+  private:
+    void note(const std::string& what, const fs::path& path) {
+        said.push_back(what + " " + path.lexically_relative(drop_).native());
+    }
+    fs::path drop_;
+};
+
+class RealWatcher : public ::testing::Test {
+  protected:
+    RealWatcher() {
+        Result<std::unique_ptr<EventSource>> events = open_inotify();
+        if (!events) throw std::runtime_error(events.error().message);
+        events_ = std::move(*events);
+        watcher_ = std::make_unique<Watcher>(drop(), *events_, notes_);
+    }
+    [[nodiscard]] fs::path drop() const { return directory_.path(); }
+    // Handles all events that come until there were none for a moment.
+    void settle() {
+        pollfd source{events_->descriptor(), POLLIN, 0};
+        while (::poll(&source, 1, 50) > 0)
+            watcher_->read_events();
+    }
+
+    testing::TemporaryDirectory directory_;
+    Notes notes_{directory_.path()};
+    std::unique_ptr<EventSource> events_;
+    std::unique_ptr<Watcher> watcher_;
+};
+
+using Lines = std::vector<std::string>;
+
+TEST_F(RealWatcher, FindsWhatStoodThereBefore) {
+    fs::create_directory(drop() / "day");
+    write_file(drop() / "day/a", "1");
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_EQ(notes_.said, Lines{"found day/a"});
+    EXPECT_EQ(watcher_->directory_count(), 2U);
+}
+
+TEST_F(RealWatcher, SeesAFileMadeAndClosed) {
+    ASSERT_TRUE(watcher_->scan());
+    {
+        std::ofstream file(drop() / "a");
+        file << "first" << std::flush;
+        settle();
+        EXPECT_EQ(notes_.said, Lines{"created a"}) << "not closed yet";
+    }
+    settle();
+    EXPECT_EQ(notes_.said, (Lines{"created a", "closed a"}));
+    append_to_file(drop() / "a", "more");
+    settle();
+    EXPECT_EQ(notes_.said, (Lines{"created a", "closed a", "closed a"}));
+}
+
+TEST_F(RealWatcher, IgnoresADotFileUntilItIsRenamed) {
+    ASSERT_TRUE(watcher_->scan());
+    write_file(drop() / ".a", "1");
+    write_file(drop() / "b.tmp", "1");
+    settle();
+    EXPECT_EQ(notes_.said, Lines{});
+    fs::rename(drop() / ".a", drop() / "a");
+    settle();
+    EXPECT_EQ(notes_.said, Lines{"closed a"});
+}
+
+TEST_F(RealWatcher, SaysWhatWentAndWhereItWent) {
+    write_file(drop() / "a", "1");
+    write_file(drop() / "b", "1");
+    ASSERT_TRUE(watcher_->scan());
+    notes_.said.clear();
+    fs::remove(drop() / "a");
+    fs::rename(drop() / "b", drop() / "c");
+    settle();
+    EXPECT_EQ(notes_.said, (Lines{"gone a", "gone b", "closed c"}));
+}
+
+TEST_F(RealWatcher, AHardLinkIsCreatedAndNeverClosed) {
+    const testing::TemporaryDirectory elsewhere;
+    write_file(elsewhere / "a", "1");
+    ASSERT_TRUE(watcher_->scan());
+    fs::create_hard_link(elsewhere / "a", drop() / "a");
+    settle();
+    EXPECT_EQ(notes_.said, Lines{"created a"});
+}
+
+TEST_F(RealWatcher, NeverReportsLinksFifosAndDirectories) {
+    const testing::TemporaryDirectory elsewhere;
+    write_file(elsewhere / "a", "1");
+    ASSERT_TRUE(watcher_->scan());
+    fs::create_symlink(elsewhere / "a", drop() / "link");
+    fs::create_directory_symlink(elsewhere.path(), drop() / "linked");
+    ASSERT_EQ(::mkfifo((drop() / "fifo").c_str(), 0600), 0);
+    fs::create_directory(drop() / "KTLX20220317_000842_V06");
+    settle();
+    write_file(elsewhere / "b", "1");
+    settle();
+    EXPECT_EQ(notes_.said, Lines{});
+    EXPECT_EQ(watcher_->directory_count(), 2U) << "the drop directory and the real one";
+}
+
+// Directories come and are filled at once by another thread, faster than watches can be set.
+TEST_F(RealWatcher, MissesNothingInDirectoriesThatAppear) {
+    ASSERT_TRUE(watcher_->scan());
+    std::set<std::string> expected;
+    for (int day = 0; day < 20; ++day) {
+        for (int file = 0; file < 50; ++file)
+            expected.insert("d" + std::to_string(day) + "/s/f" + std::to_string(file));
+    }
+    std::thread writer([&] {
+        for (const std::string& name : expected) {
+            fs::create_directories((drop() / name).parent_path());
+            write_file(drop() / name, "1");
+        }
+    });
+    while (notes_.taken().size() < expected.size()) {
+        pollfd source{events_->descriptor(), POLLIN, 0};
+        if (::poll(&source, 1, 2000) == 0) break;
+        watcher_->read_events();
+    }
+    writer.join();
+    settle();
+    EXPECT_EQ(notes_.taken(), expected);
+    EXPECT_EQ(watcher_->directory_count(), 41U);
+}
+
+TEST_F(RealWatcher, FollowsADirectoryThatIsRenamed) {
+    fs::create_directory(drop() / "old");
+    ASSERT_TRUE(watcher_->scan());
+    fs::rename(drop() / "old", drop() / "new");
+    settle();
+    notes_.said.clear();
+    write_file(drop() / "new/a", "1");
+    settle();
+    EXPECT_TRUE(notes_.has("closed new/a"));
+    EXPECT_EQ(watcher_->directory_count(), 2U);
+}
+
+TEST_F(RealWatcher, ForgetsADirectoryThatIsMovedAway) {
+    const testing::TemporaryDirectory elsewhere;
+    fs::create_directories(drop() / "day/site");
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_EQ(watcher_->directory_count(), 3U);
+    fs::rename(drop() / "day", elsewhere / "day");
+    settle();
+    write_file(elsewhere / "day/site/a", "1");
+    settle();
+    EXPECT_EQ(notes_.said, Lines{}) << "what lies outside is never reported";
+    EXPECT_EQ(watcher_->directory_count(), 1U);
+}
+
+TEST_F(RealWatcher, ForgetsADirectoryThatIsDeleted) {
+    fs::create_directories(drop() / "day/site");
+    ASSERT_TRUE(watcher_->scan());
+    fs::remove_all(drop() / "day");
+    settle();
+    EXPECT_EQ(watcher_->directory_count(), 1U);
+}
+
+TEST_F(RealWatcher, SaysWhenTheDropDirectoryVanishesAndTakesItAgain) {
+    ASSERT_TRUE(watcher_->scan());
+    fs::remove_all(drop());
+    settle();
+    EXPECT_TRUE(notes_.has("vanished"));
+    EXPECT_FALSE(watcher_->scan());
+    fs::create_directory(drop());
+    write_file(drop() / "a", "1");
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_TRUE(notes_.has("found a"));
+    write_file(drop() / "b", "1");
+    settle();
+    EXPECT_TRUE(notes_.has("closed b"));
+}
+
+TEST_F(RealWatcher, AMissingDropDirectoryIsAnError) {
+    Watcher watcher(drop() / "none", *events_, notes_);
+    EXPECT_FALSE(watcher.scan());
+}
+
+// More events than the kernel keeps: some are dropped, the watcher says so, and a scan finds all.
+TEST_F(RealWatcher, ASecondScanFindsWhatAnOverflowHid) {
+    std::size_t queue = 0;
+    std::ifstream("/proc/sys/fs/inotify/max_queued_events") >> queue;
+    if (queue == 0 || queue > 50'000) GTEST_SKIP() << "the event queue is too long to overflow";
+    ASSERT_TRUE(watcher_->scan());
+    const std::size_t files = queue / 2 + 100;  // each is created and closed
+    for (std::size_t i = 0; i < files; ++i)
+        write_file(drop() / std::to_string(i), "1");
+    settle();
+    EXPECT_TRUE(notes_.has("lost"));
+    EXPECT_LT(notes_.taken().size(), files);
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_EQ(notes_.taken().size(), files);
+}
+
+// Events by hand, and a limit of watches.
+class FakeEvents final : public EventSource {
+  public:
+    [[nodiscard]] int descriptor() const override { return -1; }
+    Result<int> watch(const fs::path& directory) override {
+        if (static_cast<int>(watched.size()) >= most) {
+            return fail(ErrorCode::no_space, "{}: no inotify watches left", directory.native());
+        }
+        watched.push_back(directory);
+        return static_cast<int>(watched.size());
+    }
+    void unwatch(int) override {}
+    std::vector<DirectoryEvent> read() override { return std::exchange(waiting, {}); }
+
+    int most = 1000;
+    std::vector<fs::path> watched;
+    std::vector<DirectoryEvent> waiting;
+};
+
+TEST(ForcedWatcher, SaysWhenTheKernelDroppedEvents) {
+    const testing::TemporaryDirectory directory;
+    FakeEvents events;
+    Notes notes(directory.path());
+    Watcher watcher(directory.path(), events, notes);
+    ASSERT_TRUE(watcher.scan());
+    write_file(directory / "a", "1");
+    events.waiting = {{-1, IN_Q_OVERFLOW, ""}, {1, IN_CLOSE_WRITE, "a"}};
+    watcher.read_events();
+    EXPECT_EQ(notes.said, (Lines{"lost", "closed a"}));
+}
+
+TEST(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEverything) {
+    const testing::TemporaryDirectory directory;
+    for (const char* name : {"a", "b", "c"}) {
+        fs::create_directory(directory / name);
+        write_file(directory / name / "file", "1");
+    }
+    FakeEvents events;
+    events.most = 2;
+    Notes notes(directory.path());
+    Watcher watcher(directory.path(), events, notes);
+    ASSERT_TRUE(watcher.scan());
+    ASSERT_EQ(notes.problems.size(), 2U);
+    EXPECT_EQ(notes.problems[0].code, ErrorCode::no_space);
+    EXPECT_EQ(notes.taken(), (std::set<std::string>{"a/file", "b/file", "c/file"}));
+}
+
+TEST(ForcedWatcher, EventsOfAWatchThatIsGoneAreLeftAlone) {
+    const testing::TemporaryDirectory directory;
+    FakeEvents events;
+    Notes notes(directory.path());
+    Watcher watcher(directory.path(), events, notes);
+    ASSERT_TRUE(watcher.scan());
+    write_file(directory / "a", "1");
+    events.waiting = {{99, IN_CLOSE_WRITE, "a"}, {1, IN_IGNORED, ""}, {1, IN_CLOSE_WRITE, "a"}};
+    watcher.read_events();
+    EXPECT_EQ(notes.said, Lines{});
+    EXPECT_EQ(watcher.directory_count(), 0U);
+}
+
+// An event may be read when its file has long been gone (scour).
+TEST(ForcedWatcher, AFileThatIsGoneWhenItsEventIsReadIsNotReported) {
+    const testing::TemporaryDirectory directory;
+    FakeEvents events;
+    Notes notes(directory.path());
+    Watcher watcher(directory.path(), events, notes);
+    ASSERT_TRUE(watcher.scan());
+    events.waiting = {{1, IN_CLOSE_WRITE, "a"}, {1, IN_CREATE | IN_ISDIR, "d"}};
+    watcher.read_events();
+    EXPECT_EQ(notes.said, Lines{});
+    EXPECT_TRUE(notes.problems.empty());
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

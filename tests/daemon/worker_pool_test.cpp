@@ -1,0 +1,165 @@
+#include "daemon/worker_pool.h"
+
+#include <atomic>
+#include <latch>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/fake_sink.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using pipeline::IngestResult;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+Job job(const std::string& path) {
+    Job made;
+    made.path = path;
+    return made;
+}
+
+// Waits until so many jobs have ended.
+std::vector<Finished> collect(WorkerPool& pool, std::size_t count) {
+    std::vector<Finished> all;
+    const auto until = std::chrono::steady_clock::now() + seconds{20};
+    while (all.size() < count && std::chrono::steady_clock::now() < until) {
+        for (Finished& finished : pool.collect())
+            all.push_back(std::move(finished));
+        std::this_thread::sleep_for(milliseconds{1});
+    }
+    return all;
+}
+
+TEST(WorkerPool, GivesBackEachJobWithItsResultAndTimes) {
+    FakeSink sink([](const auto&, bool) { return outcome_of(IngestResult::gridded); });
+    std::atomic<int> wakes = 0;
+    WorkerPool pool(sink, 2, [&] { ++wakes; });
+    pool.submit(job("a"));
+    const std::vector<Finished> ended = collect(pool, 1);
+    ASSERT_EQ(ended.size(), 1U);
+    EXPECT_EQ(ended[0].job.path, "a");
+    ASSERT_TRUE(ended[0].taken);
+    EXPECT_EQ(ended[0].taken->ingest.result, IngestResult::gridded);
+    EXPECT_LE(ended[0].started, ended[0].ended);
+    EXPECT_TRUE(pool.drain(seconds{20}));
+    EXPECT_EQ(wakes, 1);
+}
+
+TEST(WorkerPool, AWorkerOutlivesWhatAFileThrows) {
+    FakeSink sink([](const std::filesystem::path& path, bool) {
+        if (path == "bad") throw std::runtime_error("boom");
+        return outcome_of(IngestResult::gridded);
+    });
+    WorkerPool pool(sink, 1, [] {});
+    for (int i = 0; i < 3; ++i) {
+        pool.submit(job("bad"));
+        const std::vector<Finished> bad = collect(pool, 1);
+        ASSERT_EQ(bad.size(), 1U);
+        ASSERT_FALSE(bad[0].taken);
+        EXPECT_EQ(bad[0].taken.error().code, ErrorCode::internal);
+        EXPECT_EQ(bad[0].taken.error().message, "bad: boom");
+    }
+    pool.submit(job("good"));
+    const std::vector<Finished> good = collect(pool, 1);
+    ASSERT_EQ(good.size(), 1U);
+    EXPECT_TRUE(good[0].taken);
+}
+
+TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {
+    std::latch all_run(3);
+    FakeSink sink([&](const auto&, bool) {
+        all_run.arrive_and_wait();  // would hang if they ran one after another
+        return outcome_of(IngestResult::gridded);
+    });
+    WorkerPool pool(sink, 3, [] {});
+    for (const char* name : {"a", "b", "c"}) {
+        EXPECT_TRUE(pool.has_free_worker());
+        pool.submit(job(name));
+    }
+    EXPECT_EQ(collect(pool, 3).size(), 3U);
+    EXPECT_TRUE(pool.has_free_worker());
+}
+
+TEST(WorkerPool, SaysSinceWhenItsOldestJobRuns) {
+    std::latch release(1);
+    FakeSink sink([&](const auto&, bool) {
+        release.wait();
+        return outcome_of(IngestResult::gridded);
+    });
+    WorkerPool pool(sink, 1, [] {});
+    EXPECT_FALSE(pool.oldest_start());
+    const SteadyTime before = std::chrono::steady_clock::now();
+    pool.submit(job("a"));
+    EXPECT_FALSE(pool.has_free_worker());
+    while (!pool.oldest_start())
+        std::this_thread::yield();
+    EXPECT_GE(*pool.oldest_start(), before);
+    release.count_down();
+    EXPECT_EQ(collect(pool, 1).size(), 1U);
+    EXPECT_FALSE(pool.oldest_start());
+}
+
+TEST(WorkerPool, CanGrowAndShrink) {
+    std::atomic<int> running = 0, most = 0;
+    FakeSink sink([&](const auto&, bool) {
+        const int now = ++running;
+        most = std::max(most.load(), now);
+        std::this_thread::sleep_for(milliseconds{20});
+        --running;
+        return outcome_of(IngestResult::gridded);
+    });
+    WorkerPool pool(sink, 1, [] {});
+    const auto run = [&](int jobs) {
+        most = 0;
+        std::size_t ended = 0;
+        for (int left = jobs; ended < static_cast<std::size_t>(jobs);) {
+            while (left > 0 && pool.has_free_worker()) {
+                pool.submit(job("x"));
+                --left;
+            }
+            ended += pool.collect().size();
+            std::this_thread::sleep_for(milliseconds{1});
+        }
+        return most.load();
+    };
+    EXPECT_EQ(run(4), 1);
+    pool.resize(4);
+    EXPECT_GT(run(12), 1);
+    pool.resize(1);
+    EXPECT_EQ(run(4), 1);
+}
+
+TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
+    std::latch begun(1);
+    FakeSink sink([&](const auto&, bool) {
+        begun.count_down();
+        std::this_thread::sleep_for(milliseconds{50});
+        return outcome_of(IngestResult::gridded);
+    });
+    WorkerPool pool(sink, 1, [] {});
+    pool.submit(job("a"));
+    begun.wait();
+    EXPECT_TRUE(pool.drain(seconds{20}));
+    EXPECT_EQ(pool.collect().size(), 1U);
+    EXPECT_FALSE(pool.has_free_worker());
+}
+
+TEST(WorkerPool, DrainingGivesUpOnAJobThatHangs) {
+    std::latch begun(1), release(1);
+    FakeSink sink([&](const auto&, bool) {
+        begun.count_down();
+        release.wait();
+        return outcome_of(IngestResult::gridded);
+    });
+    WorkerPool pool(sink, 1, [] {});
+    pool.submit(job("a"));
+    begun.wait();
+    EXPECT_FALSE(pool.drain(milliseconds{20}));
+    release.count_down();
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
