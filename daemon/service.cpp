@@ -13,8 +13,9 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Scans that something calls for are this far apart at least.
-constexpr std::chrono::seconds least_scan_gap{1};
+// Scans take at most about a tenth of the time, however often something calls for one.
+constexpr std::chrono::milliseconds least_scan_gap{100};
+constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 
@@ -38,9 +39,10 @@ void Service::request_stop() {
 
 Stopped Service::run() {
     if (!start()) return Stopped::at_start;
+    turn();
     while (!stop_requested_) {
-        turn();
         wait();
+        turn();
     }
     return stop();
 }
@@ -75,7 +77,7 @@ SteadyTime Service::next_time() const {
                             watchdog_.next_time()}) {
         if (due) time = std::min(time, *due);
     }
-    if (intake_.needs_scan()) time = std::min(time, last_scan_ + least_scan_gap);
+    if (intake_.needs_scan()) time = std::min(time, rested_);
     return time;
 }
 
@@ -147,8 +149,7 @@ void Service::collect() {
 
 void Service::scan_if_due() {
     const SteadyTime now = parts_.clock.steady();
-    const bool called_for = intake_.needs_scan() && now - last_scan_ >= least_scan_gap;
-    if (called_for || now >= next_scan_) scan();
+    if (now >= next_scan_ || (intake_.needs_scan() && now >= rested_)) scan();
 }
 
 bool Service::scan() {
@@ -166,10 +167,9 @@ bool Service::scan() {
     drop_missing_ = !scanned;
     status_.count_scan(watcher_.directory_count());
     status_file_.changed();
-    last_scan_ = parts_.clock.steady();
-    // A tree that takes long to read must not be read all the time.
-    next_scan_ =
-        last_scan_ + std::max<SteadyTime::duration>(config_.rescan, 10 * (last_scan_ - began));
+    const SteadyTime ended = parts_.clock.steady();
+    rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
+    next_scan_ = std::max(ended + config_.rescan, rested_);
     return scanned.has_value();
 }
 

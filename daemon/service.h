@@ -78,8 +78,8 @@ class Service {
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
     bool drop_missing_ = false;
-    SteadyTime last_scan_{}, next_scan_{};
-    WorkerPool pool_;  // last: its threads use what stands above
+    SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
+    WorkerPool pool_;                    // last: its threads use what stands above
 };
 
 }  // namespace stormcellar::daemon
