@@ -13,9 +13,12 @@
 #include "base/result.h"
 #include "render/image.h"
 
+// Cairo's own names, so that its headers stay out of ours.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 struct _cairo;
 struct _cairo_surface;
 struct _cairo_font_face;
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace stormcellar::render {
 

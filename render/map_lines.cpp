@@ -113,7 +113,9 @@ void draw_heights(Canvas& canvas, const Fonts& fonts, const MapLines& lines) {
     if (km * step_m / 1000 < 1.7 * size) return;
     canvas.line({at_height(geometry.ground_m()), at_height(geometry.top_m())}, lines.scale,
                 shades::border, false);
-    for (double height = step_m; height <= geometry.top_m(); height += step_m) {
+    const int ticks = static_cast<int>(geometry.top_m() / step_m);
+    for (int i = 1; i <= ticks; ++i) {
+        const double height = i * step_m;
         const Point tick = at_height(height);
         if (!inside_picture(lines, tick, size)) continue;
         const std::string text = fmt::format("{:g} km", height / 1000);
@@ -140,6 +142,7 @@ void draw_north(Canvas& canvas, const Fonts& fonts, const MapLines& lines) {
                      middle.y - length * (x * geometry.up()[0] + y * geometry.up()[1])};
     };
     std::vector<Point> circle;
+    circle.reserve(72);
     for (int i = 0; i < 72; ++i)
         circle.push_back(towards(i * 5.0, radius));
     Rgba8 disc = shades::page;

@@ -51,9 +51,9 @@ TEST(ColumnSummary, AgreesWithASlowSearchOverAStorm) {
 TEST(ColumnSummary, AgreesWithASlowSearchOverEveryMixtureOfStates) {
     const auto grid = make_grid_of(small_spec(49, 20), [](int ix, int iy, int iz) -> Cell {
         if (ix < 16) return {CellStatus::no_echo, 0};
-        const unsigned hash = static_cast<unsigned>(ix * 73856093) ^
-                              static_cast<unsigned>(iy * 19349663) ^
-                              static_cast<unsigned>(iz / 3 * 83492791);
+        const unsigned hash = static_cast<unsigned>(ix) * 73856093U ^
+                              static_cast<unsigned>(iy) * 19349663U ^
+                              static_cast<unsigned>(iz / 3) * 83492791U;
         const unsigned state = (hash >> 3) % (iy < 32 ? 3 : 4);
         return {static_cast<CellStatus>(state), static_cast<float>(hash % 70)};
     });

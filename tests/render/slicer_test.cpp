@@ -154,7 +154,7 @@ TEST(Slicer, SkippingEmptyBricksChangesNothing) {
                                   : Cell{static_cast<CellStatus>(draw % 3), 0});
     }
     const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) {
-        return blocks[static_cast<std::size_t>((ix / 7) * 100 + (iy / 7) * 10 + iz / 6)];
+        return blocks[static_cast<unsigned>((ix / 7) * 100 + (iy / 7) * 10 + iz / 6)];
     }));
     for (const Camera& camera : {Camera{180, 0, 1}, Camera{90, 90, 1}, Camera{180, 55, 1},
                                  Camera{222, 71, 0.8}, Camera{10, 33, 6}}) {

@@ -103,8 +103,9 @@ TEST(TransferFunction, AStepHoldsEveryClassBetweenItsEnds) {
                                     std::pair{33.0, 61.0}, std::pair{5.0, 75.0}}) {
         double extinction = 0;
         double weighted_green = 0;
-        int bins = 0;
-        for (double dbz = low; dbz <= high; dbz += 0.5, ++bins) {
+        const int bins = static_cast<int>((high - low) / 0.5) + 1;
+        for (int i = 0; i < bins; ++i) {
+            const double dbz = low + 0.5 * i;
             extinction += extinction_per_m(dbz, 1);
             const auto colour = nws_reflectivity_colour(static_cast<float>(dbz));
             if (colour) weighted_green += extinction_per_m(dbz, 1) * (*colour)[1] / 255;

@@ -45,8 +45,8 @@ TEST(ViewGeometry, EastNorthAndUpGoWhereAForecasterExpects) {
 }
 
 TEST(ViewGeometry, TheBoxJustFitsAtZoomOneFromEverywhere) {
-    for (double azimuth = 0; azimuth < 360; azimuth += 17) {
-        for (double tilt = 0; tilt <= 90; tilt += 15) {
+    for (int azimuth = 0; azimuth < 360; azimuth += 17) {
+        for (int tilt = 0; tilt <= 90; tilt += 15) {
             const ViewGeometry view = view_from(azimuth, tilt);
             double reach_x = 0;
             double reach_y = 0;
@@ -85,7 +85,7 @@ TEST(ViewGeometry, TheGroundUnderAPixelProjectsBackToIt) {
 }
 
 TEST(ViewGeometry, DepthsEncloseTheCells) {
-    for (double azimuth = 0; azimuth < 360; azimuth += 40) {
+    for (int azimuth = 0; azimuth < 360; azimuth += 40) {
         const ViewGeometry view = view_from(azimuth, 62);
         double nearest = 1e300;
         double farthest = -1e300;
