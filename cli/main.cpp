@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
         // Sorted by name.
         add_cache(app),
         add_catalog(app),
+        add_frame(app),
         add_grid(app),
         add_info(app),
     };
