@@ -11,8 +11,9 @@
 
 namespace stormcellar::render {
 
-// RGBA, 8 bits, sRGB. `texts` become tEXt chunks (keyword of 1 to 79 characters, Latin-1 text).
-// bad_argument for an image whose bytes do not fit its size, or a text with a zero byte.
+// 8 bits, sRGB; RGB when every pixel is opaque, else RGBA. `texts` become tEXt chunks (keyword of 1
+// to 79 characters, Latin-1 text). bad_argument for an image whose bytes do not fit its size, or a
+// text with a zero byte.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {});
 

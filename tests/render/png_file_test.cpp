@@ -37,6 +37,21 @@ TEST(EncodePng, EveryPixelComesBack) {
     EXPECT_EQ(back.rgba, image.rgba);
 }
 
+TEST(EncodePng, OpaqueImagesComeBackToo) {
+    Image image(5, 7, {0, 0, 0, 255});
+    for (int y = 0; y < 7; ++y) {
+        for (int x = 0; x < 5; ++x) {
+            image.set(x, y,
+                      {static_cast<std::uint8_t>(x * 50), static_cast<std::uint8_t>(y * 30),
+                       static_cast<std::uint8_t>(x + y), 255});
+        }
+    }
+    const auto bytes = encode_png(image);
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(decode(*bytes).rgba, image.rgba);
+    EXPECT_EQ(std::to_integer<int>((*bytes)[25]), PNG_COLOR_TYPE_RGB) << "the header's colour type";
+}
+
 TEST(EncodePng, TextsBecomeTextChunks) {
     const auto bytes =
         encode_png(Image(1, 1, {}), {{"Title", "KTLX"}, {"Software", "stormcellar"}});
