@@ -171,6 +171,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     const auto moment = level2::moment_from_name(options.moment);
     if (!moment) {
         std::vector<std::string_view> names;
+        names.reserve(level2::all_moments.size());
         for (const level2::Moment known : level2::all_moments)
             names.push_back(level2::moment_name(known));
         return fail(ErrorCode::bad_argument, "--moment takes one of {}, not '{}'",

@@ -101,6 +101,7 @@ void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
     file.write(time, seconds);
     file.write(z, std::span(grid.spec.levels_m));
     std::vector<double> places_m;
+    places_m.reserve(static_cast<std::size_t>(std::max(grid.spec.nx, grid.spec.ny)));
     for (int iy = 0; iy < grid.spec.ny; ++iy)
         places_m.push_back(grid.spec.y_m(iy));
     file.write(y, std::span<const double>(places_m));

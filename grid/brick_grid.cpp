@@ -42,9 +42,9 @@ class BrickReader {
             for (int y = 0; y < end_y; ++y) {
                 const std::size_t from =
                     spec.index(bx * brick_edge + x, by * brick_edge + y, bz * brick_edge);
-                const auto to = static_cast<std::size_t>((x * brick_edge + y) * brick_edge);
+                std::uint16_t* to = codes_.data() + brick_edge * (brick_edge * x + y);
                 for (int z = 0; z < end_z; ++z)
-                    codes_[to + z] = cell_code(from + z);
+                    to[z] = cell_code(from + z);
             }
         }
     }

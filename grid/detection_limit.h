@@ -3,7 +3,7 @@
 // It is what "no echo" stands for where a cell mixes it with echo (DESIGN section 5).
 //   limit_dbz = dbz0 + 20 log10(range / 1 km) + attenuation * range + snr_threshold
 // dbz0 (calibration: reflectivity at 1 km of echo as strong as the noise), attenuation and
-// threshold are those of message 31. Source: ICD 2620002, table XVII-E and XVII-F. Where the
+// threshold are those of message 31. Source: ICD 2620002 tables XVII-B, E, F and H. Where the
 // message has no calibration, a stated curve stands in for dbz0 + snr_threshold: -41.5 dBZ for
 // WSR-88D (-7.5 dBZ at 50 km, the specified sensitivity) and -46 dBZ for TDWR (as the data show).
 // Accuracy: the weakest echo of real volumes lies within 3.5 dB of it (docs/geometry.md).

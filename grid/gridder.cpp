@@ -205,6 +205,7 @@ Result<Grid> make_grid(const level2::Volume& volume, const SitePosition& site,
     sweep_options.table_size +=
         static_cast<std::size_t>(std::min(farthest_m, farthest_arc_m) / ArcTable::step_m);
     std::vector<PolarSweep> sweeps;
+    sweeps.reserve(chosen.size());
     for (const ChosenSweep& sweep : chosen)
         sweeps.emplace_back(volume.sweeps[sweep.sweep_index], sweep, beam, sweep_options);
 

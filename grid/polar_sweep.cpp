@@ -43,6 +43,7 @@ std::vector<float> value_table(const level2::SweepMoment& moment) {
 std::vector<float> spreading_curve(const level2::SweepMoment& moment) {
     const DetectionLimit at_zero_dbz{0, 0};
     std::vector<float> curve;
+    curve.reserve(static_cast<std::size_t>(std::max(moment.gate_stride, 0)));
     for (std::int32_t gate = 0; gate < moment.gate_stride; ++gate)
         curve.push_back(static_cast<float>(at_zero_dbz.at(moment.range_m(gate))));
     return curve;

@@ -61,6 +61,7 @@ void expect_same_as_slow(const std::vector<float>& azimuths_deg, double spacing_
 
 std::vector<float> regular(int count, float first, float step) {
     std::vector<float> azimuths_deg;
+    azimuths_deg.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
         azimuths_deg.push_back(std::fmod(first + step * static_cast<float>(i), 360.0F));
     return azimuths_deg;
@@ -127,7 +128,8 @@ TEST(AzimuthTable, OneRadialReachesHalfASpacing) {
     for (const float at_deg : {0.0F, 0.2F, 90.0F, 359.8F}) {
         const std::vector<float> azimuths_deg = {at_deg};
         const AzimuthTable table(azimuths_deg, 1);
-        for (float azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 0.3F) {
+        for (int i = 0; i < 1200; ++i) {
+            const float azimuth_deg = static_cast<float>(i) * 0.3F;
             const double away_deg =
                 turn(static_cast<double>(azimuth_deg), static_cast<double>(at_deg));
             if (std::abs(away_deg - 0.5) < 1e-4) continue;

@@ -7,12 +7,20 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <quadmath.h>
+__extension__ typedef __float128 Quad;
+
+// libquadmath's, declared here because clang has not its header.
+extern "C" {
+Quad acosq(Quad);
+Quad asinq(Quad);
+Quad cosq(Quad);
+Quad fabsq(Quad);
+Quad sinq(Quad);
+Quad sqrtq(Quad);
+}
 
 namespace stormcellar::grid {
 namespace {
-
-__extension__ typedef __float128 Quad;
 
 struct Site {
     double latitude_deg;
@@ -79,7 +87,8 @@ double difference(double a, Quad b) {
 }
 
 TEST(GaussianRadius, IsTheMeanOfBothRadiiOfCurvature) {
-    for (double latitude_deg = -90; latitude_deg <= 90; latitude_deg += 0.5) {
+    for (int half_degrees = -180; half_degrees <= 180; ++half_degrees) {
+        const double latitude_deg = half_degrees / 2.0;
         EXPECT_LT(difference(gaussian_radius_m(latitude_deg), gaussian_radius(latitude_deg)), 4e-9)
             << latitude_deg;
     }

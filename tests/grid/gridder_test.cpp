@@ -51,7 +51,10 @@ float value_at(const Grid& grid, double x_km, double y_km, double z_km) {
 
 TEST(Gridder, NorthIsUpAndEastIsRight) {
     SweepPlan quadrants = plan(0.5, 1);
-    quadrants.code = [](int radial, int) { return ref_code(10 * (1 + radial / 90)); };
+    quadrants.code = [](int radial, int) {
+        const int quadrant = 1 + radial / 90;
+        return ref_code(10 * quadrant);
+    };
     const Grid grid = make(make_volume({quadrants}));
     EXPECT_EQ(value_at(grid, 50, 50, 1), 10) << "north-east";
     EXPECT_EQ(value_at(grid, 50, -50, 1), 20) << "south-east";

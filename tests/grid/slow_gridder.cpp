@@ -158,6 +158,7 @@ SlowCell SlowColumn::cell(double level_m) const {
         if (beam.height_m <= level_m) below = &beam;
         if (beam.height_m > level_m && above == nullptr) above = &beam;
     }
+    if (below == nullptr && above == nullptr) return {};
     if (below == nullptr) return level_m >= above->lower_edge_m ? only(*above) : SlowCell{};
     if (above == nullptr) return level_m <= below->upper_edge_m ? only(*below) : SlowCell{};
     if (!below->adjacent_to_next) {

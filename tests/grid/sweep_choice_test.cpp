@@ -11,6 +11,7 @@ namespace {
 
 std::vector<std::size_t> indices(const std::vector<ChosenSweep>& chosen) {
     std::vector<std::size_t> list;
+    list.reserve(chosen.size());
     for (const ChosenSweep& sweep : chosen)
         list.push_back(sweep.sweep_index);
     return list;
@@ -124,6 +125,7 @@ TEST(ChooseSweeps, ALostCutIsNoticedByTheNumberOfAnEarlyPattern) {
 
 TEST(AzimuthSpacing, IsStatedOrMeasured) {
     std::vector<float> one_degree;
+    one_degree.reserve(360);
     for (int i = 0; i < 360; ++i)
         one_degree.push_back(static_cast<float>(i));
     EXPECT_EQ(azimuth_spacing_deg(one_degree, 0), 1);
