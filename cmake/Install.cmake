@@ -10,4 +10,4 @@ install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
   ${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
   DESTINATION ${STORMCELLAR_CMAKE_DIR})
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md docs/operations.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -93,10 +93,10 @@ std::unique_ptr<EventSource> open_events() {
 
 int serve(const Config& config, const std::filesystem::path& file) {
     set_up_logging(config.log_level);
-    for (const Status& ready :
-         {check_drop(config.drop), make_directory(config.state), make_directory(config.cache)}) {
-        if (!ready) return complain(ready.error());
-    }
+    const Status ready = check_drop(config.drop)
+                             .and_then([&] { return make_directory(config.state); })
+                             .and_then([&] { return make_directory(config.cache); });
+    if (!ready) return complain(ready.error());
     const Result<InstanceLock> lock = InstanceLock::acquire(config.state);
     if (!lock) return complain(lock.error());
     const Result<Signals> signals = Signals::open();

@@ -1,0 +1,299 @@
+// The real program on real files: what comes in, in all the ways in which it comes in, ends in the
+// catalog and the cache.
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cache/store.h"
+#include "catalog/catalog.h"
+#include "tests/daemon/notify_socket.h"
+#include "tests/daemon/running_daemon.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::FileState;
+using nlohmann::json;
+
+std::string contents(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<fs::path> sorted_files(const fs::path& directory) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(directory))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+bool everything_is_done(const json& status) {
+    return status["pending"]["waiting"] == 0 && status["pending"]["running"] == 0 &&
+           status["pending"]["growing"] == 0;
+}
+
+// Every grid below the cache passes its checksums; gives how many there are.
+std::size_t verified_grids(const fs::path& cache) {
+    std::size_t grids = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(cache)) {
+        if (!entry.is_regular_file()) continue;
+        EXPECT_EQ(entry.path().extension(), ".scg") << entry.path() << " was left behind";
+        const auto grid = cache::GridFile::open(entry.path());
+        EXPECT_TRUE(grid) << (grid ? "" : grid.error().message);
+        if (!grid) continue;
+        const Status verified = grid->verify();
+        EXPECT_TRUE(verified) << (verified ? "" : verified.error().message);
+        ++grids;
+    }
+    return grids;
+}
+
+std::vector<catalog::CatalogEntry> rows(const RunningDaemon& daemon, const std::string& station) {
+    auto catalog = catalog::Catalog::open_for_reading(daemon.catalog());
+    if (!catalog) return {};
+    auto entries = catalog->list(station, {.from = {}, .to = {}, .with_rejected = true});
+    return entries ? *entries : std::vector<catalog::CatalogEntry>{};
+}
+
+// As LDM writes with -close: the file is opened, added to and closed for each piece.
+void append_in_pieces(const fs::path& path, const std::string& text, std::size_t pieces) {
+    const std::size_t size = text.size() / pieces + 1;
+    for (std::size_t at = 0; at < text.size(); at += size) {
+        append_to_file(path, text.substr(at, size));
+        std::this_thread::sleep_for(std::chrono::milliseconds{150});
+    }
+}
+
+constexpr const char* quick = "[ingest]\nquiet_seconds = 2\n";
+
+TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    ASSERT_EQ(volumes.size(), 5U);
+    RunningDaemon daemon;
+    const fs::path day = daemon.drop() / "20050822";
+    // Before the start; and what is no volume at all.
+    fs::copy_file(volumes[0], daemon.drop() / volumes[0].filename());
+    write_file(daemon.drop() / "garbage", std::string(5000, 'x'));
+    write_file(daemon.drop() / "empty", "");
+    write_file(daemon.drop() / "two\nlines", "not radar");
+    fs::create_directory(daemon.drop() / "KBGM20050822_999999.gz");
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
+    // Whole; into a directory made this moment; renamed from a dot-file; piece by piece.
+    fs::copy_file(volumes[1], daemon.drop() / volumes[1].filename());
+    fs::create_directory(day);
+    fs::copy_file(volumes[2], day / volumes[2].filename());
+    fs::copy_file(volumes[3], day / ".growing");
+    fs::rename(day / ".growing", day / volumes[3].filename());
+    append_in_pieces(day / volumes[4].filename(), contents(volumes[4]), 6);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 5 && s["rejected"] >= 3 && everything_is_done(s);
+    })) << daemon.status().dump(1)
+        << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
+
+    const std::vector<catalog::CatalogEntry> kbgm = rows(daemon, "KBGM");
+    ASSERT_EQ(kbgm.size(), 5U) << daemon.log();
+    std::set<std::string> starts;
+    for (const auto& row : kbgm) {
+        EXPECT_EQ(row.state, FileState::complete) << row.path << ": " << row.reason;
+        starts.insert(format_compact(row.volume.start_time.value()));
+    }
+    EXPECT_EQ(starts,
+              (std::set<std::string>{"20050822_024414", "20050822_025001", "20050822_025549",
+                                     "20050822_030243", "20050822_030830"}));
+    std::set<std::string> rejected;
+    for (const auto& row : rows(daemon, "")) {
+        EXPECT_EQ(row.state, FileState::rejected);
+        EXPECT_FALSE(row.reason.empty());
+        rejected.insert(row.path.filename());
+    }
+    EXPECT_EQ(rejected, (std::set<std::string>{"garbage", "empty", "two\nlines"}));
+    EXPECT_EQ(verified_grids(daemon.cache()), 5U);
+
+    const json status = daemon.status();
+    EXPECT_EQ(status["state"], "stopped");
+    EXPECT_GE(status["latency_s"]["count"], 3) << "the first stood there before";
+    EXPECT_GT(status["latency_s"]["max"], 0);
+    EXPECT_NE(daemon.log().find("two\\x0alines"), std::string::npos) << "names are one line";
+    // The raw files are LDM's.
+    EXPECT_EQ(contents(day / volumes[4].filename()), contents(volumes[4]));
+}
+
+TEST(EndToEnd, AVolumeThatNeverEndsIsGriddedWhenItWasQuiet) {
+    STORMCELLAR_NEED_DATA();
+    std::string text;
+    for (const fs::path& chunk : sorted_files(*testing::data_directory() / "chunks/KLOT_34"))
+        text += contents(chunk);
+    RunningDaemon daemon;
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
+    write_file(daemon.drop() / "KLOT20201019_054806", text);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["pending"]["growing"] == 1; }));
+    EXPECT_EQ(daemon.status()["ingested"], 0) << "there may be more to come";
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 1 && everything_is_done(s);
+    })) << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0);
+    const auto klot = rows(daemon, "KLOT");
+    ASSERT_EQ(klot.size(), 1U);
+    EXPECT_EQ(klot[0].state, FileState::partial);
+    EXPECT_EQ(verified_grids(daemon.cache()), 1U);
+}
+
+TEST(EndToEnd, ASecondStartDoesNothingAgainAndTakesWhatCameMeanwhile) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    RunningDaemon daemon;
+    fs::copy_file(volumes[0], daemon.drop() / "a");
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 1 && everything_is_done(s);
+    })) << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0);
+    fs::copy_file(volumes[1], daemon.drop() / "b");
+    fs::remove(daemon.root() / "state/status.json");
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 1 && s["unchanged"] == 1 && everything_is_done(s);
+    })) << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0);
+    EXPECT_EQ(rows(daemon, "KBGM").size(), 2U);
+    EXPECT_EQ(verified_grids(daemon.cache()), 2U);
+}
+
+TEST(EndToEnd, ARawFileThatIsDeletedStaysInTheCatalogAsGone) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    RunningDaemon daemon;
+    fs::copy_file(volumes[0], daemon.drop() / "a");
+    daemon.start(quick);
+    ASSERT_TRUE(
+        daemon.wait_for([](const json& s) { return s["ingested"] == 1 && everything_is_done(s); }));
+    fs::remove(daemon.drop() / "a");
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["vanished"] == 1; }));
+    EXPECT_EQ(daemon.terminate(), 0);
+    const auto kbgm = rows(daemon, "KBGM");
+    ASSERT_EQ(kbgm.size(), 1U);
+    EXPECT_EQ(kbgm[0].state, FileState::gone);
+    EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "its grid stays";
+}
+
+TEST(EndToEnd, TellsTheServiceManagerWhatItDoes) {
+    RunningDaemon daemon;
+    NotifySocket socket(daemon.root() / "notify");
+    daemon.start("[log]\nlevel = \"debug\"\n",
+                 {{"NOTIFY_SOCKET", socket.path()}, {"WATCHDOG_USEC", "400000"}});
+    const auto comes = [&](const std::string& start) {
+        for (int i = 0; i < 200; ++i) {
+            if (socket.receive(5000).starts_with(start)) return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(comes("STATUS=ingested 0"));
+    EXPECT_TRUE(comes("READY=1"));
+    EXPECT_TRUE(comes("WATCHDOG=1"));
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(comes("RELOADING=1\nMONOTONIC_USEC="));
+    EXPECT_TRUE(comes("READY=1"));
+    daemon.signal(SIGTERM);
+    EXPECT_TRUE(comes("STOPPING=1"));
+    EXPECT_EQ(daemon.wait(), 0);
+}
+
+TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
+    RunningDaemon daemon;
+    daemon.start("[ingest]\nworkers = 1\n");
+    ASSERT_TRUE(daemon.wait_for_log("ready: watching"));
+    const fs::path file = daemon.root() / "stormcellard.toml";
+    write_file(file,
+               "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"other\"\n"
+               "[ingest]\nworkers = 3\n");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(daemon.wait_for_log("reloaded: 3 workers"));
+    EXPECT_TRUE(daemon.wait_for_log("[paths] cannot change"));
+    write_file(file, "[paths]\ndorp = \"drop\"\n");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(daemon.wait_for_log("the configuration stays as it was"));
+    EXPECT_EQ(daemon.terminate(), 0) << "a bad file does not end it";
+}
+
+TEST(EndToEnd, SpeaksToTheJournalWithLevelsAndWithoutTimes) {
+    RunningDaemon daemon;
+    write_file(daemon.root() / "log", "");
+    struct stat facts {};
+    ASSERT_EQ(::stat((daemon.root() / "log").c_str(), &facts), 0);
+    daemon.start({}, {{"JOURNAL_STREAM", fmt::format("{}:{}", facts.st_dev, facts.st_ino)}});
+    EXPECT_TRUE(daemon.wait_for_log("<6>ready: watching"));
+    EXPECT_EQ(daemon.terminate(), 0);
+    EXPECT_TRUE(daemon.log().starts_with("<6>ready")) << daemon.log();
+}
+
+TEST(EndToEnd, OneDaemonAStateDirectory) {
+    RunningDaemon daemon;
+    daemon.start();
+    ASSERT_TRUE(daemon.wait_for_log("ready: watching"));
+    const auto second = testing::run_program(
+        STORMCELLARD, {"--config", (daemon.root() / "stormcellard.toml").native()});
+    EXPECT_EQ(second.status, 1);
+    EXPECT_NE(second.err.find("another stormcellard (process "), std::string::npos) << second.err;
+    EXPECT_EQ(daemon.terminate(), 0);
+}
+
+TEST(EndToEnd, EndsAtOnceWhenKilledByInterrupt) {
+    RunningDaemon daemon;
+    daemon.start();
+    ASSERT_TRUE(daemon.wait_for_log("ready: watching"));
+    const auto began = std::chrono::steady_clock::now();
+    daemon.signal(SIGINT);
+    EXPECT_EQ(daemon.wait(), 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds{5});
+}
+
+TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
+    const testing::TemporaryDirectory directory;
+    EXPECT_EQ(testing::run_program(STORMCELLARD, {}).status, 2);
+    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--config"}).status, 2);
+    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--config", "x", "more"}).status, 2);
+    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--help"}).status, 0);
+    EXPECT_TRUE(testing::run_program(STORMCELLARD, {"--version"}).out.starts_with("stormcellard "));
+
+    const fs::path file = directory / "c.toml";
+    const auto run = [&](const std::string& text, std::vector<std::string> more = {}) {
+        write_file(file, text);
+        std::vector<std::string> arguments = {"--config", file.native()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return testing::run_program(STORMCELLARD, arguments);
+    };
+    const auto bad = run("[paths]\ndrop = 7\n", {"--check-config"});
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_EQ(bad.err, fmt::format("stormcellard: {}:2: [paths] drop: must be text in quotes, is a "
+                                   "number\n",
+                                   file.native()));
+    const auto good = run("[paths]\ndrop = \"none\"\n", {"--check-config"});
+    EXPECT_EQ(good.status, 0) << "the directories need not be there to be checked";
+    const auto missing = run("[paths]\ndrop = \"none\"\nstate = \"s\"\ncache = \"c\"\n");
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.err.find("the drop directory does not exist"), std::string::npos);
+    EXPECT_FALSE(fs::exists(directory / "s")) << "nothing is made when it cannot start";
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

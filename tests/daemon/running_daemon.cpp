@@ -1,0 +1,119 @@
+#include "tests/daemon/running_daemon.h"
+
+#include <array>
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/daemon/write_file.h"
+
+extern char** environ;
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr std::chrono::milliseconds step{20};
+constexpr int steps_a_minute = 3000;
+
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& more) {
+    std::vector<std::string> all;
+    for (char** variable = environ; *variable != nullptr; ++variable)
+        all.emplace_back(*variable);
+    for (const auto& [name, value] : more)
+        all.push_back(name + "=" + value);
+    return all;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> all;
+    for (std::string& text : texts)
+        all.push_back(text.data());
+    all.push_back(nullptr);
+    return all;
+}
+
+}  // namespace
+
+RunningDaemon::RunningDaemon() {
+    std::filesystem::create_directory(drop());
+}
+
+RunningDaemon::~RunningDaemon() {
+    if (child_ == 0) return;
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+}
+
+void RunningDaemon::start(const std::string& more,
+                          const std::map<std::string, std::string>& environment) {
+    const std::filesystem::path file = root_ / "stormcellard.toml";
+    write_file(file, "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n" + more);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 2, (root_ / "log").c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0600);
+    std::vector<std::string> arguments = {STORMCELLARD, "--config", file.native()};
+    std::vector<std::string> variables = environment_with(environment);
+    const int failed = ::posix_spawn(&child_, STORMCELLARD, &actions, nullptr,
+                                     pointers(arguments).data(), pointers(variables).data());
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) throw std::runtime_error("cannot start stormcellard");
+}
+
+void RunningDaemon::signal(int number) const {
+    ::kill(child_, number);
+}
+
+int RunningDaemon::wait() {
+    for (int i = 0; i < steps_a_minute; ++i) {
+        int status = 0;
+        if (::waitpid(child_, &status, WNOHANG) == child_) {
+            child_ = 0;
+            return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+        }
+        std::this_thread::sleep_for(step);
+    }
+    throw std::runtime_error("stormcellard does not end");
+}
+
+int RunningDaemon::terminate() {
+    signal(SIGTERM);
+    return wait();
+}
+
+std::string RunningDaemon::log() const {
+    std::ifstream file(root_ / "log", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+nlohmann::json RunningDaemon::status() const {
+    std::ifstream file(root_ / "state/status.json");
+    if (!file) return nullptr;
+    return nlohmann::json::parse(file);
+}
+
+bool RunningDaemon::wait_for(const std::function<bool(const nlohmann::json&)>& wanted) const {
+    for (int i = 0; i < steps_a_minute; ++i) {
+        const nlohmann::json now = status();
+        if (!now.is_null() && wanted(now)) return true;
+        std::this_thread::sleep_for(step);
+    }
+    return false;
+}
+
+bool RunningDaemon::wait_for_log(const std::string& text) const {
+    for (int i = 0; i < steps_a_minute; ++i) {
+        if (log().find(text) != std::string::npos) return true;
+        std::this_thread::sleep_for(step);
+    }
+    return false;
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,52 @@
+// tests/daemon/running_daemon.h -- the real stormcellard on directories of its own.
+//
+// root/drop, root/state, root/cache and root/stormcellard.toml; its log goes to root/log. The
+// process is killed when the object goes.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <sys/types.h>
+
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+
+class RunningDaemon {
+  public:
+    // Makes the directories; start() starts the program.
+    RunningDaemon();
+    RunningDaemon(const RunningDaemon&) = delete;
+    RunningDaemon& operator=(const RunningDaemon&) = delete;
+    ~RunningDaemon();
+
+    // `more` is added to the configuration, which names the paths; throws when it cannot start.
+    void start(const std::string& more = {},
+               const std::map<std::string, std::string>& environment = {});
+    void signal(int number) const;
+    // The exit status, or minus the signal that ended it. Throws after 60 s.
+    int wait();
+    int terminate();
+
+    [[nodiscard]] std::filesystem::path root() const { return root_.path(); }
+    [[nodiscard]] std::filesystem::path drop() const { return root_ / "drop"; }
+    [[nodiscard]] std::filesystem::path catalog() const { return root_ / "state/catalog"; }
+    [[nodiscard]] std::filesystem::path cache() const { return root_ / "cache"; }
+    [[nodiscard]] std::string log() const;
+    // Null when there is none yet.
+    [[nodiscard]] nlohmann::json status() const;
+    // False when it does not come true within a minute.
+    bool wait_for(const std::function<bool(const nlohmann::json&)>& status) const;
+    bool wait_for_log(const std::string& text) const;
+
+  private:
+    testing::TemporaryDirectory root_;
+    pid_t child_ = 0;
+};
+
+}  // namespace stormcellar::daemon
