@@ -37,6 +37,7 @@ Command add_catalog(CLI::App& app);
 Command add_frame(CLI::App& app);
 Command add_grid(CLI::App& app);
 Command add_info(CLI::App& app);
+Command add_loop(CLI::App& app);
 
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
 // that fits the code: bad_argument is bad usage, everything else is failed work.

@@ -1,6 +1,4 @@
 // stormcellar frame: one still picture of a grid in the cache.
-#include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -11,13 +9,12 @@
 #include "base/version.h"
 #include "cache/store.h"
 #include "cli/commands.h"
+#include "cli/picture.h"
 #include "cli/scene_options.h"
 #include "render/png_file.h"
 
 namespace stormcellar::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct FrameOptions {
     std::string cache;
@@ -27,10 +24,6 @@ struct FrameOptions {
     bool json = false;
     SceneOptions scene;
 };
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The newest grid of the domain at or before the time; none when there is no such grid.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
@@ -47,26 +40,10 @@ Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
     return std::optional{entries->back()};
 }
 
-// Says what there is instead.
 int report_nothing(const cache::Store& store, const FrameOptions& options) {
-    const auto domains = store.domains();
-    const std::string known = !domains || domains->empty()
-                                  ? std::string{"the cache is empty"}
-                                  : fmt::format("domains are {}", fmt::join(*domains, ", "));
-    const std::string before =
-        options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time);
-    fmt::print(stderr, "stormcellar: {}\n",
-               printable(fmt::format("{}: no grid of domain '{}'{}; {}", options.cache,
-                                     options.domain, before, known)));
-    return exit_nothing_matched;
-}
-
-// The texts of a PNG are Latin-1, names of files may be anything.
-std::string ascii(std::string_view text) {
-    std::string safe = printable(text);
-    std::replace_if(
-        safe.begin(), safe.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7E; }, '?');
-    return safe;
+    return report_no_grid(
+        store, options.domain,
+        options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
 }
 
 std::vector<std::pair<std::string, std::string>> texts_of(const cache::GridDescription& grid,

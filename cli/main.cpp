@@ -16,7 +16,8 @@ int run(int argc, char** argv) {
 
     const Commands commands{
         // Sorted by name.
-        add_cache(app), add_catalog(app), add_frame(app), add_grid(app), add_info(app),
+        add_cache(app), add_catalog(app), add_frame(app),
+        add_grid(app),  add_info(app),    add_loop(app),
     };
 
     try {

@@ -1,10 +1,10 @@
-# stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...])
+# stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
 # Headers are included by their room, as in "level2/volume.h". The headers beside the sources are
-# installed with the library.
+# installed with the library, unless it is a room's second one (WITHOUT_HEADERS).
 function(stormcellar_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target stormcellar_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(stormcellar::${name} ALIAS ${target})
@@ -16,9 +16,11 @@ function(stormcellar_room name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar/${name}
-    FILES_MATCHING PATTERN "*.h")
+  if(NOT ARG_WITHOUT_HEADERS)
+    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar/${name}
+      FILES_MATCHING PATTERN "*.h")
+  endif()
 endfunction()
 
 # stormcellar_test(NAME SOURCES a_test.cpp [LIBS libs...] [LABELS labels...])

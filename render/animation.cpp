@@ -18,19 +18,17 @@ struct Format {
     MakeEncoder make;
 };
 
-constexpr std::array formats{
-    Format{".webp", make_webp_encoder},
-    Format{".gif", make_gif_encoder},
-    Format{".apng", make_apng_encoder},
+constexpr std::array formats {
+    Format{".webp", make_webp_encoder}, Format{".gif", make_gif_encoder},
+        Format{".apng", make_apng_encoder},
 #if STORMCELLAR_VIDEO
-    Format{".mp4",
-           [](const AnimationOptions& options) {
-               return make_video_encoder(VideoContainer::mp4, options);
-           }},
-    Format{".webm",
-           [](const AnimationOptions& options) {
-               return make_video_encoder(VideoContainer::webm, options);
-           }},
+        Format{".mp4",
+               [](const AnimationOptions& options) {
+                   return make_video_encoder(VideoContainer::mp4, options);
+               }},
+        Format{".webm", [](const AnimationOptions& options) {
+                   return make_video_encoder(VideoContainer::webm, options);
+               }},
 #endif
 };
 

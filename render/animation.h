@@ -9,8 +9,9 @@
 //   .mp4   H.264 (CRF 18, BT.709), or MPEG-4 part 2 where FFmpeg has no H.264 encoder
 //   .webm  VP9, or VP8; both only in a build with STORMCELLAR_VIDEO
 //   NAME/  a directory of frame_0000.png, frame_0001.png, ...; alpha kept
-// Loops run for ever where the format has it (MP4, WebM and PNG files do not). Video has even sizes:
-// an odd picture gets its last column or row twice. Alpha is dropped where it is not named above.
+// Loops run for ever where the format has it (MP4, WebM and PNG files do not). Video has even
+// sizes: an odd picture gets its last column or row twice. Alpha is dropped where it is not named
+// above.
 //
 // The file appears whole, by rename, at finish(), and an old one is replaced; an unfinished writer
 // leaves nothing behind. A directory is replaced when it is empty or holds frames alone; a crash

@@ -52,11 +52,10 @@ class Writer {
 Image cut(const Image& frame, const Rectangle& part) {
     Image image(part.width, part.height, {});
     for (int y = 0; y < part.height; ++y) {
-        const auto* row = frame.rgba.data() +
-                          (static_cast<std::size_t>(part.y + y) *
-                               static_cast<std::size_t>(frame.width) +
-                           static_cast<std::size_t>(part.x)) *
-                              4;
+        const auto* row = frame.rgba.data() + (static_cast<std::size_t>(part.y + y) *
+                                                   static_cast<std::size_t>(frame.width) +
+                                               static_cast<std::size_t>(part.x)) *
+                                                  4;
         std::copy_n(row, static_cast<std::size_t>(part.width) * 4,
                     image.rgba.data() +
                         static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width) * 4);
@@ -98,8 +97,7 @@ class ApngEncoder final : public FrameEncoder {
         frame.part = {0, 0, image.width, image.height};
         Image picture = image;
         if (!frames_.empty()) {
-            frame.part =
-                changed_rectangle(before_.rgba, image.rgba, image.width, image.height, 4);
+            frame.part = changed_rectangle(before_.rgba, image.rgba, image.width, image.height, 4);
             picture = cut(image, frame.part);
             if (opaque(picture)) {
                 clear_unchanged(picture, cut(before_, frame.part));

@@ -90,8 +90,7 @@ class GifEncoder final : public FrameEncoder {
     Result<Bytes> finish() override {
         PaletteMap map(histogram_.palette(most_colours));
         // The entry after the colours stands for "as before"; the table's size is a power of two.
-        const int index_bits =
-            std::max(2, static_cast<int>(std::bit_width(map.palette().size())));
+        const int index_bits = std::max(2, static_cast<int>(std::bit_width(map.palette().size())));
         Writer file;
         write_head(file, map.palette(), index_bits);
         Image frame(width_, height_, {});
@@ -137,8 +136,8 @@ class GifEncoder final : public FrameEncoder {
         const bool first = before.empty();
         const Rectangle part = first ? Rectangle{0, 0, width_, height_}
                                      : changed_rectangle(before, indices, width_, height_, 1);
-        const auto delay = frame_duration(options_, index, index + 1 == kept_.size(),
-                                          ticks_per_second);
+        const auto delay =
+            frame_duration(options_, index, index + 1 == kept_.size(), ticks_per_second);
         file.u8(0x21);
         file.u8(0xF9);
         file.u8(4);
@@ -155,9 +154,9 @@ class GifEncoder final : public FrameEncoder {
         std::vector<std::uint8_t> pixels;
         for (int y = part.y; y < part.y + part.height; ++y) {
             for (int x = part.x; x < part.x + part.width; ++x) {
-                const std::size_t i = static_cast<std::size_t>(y) *
-                                          static_cast<std::size_t>(width_) +
-                                      static_cast<std::size_t>(x);
+                const std::size_t i =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                    static_cast<std::size_t>(x);
                 pixels.push_back(!first && before[i] == indices[i] ? as_before : indices[i]);
             }
         }

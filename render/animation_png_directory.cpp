@@ -33,8 +33,8 @@ class TemporaryTree {
   public:
     explicit TemporaryTree(const fs::path& beside) {
         static std::atomic<std::uint64_t> counter{0};
-        path_ = beside.parent_path() / fmt::format("{}{}-frames-{}", temporary_prefix, ::getpid(),
-                                                   counter.fetch_add(1));
+        path_ = beside.parent_path() /
+                fmt::format("{}{}-frames-{}", temporary_prefix, ::getpid(), counter.fetch_add(1));
     }
     TemporaryTree(const TemporaryTree&) = delete;
     TemporaryTree& operator=(const TemporaryTree&) = delete;
@@ -173,8 +173,8 @@ Result<std::unique_ptr<AnimationWriter>> make_png_directory_writer(const std::st
     if (last == std::string::npos) {
         return fail(ErrorCode::bad_argument, "{}: not a directory for frames", output);
     }
-    auto writer = std::make_unique<PngDirectoryWriter>(output.substr(0, last + 1), options,
-                                                       file_system);
+    auto writer =
+        std::make_unique<PngDirectoryWriter>(output.substr(0, last + 1), options, file_system);
     if (auto started = writer->start(); !started) return pass_on(started);
     return writer;
 }

@@ -62,9 +62,10 @@ std::string xml_escaped(const std::string& text) {
 // Source: ISO 16684-1 (XMP), Dublin Core properties as language alternatives.
 std::string xmp_packet(const AnimationOptions& options) {
     const auto property = [](const char* name, const std::string& text) {
-        return fmt::format("<dc:{0}><rdf:Alt><rdf:li xml:lang=\"x-default\">{1}</rdf:li></rdf:Alt>"
-                           "</dc:{0}>",
-                           name, xml_escaped(text));
+        return fmt::format(
+            "<dc:{0}><rdf:Alt><rdf:li xml:lang=\"x-default\">{1}</rdf:li></rdf:Alt>"
+            "</dc:{0}>",
+            name, xml_escaped(text));
     };
     std::string properties;
     if (const std::string title = metadata_title(options); !title.empty()) {

@@ -43,8 +43,8 @@ Point point_of(Rgb8 colour) {
 Rgb8 colour_of(const Point& point) {
     Rgb8 colour{};
     for (std::size_t c = 0; c < 3; ++c) {
-        colour[c] = static_cast<std::uint8_t>(
-            std::clamp(point[c] / channel_weight[c] + 0.5, 0.0, 255.0));
+        colour[c] =
+            static_cast<std::uint8_t>(std::clamp(point[c] / channel_weight[c] + 0.5, 0.0, 255.0));
     }
     return colour;
 }
@@ -75,9 +75,7 @@ struct Moments {
         return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count;
     }
     [[nodiscard]] double spread() const { return squares - explained(); }
-    [[nodiscard]] Point mean() const {
-        return {sum[0] / count, sum[1] / count, sum[2] / count};
-    }
+    [[nodiscard]] Point mean() const { return {sum[0] / count, sum[1] / count, sum[2] / count}; }
 };
 
 Moments moments_of(std::span<const Sample> samples) {
@@ -117,8 +115,7 @@ Split best_split(const Box& box) {
             right.count -= left.count;
             for (std::size_t c = 0; c < 3; ++c)
                 right.sum[c] -= left.sum[c];
-            const double gain =
-                left.explained() + right.explained() - box.moments.explained();
+            const double gain = left.explained() + right.explained() - box.moments.explained();
             if (gain > best.gain) best = {gain, channel, i};
         }
     }
@@ -263,7 +260,8 @@ std::vector<Rgb8> ColourHistogram::palette(std::size_t size) const {
     return refine(samples, std::move(points));
 }
 
-PaletteMap::PaletteMap(std::vector<Rgb8> palette) : palette_(std::move(palette)), known_(1U << 16) {}
+PaletteMap::PaletteMap(std::vector<Rgb8> palette)
+    : palette_(std::move(palette)), known_(1U << 16) {}
 
 std::uint8_t PaletteMap::nearest(Rgb8 colour) {
     const std::uint32_t key = packed(colour);

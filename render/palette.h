@@ -3,10 +3,10 @@
 // A histogram is fed every frame, a palette is made from it, and a map turns pixels into entries.
 // A loop with no more colours than the palette gets them exactly. Otherwise colours are grouped by
 // variance-based splitting (Wan, Wong and Prusinkiewicz 1988) over cells of 4x4x4 colours,
-// improved by two rounds of k-means (Lloyd 1982). A group of which one colour makes up half is shown
-// as that colour, so background, text and legend stay exact.
-// No dithering: it would crawl from frame to frame. Alpha is ignored.
-// Same input, same palette. Thread contract: none of these may be shared while it is changed.
+// improved by two rounds of k-means (Lloyd 1982). A group of which one colour makes up half is
+// shown as that colour, so background, text and legend stay exact. No dithering: it would crawl
+// from frame to frame. Alpha is ignored. Same input, same palette. Thread contract: none of these
+// may be shared while it is changed.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ class ColourHistogram {
     };
     void add_run(Rgb8 colour, std::uint64_t length);
 
-    std::vector<Cell> cells_;                 // 64^3
+    std::vector<Cell> cells_;                  // 64^3
     std::unordered_set<std::uint32_t> exact_;  // as long as there are at most 256
     bool too_many_ = false;
 };

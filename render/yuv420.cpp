@@ -17,12 +17,12 @@ constexpr std::int32_t fixed(double factor) {
 
 constexpr double luma_scale = 219.0 / 255;
 constexpr double chroma_scale = 224.0 / 255;
-constexpr std::array<std::int32_t, 3> to_y = {fixed(luma_scale* red), fixed(luma_scale* green),
+constexpr std::array<std::int32_t, 3> to_y = {fixed(luma_scale * red), fixed(luma_scale* green),
                                               fixed(luma_scale* blue)};
 constexpr double per_u = chroma_scale / (2 * (1 - blue));
 constexpr double per_v = chroma_scale / (2 * (1 - red));
 constexpr std::array<std::int32_t, 3> to_u = {fixed(-per_u * red), fixed(-per_u* green),
-                                              fixed(per_u * (1 - blue))};
+                                              fixed(per_u*(1 - blue))};
 constexpr std::array<std::int32_t, 3> to_v = {fixed(per_v * (1 - red)), fixed(-per_v* green),
                                               fixed(-per_v* blue)};
 

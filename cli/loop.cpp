@@ -1,0 +1,282 @@
+// stormcellar loop: the grids of a time range as animations.
+#include <future>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+#include "cache/store.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/picture.h"
+#include "cli/progress.h"
+#include "cli/query_options.h"
+#include "cli/scene_options.h"
+#include "render/animation.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct LoopOptions {
+    std::string cache;
+    std::string domain;
+    TimeRangeOptions range;
+    std::vector<std::string> outputs;
+    bool json = false;
+    render::AnimationOptions animation;
+    SceneOptions scene;
+};
+
+struct Skipped {
+    std::filesystem::path path;
+    std::string reason;
+};
+
+struct LoopReport {
+    std::size_t frames = 0;
+    std::vector<Skipped> skipped;
+    UtcTime from, to;  // of the frames that were drawn
+    double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
+    bool interrupted = false;
+};
+
+using Writers = std::vector<std::unique_ptr<render::AnimationWriter>>;
+
+Result<Writers> make_writers(const LoopOptions& options) {
+    Writers writers;
+    for (const std::string& output : options.outputs) {
+        auto writer = render::AnimationWriter::create(output, options.animation);
+        if (!writer) return pass_on(writer);
+        writers.push_back(std::move(*writer));
+    }
+    return writers;
+}
+
+// Encodes one frame behind the one that is being drawn.
+class EncodingThread {
+  public:
+    explicit EncodingThread(Writers writers) : writers_(std::move(writers)) {}
+
+    // Takes the frame; gives the outcome of the one before.
+    Status add(render::Image frame) {
+        if (auto before = wait(); !before) return before;
+        running_ = std::async(std::launch::async, [this, picture = std::move(frame)]() -> Status {
+            const auto start = Clock::now();
+            for (const auto& writer : writers_) {
+                if (auto added = writer->add(picture); !added) return added;
+            }
+            encode_s_ += seconds_since(start);
+            return {};
+        });
+        return {};
+    }
+
+    Status finish() {
+        if (auto before = wait(); !before) return before;
+        const auto start = Clock::now();
+        for (const auto& writer : writers_) {
+            if (Interrupt::requested()) return {};
+            if (auto finished = writer->finish(); !finished) return finished;
+        }
+        encode_s_ += seconds_since(start);
+        return {};
+    }
+
+    [[nodiscard]] double encode_s() const { return encode_s_; }  // after finish()
+
+  private:
+    Status wait() { return running_.valid() ? running_.get() : Status{}; }
+
+    Writers writers_;
+    double encode_s_ = 0;
+    std::future<Status> running_;  // the last member: it is waited for before the writers go
+};
+
+// One frame; none when the grid's file is damaged, which is noted.
+Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
+                                          const LoopOptions& options, const render::Scene& scene,
+                                          LoopReport& report) {
+    const auto start = Clock::now();
+    const auto file = cache::GridFile::open(entry.path);
+    report.read_s += seconds_since(start);
+    if (!file) {
+        report.skipped.push_back({entry.path, file.error().message});
+        return std::optional<render::Image>{};
+    }
+    const auto opened = Clock::now();
+    auto picture = render::render_frame(file->view(), facts_of(options.domain, file->description()),
+                                        scene, thread_count(options.scene));
+    report.render_s += seconds_since(opened);
+    if (!picture) return pass_on(picture);
+    if (report.frames == 0) report.from = entry.time;
+    report.to = entry.time;
+    ++report.frames;
+    return std::optional{std::move(*picture)};
+}
+
+void warn_skipped(const Skipped& skipped) {
+    fmt::print(stderr, "stormcellar: warning: frame left out: {}\n", printable(skipped.reason));
+}
+
+Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
+                const render::Scene& scene, EncodingThread& encoding, LoopReport& report) {
+    Progress progress("frames", entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (Interrupt::requested()) return {};
+        auto picture = draw(entries[i], options, scene, report);
+        if (!picture) return pass_on(picture);
+        if (*picture) {
+            if (auto added = encoding.add(std::move(**picture)); !added) return added;
+        } else {
+            progress.clear();
+            warn_skipped(report.skipped.back());
+        }
+        progress.show(i + 1);
+    }
+    return {};
+}
+
+Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
+                             const LoopOptions& options, const render::Scene& scene,
+                             Clock::time_point start) {
+    auto writers = make_writers(options);
+    if (!writers) return pass_on(writers);
+    EncodingThread encoding(std::move(*writers));
+    LoopReport report;
+    if (auto drawn = draw_all(entries, options, scene, encoding, report); !drawn) {
+        return pass_on(drawn);
+    }
+    if (!Interrupt::requested()) {
+        if (report.frames == 0) {
+            return fail(ErrorCode::corrupt, "{}: each of the {} grids is damaged; nothing written",
+                        options.cache, entries.size());
+        }
+        if (auto finished = encoding.finish(); !finished) return pass_on(finished);
+        report.encode_s = encoding.encode_s();
+    }
+    report.interrupted = Interrupt::requested();
+    report.total_s = seconds_since(start);
+    return report;
+}
+
+// What the file says of itself. The first grid stands for the method of all.
+std::vector<std::pair<std::string, std::string>> metadata_of(
+    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options) {
+    std::vector<std::pair<std::string, std::string>> metadata{
+        {"Title", fmt::format("{} {} to {}", ascii(options.domain),
+                              format_utc(entries.front().time), format_utc(entries.back().time))}};
+    std::string description = fmt::format("reflectivity, {}", options.scene.product);
+    if (const auto first = cache::GridFile::open(entries.front().path)) {
+        const auto& provenance = first->description().provenance;
+        description += fmt::format("; gridded by {}, {}; stations {}", provenance.method,
+                                   provenance.beam_model, fmt::join(provenance.stations, " "));
+    }
+    metadata.emplace_back("Description", ascii(description));
+    metadata.emplace_back("Software", fmt::format("stormcellar {}", software_version));
+    return metadata;
+}
+
+void print_report(const LoopOptions& options, const render::Scene& scene,
+                  const LoopReport& report) {
+    if (!options.json) {
+        fmt::print(stderr, "{}: {} {} to {}, {}, {} frames of {} x {} pixels, {:.1f} s\n",
+                   printable(fmt::format("{}", fmt::join(options.outputs, ", "))),
+                   printable(options.domain), format_utc(report.from), format_utc(report.to),
+                   options.scene.product, report.frames, scene.width, scene.height, report.total_s);
+        return;
+    }
+    auto skipped = nlohmann::json::array();
+    for (const Skipped& grid : report.skipped) {
+        skipped.push_back({{"path", grid.path.native()}, {"reason", grid.reason}});
+    }
+    print_json({{"outputs", options.outputs},
+                {"domain", options.domain},
+                {"product", options.scene.product},
+                {"from", format_utc(report.from)},
+                {"to", format_utc(report.to)},
+                {"frames", report.frames},
+                {"skipped", skipped},
+                {"width", scene.width},
+                {"height", scene.height},
+                {"read_s", report.read_s},
+                {"render_s", report.render_s},
+                {"encode_s", report.encode_s},
+                {"total_s", report.total_s}});
+}
+
+Status check_outputs(const LoopOptions& options) {
+    std::set<std::filesystem::path> names;
+    for (const std::string& output : options.outputs) {
+        if (!names.insert(std::filesystem::path(output).lexically_normal()).second) {
+            return fail(ErrorCode::bad_argument, "{}: named twice as an output", output);
+        }
+    }
+    return {};
+}
+
+std::string range_text(const LoopOptions& options) {
+    std::string text;
+    if (!options.range.from.empty()) text += fmt::format(" from {}", options.range.from);
+    if (!options.range.to.empty()) text += fmt::format(" to {}", options.range.to);
+    return text;
+}
+
+int run_loop(LoopOptions options) {
+    const auto start = Clock::now();
+    if (auto fine = check_outputs(options); !fine) return report_error(fine.error());
+    const auto scene = scene_of(options.scene);
+    if (!scene) return report_error(scene.error());
+    const auto range = parse_time_range(options.range);
+    if (!range) return report_error(range.error());
+    const auto store = cache::Store::open_for_reading(options.cache);
+    if (!store) return report_error(store.error());
+    const auto entries = store->list(options.domain, level2::Moment::ref, range->from, range->to);
+    if (!entries) return report_error(entries.error());
+    if (entries->empty()) return report_no_grid(*store, options.domain, range_text(options));
+    options.animation.metadata = metadata_of(*entries, options);
+
+    Interrupt interrupt;
+    const auto report = make_loop(*entries, options, *scene, start);
+    if (!report) return report_error(report.error());
+    if (report->interrupted) {
+        fmt::print(stderr, "stormcellar: interrupted\n");
+        interrupt.end_by_signal();
+        return exit_failed;
+    }
+    print_report(options, *scene, *report);
+    return exit_done;
+}
+
+}  // namespace
+
+Command add_loop(CLI::App& app) {
+    const auto options = std::make_shared<LoopOptions>();
+    CLI::App* loop = app.add_subcommand(
+        "loop",
+        "Draw the grids of a time range as a looping animation. A grid file that is damaged is "
+        "named on stderr and left out; the exit status is 0 when at least one frame was written.");
+    loop->add_option("--cache", options->cache, "the cache's directory")->required();
+    loop->add_option("--domain", options->domain, "whose grids; a station's is its ICAO")
+        ->required();
+    add_time_range(*loop, options->range);
+    loop->add_option("-o,--output", options->outputs,
+                     fmt::format("{}; several times: the same frames to each",
+                                 render::known_animation_endings()))
+        ->required()
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    loop->add_option("--fps", options->animation.frames_per_second, "frames a second, 0.1 to 60")
+        ->capture_default_str();
+    loop->add_option("--dwell", options->animation.last_frame_dwell_s,
+                     "seconds that the last frame stays longer, 0 to 60")
+        ->capture_default_str();
+    loop->add_flag("--json", options->json, "say what was done as one JSON document");
+    add_scene_options(*loop, options->scene);
+    return {loop, [options] { return run_loop(*options); }};
+}
+
+}  // namespace stormcellar::cli
