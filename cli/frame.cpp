@@ -129,7 +129,7 @@ Command add_frame(CLI::App& app) {
     const auto options = std::make_shared<FrameOptions>();
     CLI::App* frame = app.add_subcommand("frame", "Draw one still picture of a grid in the cache");
     frame->add_option("--cache", options->cache, "the cache's directory")->required();
-    frame->add_option("--domain", options->domain, "whose grids; a station's is its ICAO")
+    frame->add_option("domain,--domain", options->domain, "whose grids; a station's is its ICAO")
         ->required();
     frame->add_option("--time", options->time,
                       "UTC, or relative as -1h: the grid at or next before it (default: latest)");

@@ -1,4 +1,5 @@
 // stormcellar loop: the grids of a time range as animations.
+#include <atomic>
 #include <future>
 #include <memory>
 #include <optional>
@@ -24,8 +25,10 @@ struct LoopOptions {
     std::string cache;
     std::string domain;
     TimeRangeOptions range;
+    std::size_t last = 0;  // 0: all
     std::vector<std::string> outputs;
     bool json = false;
+    bool quiet = false;
     render::AnimationOptions animation;
     SceneOptions scene;
 };
@@ -55,44 +58,61 @@ Result<Writers> make_writers(const LoopOptions& options) {
     return writers;
 }
 
-// Encodes one frame behind the one that is being drawn.
-class EncodingThread {
+// Encodes one frame behind the one that is being drawn, each writer on a thread of its own.
+class Encoding {
   public:
-    explicit EncodingThread(Writers writers) : writers_(std::move(writers)) {}
+    explicit Encoding(Writers writers) : writers_(std::move(writers)) {}
 
     // Takes the frame; gives the outcome of the one before.
     Status add(render::Image frame) {
         if (auto before = wait(); !before) return before;
-        running_ = std::async(std::launch::async, [this, picture = std::move(frame)]() -> Status {
-            const auto start = Clock::now();
-            for (const auto& writer : writers_) {
-                if (auto added = writer->add(picture); !added) return added;
-            }
-            encode_s_ += seconds_since(start);
-            return {};
-        });
+        frame_ = std::move(frame);
+        for (const auto& writer : writers_) {
+            running_.push_back(std::async(std::launch::async, [this, &writer]() -> Timed {
+                const auto start = Clock::now();
+                auto status = writer->add(frame_);
+                return {std::move(status), seconds_since(start)};
+            }));
+        }
         return {};
     }
 
-    Status finish() {
+    // Stops before the next file when the flag is set.
+    Status finish(const std::atomic<bool>& stop) {
         if (auto before = wait(); !before) return before;
         const auto start = Clock::now();
         for (const auto& writer : writers_) {
-            if (Interrupt::requested()) return {};
+            if (stop) return {};
             if (auto finished = writer->finish(); !finished) return finished;
         }
         encode_s_ += seconds_since(start);
         return {};
     }
 
-    [[nodiscard]] double encode_s() const { return encode_s_; }  // after finish()
+    // Summed over the writers; after finish().
+    [[nodiscard]] double encode_s() const { return encode_s_; }
 
   private:
-    Status wait() { return running_.valid() ? running_.get() : Status{}; }
+    struct Timed {
+        Status status;
+        double seconds = 0;
+    };
+    // The first error, when all are done.
+    Status wait() {
+        Status outcome;
+        for (auto& running : running_) {
+            auto done = running.get();
+            encode_s_ += done.seconds;
+            if (outcome && !done.status) outcome = std::move(done.status);
+        }
+        running_.clear();
+        return outcome;
+    }
 
     Writers writers_;
+    render::Image frame_;
     double encode_s_ = 0;
-    std::future<Status> running_;  // the last member: it is waited for before the writers go
+    std::vector<std::future<Timed>> running_;  // the last member: waited for before the rest goes
 };
 
 // One frame; none when the grid's file is damaged, which is noted.
@@ -122,10 +142,11 @@ void warn_skipped(const Skipped& skipped) {
 }
 
 Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
-                const render::Scene& scene, EncodingThread& encoding, LoopReport& report) {
-    Progress progress("frames", entries.size());
+                const render::Scene& scene, const std::atomic<bool>& stop, Encoding& encoding,
+                LoopReport& report) {
+    Progress progress("frames", entries.size(), !options.quiet);
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        if (Interrupt::requested()) return {};
+        if (stop) return {};
         auto picture = draw(entries[i], options, scene, report);
         if (!picture) return pass_on(picture);
         if (*picture) {
@@ -141,23 +162,23 @@ Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions
 
 Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
                              const LoopOptions& options, const render::Scene& scene,
-                             Clock::time_point start) {
+                             const std::atomic<bool>& stop, Clock::time_point start) {
     auto writers = make_writers(options);
     if (!writers) return pass_on(writers);
-    EncodingThread encoding(std::move(*writers));
+    Encoding encoding(std::move(*writers));
     LoopReport report;
-    if (auto drawn = draw_all(entries, options, scene, encoding, report); !drawn) {
+    if (auto drawn = draw_all(entries, options, scene, stop, encoding, report); !drawn) {
         return pass_on(drawn);
     }
-    if (!Interrupt::requested()) {
+    if (!stop) {
         if (report.frames == 0) {
             return fail(ErrorCode::corrupt, "{}: each of the {} grids is damaged; nothing written",
                         options.cache, entries.size());
         }
-        if (auto finished = encoding.finish(); !finished) return pass_on(finished);
+        if (auto finished = encoding.finish(stop); !finished) return pass_on(finished);
         report.encode_s = encoding.encode_s();
     }
-    report.interrupted = Interrupt::requested();
+    report.interrupted = stop;
     report.total_s = seconds_since(start);
     return report;
 }
@@ -182,6 +203,7 @@ std::vector<std::pair<std::string, std::string>> metadata_of(
 void print_report(const LoopOptions& options, const render::Scene& scene,
                   const LoopReport& report) {
     if (!options.json) {
+        if (options.quiet) return;
         fmt::print(stderr, "{}: {} {} to {}, {}, {} frames of {} x {} pixels, {:.1f} s\n",
                    printable(fmt::format("{}", fmt::join(options.outputs, ", "))),
                    printable(options.domain), format_utc(report.from), format_utc(report.to),
@@ -233,16 +255,20 @@ int run_loop(LoopOptions options) {
     if (!range) return report_error(range.error());
     const auto store = cache::Store::open_for_reading(options.cache);
     if (!store) return report_error(store.error());
-    const auto entries = store->list(options.domain, level2::Moment::ref, range->from, range->to);
+    auto entries = store->list(options.domain, level2::Moment::ref, range->from, range->to);
     if (!entries) return report_error(entries.error());
+    if (options.last > 0 && entries->size() > options.last) {
+        entries->erase(entries->begin(),
+                       entries->end() - static_cast<std::ptrdiff_t>(options.last));
+    }
     if (entries->empty()) return report_no_grid(*store, options.domain, range_text(options));
     options.animation.metadata = metadata_of(*entries, options);
 
     Interrupt interrupt;
-    const auto report = make_loop(*entries, options, *scene, start);
+    const auto report = make_loop(*entries, options, *scene, interrupt.flag(), start);
     if (!report) return report_error(report.error());
     if (report->interrupted) {
-        fmt::print(stderr, "stormcellar: interrupted\n");
+        fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
         interrupt.end_by_signal();
         return exit_failed;
     }
@@ -259,9 +285,10 @@ Command add_loop(CLI::App& app) {
         "Draw the grids of a time range as a looping animation. A grid file that is damaged is "
         "named on stderr and left out; the exit status is 0 when at least one frame was written.");
     loop->add_option("--cache", options->cache, "the cache's directory")->required();
-    loop->add_option("--domain", options->domain, "whose grids; a station's is its ICAO")
+    loop->add_option("domain,--domain", options->domain, "whose grids; a station's is its ICAO")
         ->required();
     add_time_range(*loop, options->range);
+    loop->add_option("--last", options->last, "of these only the newest so many");
     loop->add_option("-o,--output", options->outputs,
                      fmt::format("{}; several times: the same frames to each",
                                  render::known_animation_endings()))
@@ -275,6 +302,7 @@ Command add_loop(CLI::App& app) {
                      "seconds that the last frame stays longer, 0 to 60")
         ->capture_default_str();
     loop->add_flag("--json", options->json, "say what was done as one JSON document");
+    loop->add_flag("--quiet", options->quiet, "no progress and no summary; warnings and errors");
     add_scene_options(*loop, options->scene);
     return {loop, [options] { return run_loop(*options); }};
 }

@@ -16,8 +16,8 @@ std::string progress_line(const std::string& what, std::size_t done, std::size_t
                        std::string(width - filled, '.'), done, std::to_string(total).size(), total);
 }
 
-Progress::Progress(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), terminal_(::isatty(STDERR_FILENO) == 1) {
+Progress::Progress(std::string what, std::size_t total, bool wanted)
+    : what_(std::move(what)), total_(total), shown_(wanted && ::isatty(STDERR_FILENO) == 1) {
     show(0);
 }
 
@@ -26,13 +26,13 @@ Progress::~Progress() {
 }
 
 void Progress::show(std::size_t done) {
-    if (!terminal_) return;
+    if (!shown_) return;
     fmt::print(stderr, "\r{}", progress_line(what_, done, total_));
     std::fflush(stderr);
 }
 
 void Progress::clear() {
-    if (!terminal_) return;
+    if (!shown_) return;
     fmt::print(stderr, "\r\x1B[K");
     std::fflush(stderr);
 }

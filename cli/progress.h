@@ -1,4 +1,4 @@
-// cli/progress.h -- a bar on stderr, when stderr is a terminal; nothing otherwise.
+// cli/progress.h -- a bar on stderr, when stderr is a terminal and it is wanted.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace stormcellar::cli {
 
 class Progress {
   public:
-    Progress(std::string what, std::size_t total);
+    Progress(std::string what, std::size_t total, bool wanted);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress();  // takes the bar away
@@ -19,7 +19,7 @@ class Progress {
   private:
     std::string what_;
     std::size_t total_;
-    bool terminal_;
+    bool shown_;
 };
 
 // "frames [#####.....]  6/12"

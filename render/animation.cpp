@@ -143,7 +143,12 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
         if (auto writable = probe(output, file_system); !writable) return pass_on(writable);
         return std::make_unique<FileWriter>(output, format.make(options), file_system);
     }
-    return fail(ErrorCode::bad_argument, "{}: cannot write '{}'; this build writes {}", output,
+    if (ending == ".mp4" || ending == ".webm") {
+        return fail(ErrorCode::bad_argument,
+                    "{}: this build is without FFmpeg (STORMCELLAR_VIDEO), so it writes {}", output,
+                    known_animation_endings());
+    }
+    return fail(ErrorCode::bad_argument, "{}: unknown ending '{}'; this build writes {}", output,
                 ending, known_animation_endings());
 }
 

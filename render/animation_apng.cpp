@@ -104,7 +104,9 @@ class ApngEncoder final : public FrameEncoder {
                 frame.blend = blend_over;
             }
         }
-        const auto png = encode_png(picture, frames_.empty() ? options_.metadata : no_metadata_);
+        // All frames share one header, so none may leave its alpha out.
+        const auto png = encode_png(picture, frames_.empty() ? options_.metadata : no_metadata_,
+                                    PngAlpha::always);
         if (!png) return pass_on(png);
         frame.data = take_apart(*png);
         frames_.push_back(std::move(frame));

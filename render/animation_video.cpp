@@ -6,7 +6,6 @@
 
 #include "render/ffmpeg_handles.h"
 #include "render/video_muxer.h"
-#include "render/yuv420.h"
 
 namespace stormcellar::render {
 namespace {
@@ -64,7 +63,7 @@ class VideoEncoder final : public FrameEncoder {
         if (!encoder_) {
             if (auto started = start(image.width, image.height); !started) return started;
         }
-        last_ = to_yuv420(image);
+        if (auto converted = convert(image); !converted) return converted;
         return encode_last();
     }
 
@@ -96,7 +95,7 @@ class VideoEncoder final : public FrameEncoder {
         }
         const int opened = avcodec_open2(encoder_.get(), found, settings.get());
         if (opened < 0) return failure(codec->name, opened);
-        return {};
+        return start_conversion();
     }
 
     void describe(int width, int height) {
@@ -118,8 +117,28 @@ class VideoEncoder final : public FrameEncoder {
         encoder.gop_size = std::max(12, static_cast<int>(10 * options_.frames_per_second));
     }
 
-    Status encode_last() {
-        const Handle<AVFrame> frame(av_frame_alloc());
+    // RGB of the full range -> BT.709 of the limited range; the same bits on every machine.
+    Status start_conversion() {
+        const int even_width = encoder_->width, even_height = encoder_->height;
+        even_ = Image(even_width, even_height, {});
+        conversion_.reset(sws_getContext(
+            even_width, even_height, AV_PIX_FMT_RGBA, even_width, even_height, AV_PIX_FMT_YUV420P,
+            SWS_BICUBIC | SWS_ACCURATE_RND | SWS_BITEXACT | SWS_FULL_CHR_H_INP, nullptr, nullptr,
+            nullptr));
+        if (!conversion_) return fail(ErrorCode::internal, "video: no memory for the conversion");
+        const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+        constexpr int full = 1, limited = 0, none = 0, one = 1 << 16;
+        if (sws_setColorspaceDetails(conversion_.get(), bt709, full, bt709, limited, none, one,
+                                     one) < 0) {
+            return fail(ErrorCode::unsupported, "video: this FFmpeg does not convert to BT.709");
+        }
+        return {};
+    }
+
+    // Into a frame of its own, because the encoder may still be reading the one before.
+    Status convert(const Image& image) {
+        fill_even(image);
+        Handle<AVFrame> frame(av_frame_alloc());
         if (!frame) return fail(ErrorCode::internal, "video: no memory for a frame");
         frame->format = encoder_->pix_fmt;
         frame->width = encoder_->width;
@@ -129,21 +148,36 @@ class VideoEncoder final : public FrameEncoder {
         frame->color_primaries = encoder_->color_primaries;
         frame->color_trc = encoder_->color_trc;
         frame->chroma_location = encoder_->chroma_sample_location;
-        frame->pts = next_pts_++;
-        frame->pkt_duration = 1;
         if (const int got = av_frame_get_buffer(frame.get(), 0); got < 0) {
             return failure("video frame", got);
         }
-        const std::array planes{&last_.y, &last_.u, &last_.v};
-        for (std::size_t p = 0; p < planes.size(); ++p) {
-            const int width = p == 0 ? last_.width : last_.width / 2;
-            const int height = p == 0 ? last_.height : last_.height / 2;
-            for (int y = 0; y < height; ++y) {
-                std::copy_n(planes[p]->begin() + std::ptrdiff_t{y} * width, width,
-                            frame->data[p] + std::ptrdiff_t{y} * frame->linesize[p]);
+        const std::array<const std::uint8_t*, 4> from{even_.rgba.data()};
+        const std::array<int, 4> stride{even_.width * 4};
+        const int rows = sws_scale(conversion_.get(), from.data(), stride.data(), 0, even_.height,
+                                   frame->data, frame->linesize);
+        if (rows != even_.height) return failure("video frame", rows < 0 ? rows : AVERROR_UNKNOWN);
+        last_ = std::move(frame);
+        return {};
+    }
+
+    // An odd picture has its last column or row twice.
+    void fill_even(const Image& image) {
+        const auto pixel_bytes = [](int count) { return static_cast<std::size_t>(count) * 4; };
+        for (int y = 0; y < even_.height; ++y) {
+            const auto* row = image.rgba.data() + pixel_bytes(std::min(y, image.height - 1)) *
+                                                      static_cast<std::size_t>(image.width);
+            auto* out = even_.rgba.data() + pixel_bytes(y) * static_cast<std::size_t>(even_.width);
+            std::copy_n(row, pixel_bytes(image.width), out);
+            if (even_.width > image.width) {
+                std::copy_n(row + pixel_bytes(image.width - 1), 4, out + pixel_bytes(image.width));
             }
         }
-        return send(frame.get());
+    }
+
+    Status encode_last() {
+        last_->pts = next_pts_++;
+        last_->pkt_duration = 1;
+        return send(last_.get());
     }
 
     // Gives the encoder a frame, or the end when there is none, and takes what it has ready.
@@ -166,7 +200,9 @@ class VideoEncoder final : public FrameEncoder {
     AnimationOptions options_;
     Handle<AVCodecContext> encoder_;
     std::vector<Handle<AVPacket>> packets_;
-    Yuv420 last_;
+    Handle<SwsContext> conversion_;
+    Image even_;
+    Handle<AVFrame> last_;
     std::int64_t next_pts_ = 0;
 };
 

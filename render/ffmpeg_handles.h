@@ -5,6 +5,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
+#include <libswscale/swscale.h>
 }
 
 #include <array>
@@ -21,6 +22,7 @@ struct Deleter {
     void operator()(AVFormatContext* context) const { avformat_free_context(context); }
     void operator()(AVFrame* frame) const { av_frame_free(&frame); }
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+    void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
 template <class T>
 using Handle = std::unique_ptr<T, Deleter>;

@@ -74,7 +74,8 @@ Status check(const Image& image, const std::vector<std::pair<std::string, std::s
 }  // namespace
 
 Result<std::vector<std::byte>> encode_png(
-    const Image& image, const std::vector<std::pair<std::string, std::string>>& texts) {
+    const Image& image, const std::vector<std::pair<std::string, std::string>>& texts,
+    PngAlpha alpha) {
     if (auto checked = check(image, texts); !checked) return pass_on(checked);
 
     std::vector<png_text> chunks;
@@ -97,7 +98,7 @@ Result<std::vector<std::byte>> encode_png(
         return fail(ErrorCode::internal, "PNG: libpng does not start");
     }
     png_set_write_fn(png, &sink, append, flush_nothing);
-    bool opaque = true;
+    bool opaque = alpha == PngAlpha::when_needed;
     for (std::size_t i = 3; i < image.rgba.size(); i += 4)
         opaque = opaque && image.rgba[i] == 255;
     const bool written =

@@ -11,10 +11,13 @@
 
 namespace stormcellar::render {
 
-// 8 bits, sRGB; RGB when every pixel is opaque, else RGBA. `texts` become tEXt chunks (keyword of 1
-// to 79 characters, Latin-1 text). bad_argument for an image whose bytes do not fit its size, or a
-// text with a zero byte.
+enum class PngAlpha { when_needed, always };
+
+// 8 bits, sRGB; RGB when every pixel is opaque and alpha is not always wanted, else RGBA. `texts`
+// become tEXt chunks (keyword of 1 to 79 characters, Latin-1 text). bad_argument for an image whose
+// bytes do not fit its size, or a text with a zero byte.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
-    const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {});
+    const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {},
+    PngAlpha alpha = PngAlpha::when_needed);
 
 }  // namespace stormcellar::render
