@@ -288,7 +288,8 @@ Command add_loop(CLI::App& app) {
     loop->add_option("domain,--domain", options->domain, "whose grids; a station's is its ICAO")
         ->required();
     add_time_range(*loop, options->range);
-    loop->add_option("--last", options->last, "of these only the newest so many");
+    loop->add_option("--last", options->last, "of these only the newest so many")
+        ->check(CLI::Range(1, 1'000'000));
     loop->add_option("-o,--output", options->outputs,
                      fmt::format("{}; several times: the same frames to each",
                                  render::known_animation_endings()))

@@ -117,6 +117,10 @@ Status probe(const std::string& output, FileSystem& file_system) {
     if (std::filesystem::is_directory(output, ignored)) {
         return fail(ErrorCode::not_a_file, "{}: is a directory", output);
     }
+    const auto parent = std::filesystem::path(output).parent_path();
+    if (!parent.empty() && !std::filesystem::exists(parent, ignored)) {
+        return fail(ErrorCode::not_found, "{}: there is no directory {}", output, parent.native());
+    }
     const auto file = AtomicFile::create(file_system, output);
     if (!file) return tl::unexpected(named(output, file.error()));
     return {};
@@ -147,6 +151,11 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
         return fail(ErrorCode::bad_argument,
                     "{}: this build is without FFmpeg (STORMCELLAR_VIDEO), so it writes {}", output,
                     known_animation_endings());
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_directory(output, ignored)) {
+        return fail(ErrorCode::bad_argument,
+                    "{0}: is a directory; name it {0}/ to have PNG files in it", output);
     }
     return fail(ErrorCode::bad_argument, "{}: unknown ending '{}'; this build writes {}", output,
                 ending, known_animation_endings());
