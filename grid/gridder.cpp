@@ -1,11 +1,10 @@
 #include "grid/gridder.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/station_table.h"
 #include "base/version.h"
 #include "grid/beam_geometry.h"
@@ -27,7 +26,7 @@ bool is_tdwr(std::string_view icao) {
     return station && station->kind == RadarKind::tdwr;
 }
 
-// Fills the rows of a grid; shared by the threads, each of which takes the next row that is left.
+// Fills the rows of a grid; shared by the threads.
 class RowFiller {
   public:
     RowFiller(Grid& grid, const ColumnGeometry& geometry, std::vector<PolarSweep> sweeps,
@@ -48,21 +47,16 @@ class RowFiller {
     }
 
     void run(int threads) {
-        std::vector<std::jthread> helpers;
-        for (int helper = 1; helper < std::min(threads, grid_.spec.ny); ++helper)
-            helpers.emplace_back([this] { fill_rows(); });
-        fill_rows();
+        for_each_piece(grid_.spec.ny, threads, [this](int iy) { fill_row(iy); });
     }
 
   private:
-    void fill_rows() {
+    void fill_row(int iy) {
         std::vector<BeamSample> beams(sweeps_.size());
-        for (int iy = next_row_++; iy < grid_.spec.ny; iy = next_row_++) {
-            std::size_t first_cell = grid_.spec.index(0, iy, 0);
-            for (const ColumnPlace& place : geometry_.row(iy)) {
-                fill_one(place, first_cell, beams);
-                first_cell += levels_m_.size();
-            }
+        std::size_t first_cell = grid_.spec.index(0, iy, 0);
+        for (const ColumnPlace& place : geometry_.row(iy)) {
+            fill_one(place, first_cell, beams);
+            first_cell += levels_m_.size();
         }
     }
 
@@ -108,7 +102,6 @@ class RowFiller {
     const Blending blending_;
     std::vector<float> levels_m_;
     std::vector<bool> edges_matter_;  // of each sweep: it has no neighbour above or below
-    std::atomic<int> next_row_{0};
 };
 
 void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "render/threads.h"
+#include "base/parallel.h"
 
 namespace stormcellar::render {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "render/colour_table.h"
 #include "render/shades.h"
-#include "render/threads.h"
 
 namespace stormcellar::render {
 namespace {

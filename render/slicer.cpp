@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "render/level_position.h"
 #include "render/ray_packet.h"
 #include "render/slice_mask.h"
-#include "render/threads.h"
 #include "render/transfer_function.h"
 
 namespace stormcellar::render {

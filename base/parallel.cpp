@@ -1,4 +1,4 @@
-#include "render/threads.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace stormcellar::render {
+namespace stormcellar {
 
 void for_each_piece(int count, int threads, const std::function<void(int)>& work) {
     std::atomic<int> next{0};
@@ -25,4 +25,4 @@ void for_each_piece(int count, int threads, const std::function<void(int)>& work
     run();
 }
 
-}  // namespace stormcellar::render
+}  // namespace stormcellar

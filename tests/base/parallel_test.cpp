@@ -1,11 +1,11 @@
-#include "render/threads.h"
+#include "base/parallel.h"
 
 #include <atomic>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace stormcellar::render {
+namespace stormcellar {
 namespace {
 
 TEST(ForEachPiece, DoesEachPieceOnce) {
@@ -19,4 +19,4 @@ TEST(ForEachPiece, DoesEachPieceOnce) {
 }
 
 }  // namespace
-}  // namespace stormcellar::render
+}  // namespace stormcellar
