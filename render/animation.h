@@ -6,7 +6,7 @@
 //          same entry, so nothing flickers; exact when the loop has no more colours than that;
 //          times in 1/100 s, at least 2/100; metadata as a comment
 //   .apng  lossless; alpha kept; metadata as tEXt chunks
-//   .mp4   H.264 (CRF 18, BT.709), or MPEG-4 part 2 where FFmpeg has no H.264 encoder
+//   .mp4   H.264 (CRF 16, BT.709), or MPEG-4 part 2 where FFmpeg has no H.264 encoder
 //   .webm  VP9, or VP8; both only in a build with STORMCELLAR_VIDEO
 //   NAME/  a directory of frame_0000.png, frame_0001.png, ...; alpha kept
 // Loops run for ever where the format has it (MP4, WebM and PNG files do not). Video has even
@@ -37,7 +37,7 @@ struct AnimationOptions {
     double frames_per_second = 8;   // 0.1 to 60
     double last_frame_dwell_s = 1;  // the last frame stays this much longer; 0 to 60
     // Keyword and text. "Title" becomes the title where the format has one, all others its comment.
-    std::vector<std::pair<std::string, std::string>> metadata;
+    std::vector<std::pair<std::string, std::string>> metadata{};
 };
 
 // What this build can write, as a user would type it: ".webp, .gif, ..., DIR/".

@@ -1,0 +1,283 @@
+// stormcellar loop, run as a user runs it.
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cache/store.h"
+#include "grid/brick_grid.h"
+#include "pipeline/ingest.h"
+#include "tests/render/decoded_animation.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class Loop : public ::testing::Test {
+  protected:
+    void commit(const std::string& compact_time, float dbz) {
+        grid::Grid grid;
+        grid.spec = grid::default_spec(42.2, -75.98);
+        grid.spec.nx = grid.spec.ny = 40;
+        grid.time = parse_compact(compact_time).value();
+        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
+        grid.values.assign(grid.spec.cell_count(), dbz);
+        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+        const auto path = store_.commit("KBGM", cache::describe(grid), bricks.view());
+        ASSERT_TRUE(path) << path.error().message;
+        grids_.push_back(*path);
+    }
+    void commit_three() {
+        commit("20050822_024400", 22);
+        commit("20050822_025000", 33);
+        commit("20050822_025600", 44);
+    }
+    testing::ProgramResult run(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(),
+                         {"loop", "--cache", (directory_ / "cache").string(), "--slices", "16"});
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    }
+    [[nodiscard]] std::string out(const std::string& name) const {
+        return (directory_ / "out" / name).string();
+    }
+    [[nodiscard]] std::vector<std::string> written() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(directory_ / "out"))
+            names.push_back(entry.path().filename());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+    void SetUp() override { fs::create_directory(directory_ / "out"); }
+
+    testing::TemporaryDirectory directory_;
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    std::vector<fs::path> grids_;
+};
+
+TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
+    commit_three();
+    const auto result = run({"KBGM", "-o", out("a.webp"), "-o", out("frames/")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("2005-08-22T02:44:00Z to 2005-08-22T02:56:00Z"));
+    EXPECT_EQ(result.out, "");
+    const auto webp = render::decode_webp(out("a.webp"));
+    ASSERT_EQ(webp.frames.size(), 3U) << webp.error;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto png =
+            render::decode_png_file(out("frames/frame_000" + std::to_string(i) + ".png"));
+        EXPECT_EQ(webp.frames[i].image.rgba, png.rgba) << i;
+    }
+    EXPECT_NE(webp.frames[0].image.rgba, webp.frames[1].image.rgba);
+    EXPECT_THAT(webp.metadata.at("XMP"), HasSubstr("KBGM 2005-08-22T02:44:00Z"));
+}
+
+TEST_F(Loop, DrawsWhatFrameDraws) {
+    commit_three();
+    ASSERT_EQ(run({"KBGM", "-o", out("frames/")}).status, 0);
+    const auto frame = testing::run_program(
+        STORMCELLAR_PROGRAM, {"frame", "KBGM", "--cache", (directory_ / "cache").string(),
+                              "--slices", "16", "--time", "2005-08-22T02:50", "-o", out("b.png")});
+    ASSERT_EQ(frame.status, 0) << frame.err;
+    EXPECT_EQ(render::decode_png_file(out("frames/frame_0001.png")).rgba,
+              render::decode_png_file(out("b.png")).rgba);
+}
+
+TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
+    commit_three();
+    const auto frames = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"--domain", "KBGM", "--json", "-o", out("a.gif")});
+        const auto result = run(arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        const auto json = nlohmann::json::parse(result.out);
+        return std::pair<std::string, int>(json["from"], json["frames"]);
+    };
+    EXPECT_EQ(frames({"--from", "2005-08-22T02:50:00Z"}),
+              (std::pair<std::string, int>("2005-08-22T02:50:00Z", 2)));
+    EXPECT_EQ(frames({"--to", "2005-08-22T02:50:00Z"}),
+              (std::pair<std::string, int>("2005-08-22T02:44:00Z", 2)));
+    EXPECT_EQ(frames({"--last", "1"}), (std::pair<std::string, int>("2005-08-22T02:56:00Z", 1)));
+    EXPECT_EQ(frames({"--last", "9"}), (std::pair<std::string, int>("2005-08-22T02:44:00Z", 3)));
+}
+
+TEST_F(Loop, SaysWhatItDidAsJson) {
+    commit_three();
+    const auto result =
+        run({"KBGM", "--json", "--width", "500", "--height", "400", "-o", out("a.webp")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 3);
+    EXPECT_EQ(json["width"], 500);
+    EXPECT_EQ(json["skipped"].size(), 0U);
+    EXPECT_EQ(json["outputs"][0], out("a.webp"));
+    for (const char* phase : {"read_s", "render_s", "encode_s"}) {
+        EXPECT_GT(json[phase].get<double>(), 0) << phase;
+    }
+    EXPECT_LE(json["read_s"].get<double>(), json["total_s"].get<double>());
+}
+
+TEST_F(Loop, QuietPrintsNothing) {
+    commit_three();
+    const auto result = run({"KBGM", "--quiet", "-o", out("a.webp")});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Loop, FrameRateAndDwellReachTheFile) {
+    commit_three();
+    ASSERT_EQ(run({"KBGM", "--fps", "4", "--dwell", "2", "-o", out("a.webp")}).status, 0);
+    const auto webp = render::decode_webp(out("a.webp"));
+    ASSERT_EQ(webp.frames.size(), 3U);
+    EXPECT_DOUBLE_EQ(webp.frames[0].duration_s, 0.25);
+    EXPECT_DOUBLE_EQ(webp.frames[2].duration_s, 2.25);
+}
+
+TEST_F(Loop, DamagedGridIsNamedAndLeftOut) {
+    commit_three();
+    fs::resize_file(grids_[1], 100);
+    const auto result = run({"KBGM", "-o", out("a.webp")});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_THAT(result.err, HasSubstr("frame left out"));
+    EXPECT_THAT(result.err, HasSubstr(grids_[1].filename().native()));
+    EXPECT_EQ(render::decode_webp(out("a.webp")).frames.size(), 2U);
+}
+
+TEST_F(Loop, NothingButDamagedGridsIsAFailureAndWritesNothing) {
+    commit("20050822_024400", 22);
+    fs::resize_file(grids_[0], 100);
+    EXPECT_EQ(run({"KBGM", "-o", out("a.webp"), "-o", out("frames/")}).status, 1);
+    EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(Loop, NothingMatchedIsStatusThree) {
+    commit_three();
+    const auto other = run({"KTLX", "-o", out("a.webp")});
+    EXPECT_EQ(other.status, 3);
+    EXPECT_THAT(other.err, HasSubstr("domains are KBGM"));
+    const auto late = run({"KBGM", "--from", "2006-01-01", "-o", out("a.webp")});
+    EXPECT_EQ(late.status, 3);
+    EXPECT_THAT(late.err, HasSubstr("from 2006-01-01"));
+    EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(Loop, NonsenseIsBadUsageInOneLineAndWritesNothing) {
+    commit_three();
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{"KBGM", "-o", out("a.avi")}, "unknown ending '.avi'"},
+        {{"KBGM", "-o", out("")}, "a.webp"},
+        {{"KBGM", "-o", out("a.webp"), "--from", "noon"}, "--from: 'noon' is not a time"},
+        {{"KBGM", "-o", out("a.webp"), "--fps", "0"}, "0.1 to 60"},
+        {{"KBGM", "-o", out("a.webp"), "--last", "0"}, "--last"},
+        {{"KBGM", "-o", out("a.webp"), "-o", out("./a.webp")}, "named twice"},
+        {{"KBGM", "-o", out("a.webp"), "--tilt", "100"}, "tilt"},
+        {{"KBGM", "-o", out("b.gif"), "-o", out("a.avi")}, "a.avi"},
+        {{"-o", out("a.webp")}, "--domain"},
+        {{"KBGM"}, "--output"},
+    };
+    std::ofstream(directory_ / "out/a.webp") << "mine";
+    for (const auto& [arguments, message] : cases) {
+        const auto result = run(arguments);
+        EXPECT_EQ(result.status, 2) << message;
+        EXPECT_THAT(result.err, StartsWith("stormcellar: ")) << message;
+        EXPECT_THAT(result.err, HasSubstr(message));
+        EXPECT_THAT(written(), ElementsAre("a.webp")) << message;
+        EXPECT_EQ(fs::file_size(directory_ / "out/a.webp"), 4U) << message;
+    }
+}
+
+TEST_F(Loop, PlaceThatCannotBeWrittenIsAFailureThatNamesIt) {
+    commit_three();
+    const auto result = run({"KBGM", "-o", out("missing/a.webp")});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("there is no directory " + out("missing")));
+    const auto cache = testing::run_program(
+        STORMCELLAR_PROGRAM,
+        {"loop", "KBGM", "--cache", (directory_ / "nowhere").string(), "-o", out("a.webp")});
+    EXPECT_EQ(cache.status, 1);
+    EXPECT_THAT(cache.err, HasSubstr("nowhere"));
+}
+
+// A loop of very many grids, told to stop while its frames are being written.
+TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
+    commit("20050822_024400", 22);
+    for (int i = 0; i < 400; ++i) {
+        const auto time =
+            UtcTime(parse_compact("20050822_030000").value()) + std::chrono::minutes(i);
+        const auto path = store_.path_of("KBGM", level2::Moment::ref, time);
+        ASSERT_TRUE(path);
+        fs::create_directories(path->parent_path());
+        fs::copy_file(grids_[0], *path);
+    }
+    const std::string cache = (directory_ / "cache").string();
+    const std::string webp = out("a.webp"), frames = out("frames/");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execl(STORMCELLAR_PROGRAM, "stormcellar", "loop", "KBGM", "--quiet", "--cache",
+                cache.c_str(), "-o", webp.c_str(), "-o", frames.c_str(), nullptr);
+        ::_exit(127);
+    }
+    // Its directory of frames stands under a temporary name while it works.
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto frames_drawn = [&] {
+        for (const auto& entry : fs::directory_iterator(directory_ / "out")) {
+            if (entry.is_directory() && fs::exists(entry.path() / "frame_0001.png")) return true;
+        }
+        return false;
+    };
+    while (!frames_drawn() && std::chrono::steady_clock::now() < limit)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGINT);
+    EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(Loop, RealVolumesBecomeALoop) {
+    STORMCELLAR_NEED_DATA();
+    auto catalog = catalog::Catalog::open_for_writing(directory_ / "catalog");
+    ASSERT_TRUE(catalog) << catalog.error().message;
+    pipeline::IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    pipeline::Ingestor ingestor(*catalog, store_, options);
+    for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
+        const auto outcome =
+            ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, false);
+        ASSERT_TRUE(outcome) << outcome.error().message;
+        ASSERT_EQ(outcome->result, pipeline::IngestResult::gridded) << outcome->reason;
+    }
+    const auto result = run({"KBGM", "-o", out("a.webp"), "--no-labels"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto loop = render::decode_webp(out("a.webp"));
+    ASSERT_EQ(loop.frames.size(), 2U) << loop.error;
+    // Echo moves between the volumes: without labels nothing else can differ.
+    EXPECT_NE(loop.frames[0].image.rgba, loop.frames[1].image.rgba);
+    int saturated = 0;  // grounds and lines are grey
+    const render::Image& image = loop.frames[0].image;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        const auto [low, high] = std::minmax({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+        if (high - low > 60) ++saturated;
+    }
+    EXPECT_GT(saturated, 1000);
+}
+
+}  // namespace
+}  // namespace stormcellar

@@ -1,0 +1,126 @@
+#include <random>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/file_system.h"
+#include "render/animation.h"
+#include "tests/render/decoded_animation.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+class AnimationGif : public ::testing::Test {
+  protected:
+    DecodedAnimation round_trip(const std::vector<Image>& frames,
+                                const AnimationOptions& options = {}) {
+        const auto writer = AnimationWriter::create(path(), options);
+        for (const Image& frame : frames) {
+            if (const auto added = (*writer)->add(frame); !added) {
+                return {.error = added.error().message};
+            }
+        }
+        if (const auto finished = (*writer)->finish(); !finished) {
+            return {.error = finished.error().message};
+        }
+        return decode_with_ffmpeg(path());
+    }
+    [[nodiscard]] std::string path() const { return (directory_ / "a.gif").string(); }
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(AnimationGif, FewColoursComeBackExactly) {
+    const auto frames = test_frames(6);
+    const auto back = round_trip(frames);
+    ASSERT_EQ(back.error, "");
+    EXPECT_EQ(back.codec, "gif");
+    ASSERT_EQ(back.frames.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(back.frames[i].image.rgba, frames[i].rgba) << i;
+}
+
+// Noise fills the code table and starts it again many times; every number of colours has its own
+// width of codes.
+TEST_F(AnimationGif, NoiseOfAnyNumberOfColoursComesBackExactly) {
+    std::mt19937 random(20261121);
+    for (const unsigned colours : {1U, 2U, 3U, 4U, 7U, 8U, 15U, 16U, 100U, 254U, 255U}) {
+        std::vector<Image> frames(2, Image(150, 110, {0, 0, 0, 255}));
+        for (Image& frame : frames) {
+            for (int y = 0; y < frame.height; ++y) {
+                for (int x = 0; x < frame.width; ++x) {
+                    const auto entry = static_cast<std::uint8_t>(random() % colours);
+                    frame.set(x, y, {entry, static_cast<std::uint8_t>(255 - entry), 9, 255});
+                }
+            }
+        }
+        const auto back = round_trip(frames);
+        ASSERT_EQ(back.error, "") << colours;
+        ASSERT_EQ(back.frames.size(), 2U) << colours;
+        EXPECT_EQ(back.frames[0].image.rgba, frames[0].rgba) << colours;
+        EXPECT_EQ(back.frames[1].image.rgba, frames[1].rgba) << colours;
+    }
+}
+
+TEST_F(AnimationGif, ColourThatStandsStillDoesNotFlicker) {
+    std::vector<Image> frames(3, Image(128, 128, {}));
+    for (int i = 0; i < 3; ++i) {
+        for (int y = 0; y < 128; ++y) {
+            for (int x = 0; x < 128; ++x) {
+                // The left half stands still, the right one changes; thousands of colours.
+                const int shift = x < 64 ? 0 : 40 * i;
+                frames[static_cast<std::size_t>(i)].set(
+                    x, y,
+                    {static_cast<std::uint8_t>(2 * x), static_cast<std::uint8_t>(2 * y),
+                     static_cast<std::uint8_t>((x + y + shift) % 256), 255});
+            }
+        }
+    }
+    const auto back = round_trip(frames);
+    ASSERT_EQ(back.frames.size(), 3U);
+    std::set<Rgba8> shown;
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 128; ++x) {
+            for (const auto& frame : back.frames)
+                shown.insert(frame.image.at(x, y));
+            if (x >= 64) continue;
+            EXPECT_EQ(back.frames[1].image.at(x, y), back.frames[0].image.at(x, y));
+            EXPECT_EQ(back.frames[2].image.at(x, y), back.frames[0].image.at(x, y));
+        }
+    }
+    EXPECT_LE(shown.size(), 255U);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_LE(largest_difference(back.frames[i].image, frames[i]), 40) << i;
+}
+
+TEST_F(AnimationGif, LastFrameStaysLongerAndTheLoopIsForEver) {
+    const auto back =
+        round_trip(test_frames(3), {.frames_per_second = 4, .last_frame_dwell_s = 1.5});
+    ASSERT_EQ(back.frames.size(), 3U);
+    EXPECT_NEAR(back.frames[0].duration_s, 0.25, 1e-9);
+    EXPECT_NEAR(back.frames[1].start_s, 0.25, 1e-9);
+    EXPECT_NEAR(back.frames[2].duration_s, 1.75, 1e-9);
+    const auto bytes = read_file(path());
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    using namespace std::string_literals;
+    EXPECT_THAT(text, HasSubstr("NETSCAPE2.0\x03\x01\0\0\0"s));
+}
+
+TEST_F(AnimationGif, MetadataIsAComment) {
+    const std::string long_text(700, 'x');  // longer than a sub-block
+    const auto back =
+        round_trip(test_frames(2), {.metadata = {{"Title", "KBGM"}, {"Description", long_text}}});
+    EXPECT_EQ(back.metadata.at("comment"), "Title: KBGM\nDescription: " + long_text);
+}
+
+TEST_F(AnimationGif, FramesThatDoNotChangeAreStillFrames) {
+    const auto back = round_trip(std::vector<Image>(4, test_frame(0)));
+    ASSERT_EQ(back.frames.size(), 4U);
+    EXPECT_EQ(back.frames[3].image.rgba, test_frame(0).rgba);
+}
+
+}  // namespace
+}  // namespace stormcellar::render
