@@ -38,6 +38,8 @@ Command add_frame(CLI::App& app);
 Command add_grid(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_loop(CLI::App& app);
+Command add_replay(CLI::App& app);
+Command add_synth(CLI::App& app);
 
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
 // that fits the code: bad_argument is bad usage, everything else is failed work.

@@ -1,11 +1,37 @@
 // stormcellar: the command line. One subcommand a file; see cli/commands.h.
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <optional>
+#include <string>
 
 #include "base/version.h"
 #include "cli/commands.h"
 
 namespace stormcellar::cli {
 namespace {
+
+constexpr std::array all_commands{
+    // Sorted by name, as --help shows them.
+    add_cache, add_catalog, add_frame, add_grid, add_info, add_loop, add_replay, add_synth,
+};
+
+// CLI11 would only say that a subcommand is missing.
+std::optional<std::string> unknown_command(const Commands& commands, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+    const bool known = std::any_of(commands.begin(), commands.end(), [&](const Command& command) {
+        return command.app->get_name() == argv[1];
+    });
+    return known ? std::nullopt : std::optional<std::string>{argv[1]};
+}
+
+// "stormcellar loop" when the error is in what follows that command.
+std::string help_of(const CLI::App& app) {
+    for (const CLI::App* command : app.get_subcommands()) {
+        return fmt::format("stormcellar {}", command->get_name());
+    }
+    return "stormcellar";
+}
 
 int run(int argc, char** argv) {
     CLI::App app{"Weather radar Level II volumes: catalog, grids, loops."};
@@ -14,18 +40,23 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.failure_message(CLI::FailureMessage::help);
 
-    const Commands commands{
-        // Sorted by name.
-        add_cache(app), add_catalog(app), add_frame(app),
-        add_grid(app),  add_info(app),    add_loop(app),
-    };
+    Commands commands;
+    for (const auto add : all_commands) {
+        commands.push_back(add(app));
+    }
+    if (const auto word = unknown_command(commands, argc, argv)) {
+        fmt::print(stderr, "stormcellar: there is no command '{}'\nTry 'stormcellar --help'.\n",
+                   printable(*word));
+        return exit_bad_usage;
+    }
 
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         const bool asked_for_help = error.get_exit_code() == 0;
         if (asked_for_help) return app.exit(error) == 0 ? exit_done : exit_failed;
-        fmt::print(stderr, "stormcellar: {}\nTry 'stormcellar --help'.\n", printable(error.what()));
+        fmt::print(stderr, "stormcellar: {}\nTry '{} --help'.\n", printable(error.what()),
+                   help_of(app));
         return exit_bad_usage;
     }
     for (const Command& command : commands) {

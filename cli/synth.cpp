@@ -1,0 +1,80 @@
+// stormcellar synth SCENE.toml -o DIR: write the Level II files of a simulated scene.
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/picture.h"
+#include "cli/progress.h"
+#include "cli/query_options.h"
+#include "synth/write_scene.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct SynthOptions {
+    std::string scene;
+    std::string directory;
+    int threads = 0;  // 0: as many as the machine has
+    bool json = false;
+};
+
+void print_report(const synth::WrittenScene& written, double total_s, bool json) {
+    if (!json) {
+        for (const auto& file : written.files) {
+            fmt::print("{}\n", printable(file.native()));
+        }
+        return;
+    }
+    auto files = nlohmann::ordered_json::array();
+    for (const auto& file : written.files) {
+        files.push_back(file.native());
+    }
+    print_json({{"files", files}, {"bytes", written.bytes}, {"total_s", total_s}});
+}
+
+int run_synth(const SynthOptions& options) {
+    const auto start = Clock::now();
+    const auto scene = synth::read_scene(options.scene);
+    if (!scene) return report_error(scene.error());
+    Interrupt interrupt;
+    const auto count = static_cast<std::size_t>(scene->schedule.count);
+    std::size_t done = 0;
+    Progress progress("volumes", count, !options.json);
+    synth::WriteSceneOptions write_options;
+    write_options.stop = &interrupt.flag();
+    write_options.written = [&](const std::filesystem::path&) { progress.show(++done); };
+    write_options.threads =
+        options.threads > 0 ? options.threads
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const auto written =
+        synth::write_scene(*scene, options.directory, real_file_system(), write_options);
+    progress.clear();
+    if (!written) return report_error(written.error());
+    print_report(*written, seconds_since(start), options.json);
+    if (!written->stopped) return exit_done;
+    fmt::print(stderr, "stormcellar: interrupted after {} of {} volumes\n", written->files.size(),
+               count);
+    interrupt.end_by_signal();
+    return exit_failed;
+}
+
+}  // namespace
+
+Command add_synth(CLI::App& app) {
+    const auto options = std::make_shared<SynthOptions>();
+    CLI::App* synth = app.add_subcommand(
+        "synth", "Write the Level II files of a simulated scene, the same bytes every time");
+    synth->add_option("SCENE", options->scene, "the scene, in TOML (docs/scenes.md)")->required();
+    synth
+        ->add_option("-o,--output", options->directory,
+                     "directory for the files; files of the same name are replaced")
+        ->required();
+    synth->add_option("--threads", options->threads, "volumes to write at once")
+        ->check(CLI::Range(1, 256));
+    synth->add_flag("--json", options->json, "say what was done as one JSON document");
+    return {synth, [options] { return run_synth(*options); }};
+}
+
+}  // namespace stormcellar::cli

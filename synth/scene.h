@@ -1,0 +1,44 @@
+// synth/scene.h -- what a simulated radar is to see: one site, its schedule and the weather.
+//
+// Read from TOML; docs/scenes.md has every key, with units and defaults. Errors are bad_argument
+// (or what reading the file gives) and name the file, the line and the key.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "base/utc_time.h"
+#include "synth/truth.h"
+#include "synth/vcp.h"
+
+namespace stormcellar::synth {
+
+struct Site {
+    std::string station;  // ICAO; names the files
+    double latitude_deg = 0;
+    double longitude_deg = 0;
+    int antenna_altitude_m = 0;  // whole metres, as message 31 has it
+};
+
+struct Schedule {
+    int count = 1;
+    UtcTime start;            // of the first volume; t = 0 of the weather
+    double interval_s = 300;  // from start to start; never shorter than the pattern takes
+    Pattern pattern;
+
+    [[nodiscard]] UtcTime start_of(int volume) const;
+};
+
+struct Scene {
+    Site site;
+    Schedule schedule;
+    Weather weather;
+};
+
+// `name` stands for the file in messages.
+[[nodiscard]] Result<Scene> parse_scene(std::string_view toml, const std::string& name);
+[[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& path);
+
+}  // namespace stormcellar::synth

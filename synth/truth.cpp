@@ -1,0 +1,223 @@
+#include "synth/truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace stormcellar::synth {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+double square(double number) {
+    return number * number;
+}
+
+struct Offset {
+    double east_m = 0;
+    double north_m = 0;
+};
+
+// Of a point from a footprint's centre, which leans by `lean`.
+Offset offset_from(const Footprint& footprint, const Point& point, double t_s,
+                   const Offset& lean = {}) {
+    return {point.x_m - footprint.x_m - footprint.motion.east_mps * t_s - lean.east_m,
+            point.y_m - footprint.y_m - footprint.motion.north_mps * t_s - lean.north_m};
+}
+
+// What squared_radii is at least: the same, had the ellipse its larger axis all round. It spares
+// most points the rotation.
+double least_squared_radii(const Footprint& footprint, const Offset& offset) {
+    return (square(offset.east_m) + square(offset.north_m)) /
+           square(std::max(footprint.major_m, footprint.minor_m));
+}
+
+// The squared distance from the centre in units of the half axes.
+double squared_radii(const Footprint& footprint, const Offset& offset) {
+    const double sine = std::sin(footprint.orientation_deg * degree);
+    const double cosine = std::cos(footprint.orientation_deg * degree);
+    const double along_m = offset.east_m * sine + offset.north_m * cosine;
+    const double across_m = offset.east_m * cosine - offset.north_m * sine;
+    return square(along_m / footprint.major_m) + square(across_m / footprint.minor_m);
+}
+
+Offset lean_of(const Storm& storm, double z_m) {
+    return {storm.tilt_east * (z_m - storm.core_m), storm.tilt_north * (z_m - storm.core_m)};
+}
+
+// The mean of three sines that run in different directions and never repeat together.
+double ripple_db(const Ripple& ripple, const Offset& offset, double z_m) {
+    if (ripple.most_db == 0) return 0;
+    const double scale = 2 * std::numbers::pi / ripple.length_m;
+    const double a = std::sin(scale * (offset.east_m + 0.31 * offset.north_m + 0.4 * z_m));
+    const double b = std::sin(scale * (0.618 * offset.north_m - 0.382 * offset.east_m) + 1.1);
+    const double c = std::sin(scale * (0.23 * offset.east_m + 1.37 * offset.north_m) + 2.3);
+    return ripple.most_db * (a + b + c) / 3;
+}
+
+double storm_dbz(const Storm& storm, const Offset& offset, double z_m) {
+    const double height = std::max(0.0, z_m - storm.core_m) / (storm.top_m - storm.core_m);
+    const double depth_db = storm.peak_dbz - edge_dbz;
+    const double most_db = storm.peak_dbz + storm.ripple.most_db - depth_db * square(height);
+    if (most_db - depth_db * least_squared_radii(storm.footprint, offset) < weakest_dbz) {
+        return nothing;
+    }
+    const double fall = squared_radii(storm.footprint, offset) + square(height);
+    return storm.peak_dbz - depth_db * fall + ripple_db(storm.ripple, offset, z_m);
+}
+
+// `from_center_m` is the point's distance from the centre of the circle.
+double distance_to_arc(const Hook& hook, double east_m, double north_m, double from_center_m) {
+    const double azimuth_deg = std::atan2(east_m, north_m) / degree;
+    // Clockwise from the arc's beginning, 0 to 360.
+    const double turn_deg =
+        azimuth_deg - hook.from_deg - 360 * std::floor((azimuth_deg - hook.from_deg) / 360);
+    if (turn_deg <= hook.to_deg - hook.from_deg) return std::abs(from_center_m - hook.radius_m);
+    const auto distance_to_end = [&](double end_deg) {
+        return std::hypot(east_m - hook.radius_m * std::sin(end_deg * degree),
+                          north_m - hook.radius_m * std::cos(end_deg * degree));
+    };
+    return std::min(distance_to_end(hook.from_deg), distance_to_end(hook.to_deg));
+}
+
+double hook_dbz(const Hook& hook, const Offset& offset, double z_m) {
+    const double east_m = offset.east_m - hook.x_m;
+    const double north_m = offset.north_m - hook.y_m;
+    const double from_center_m = std::hypot(east_m, north_m);
+    const auto dbz_at = [&](double distance_m) {
+        const double fall = square(distance_m / hook.width_m) + square(z_m / hook.top_m);
+        return hook.peak_dbz - (hook.peak_dbz - edge_dbz) * fall;
+    };
+    // The arc is nowhere nearer than its circle.
+    if (dbz_at(from_center_m - hook.radius_m) < weakest_dbz) return nothing;
+    return dbz_at(distance_to_arc(hook, east_m, north_m, from_center_m));
+}
+
+double layer_dbz(const Layer& layer, const Point& point, double t_s) {
+    if (point.z_m < layer.base_m || point.z_m > layer.top_m) return nothing;
+    const Offset offset = offset_from(layer.footprint, point, t_s);
+    const double depth_db = layer.peak_dbz - edge_dbz;
+    const double most_db = layer.peak_dbz + layer.bright_band_db + layer.ripple.most_db;
+    if (most_db - depth_db * square(least_squared_radii(layer.footprint, offset)) < weakest_dbz) {
+        return nothing;
+    }
+    const double radii2 = squared_radii(layer.footprint, offset);
+    const double above_m = point.z_m - layer.melting_m;
+    const double flat_dbz =
+        layer.peak_dbz - depth_db * square(radii2) - layer.lapse_db_per_m * std::max(0.0, above_m);
+    if (flat_dbz + layer.bright_band_db + layer.ripple.most_db < weakest_dbz) return nothing;
+    return flat_dbz +
+           layer.bright_band_db * std::exp(-square(above_m / layer.bright_band_depth_m)) +
+           ripple_db(layer.ripple, offset, point.z_m);
+}
+
+// Adds features up in mm^6/m^3, and their motion weighted by it.
+class Sum {
+  public:
+    void add(double dbz, const Motion& motion) {
+        if (dbz < weakest_dbz) return;
+        const double z = std::pow(10.0, dbz / 10);
+        z_ += z;
+        east_ += z * motion.east_mps;
+        north_ += z * motion.north_mps;
+    }
+    [[nodiscard]] Echo echo() const {
+        if (z_ == 0) return {nothing, {}};
+        return {10 * std::log10(z_), {east_ / z_, north_ / z_}};
+    }
+
+  private:
+    double z_ = 0;
+    double east_ = 0;
+    double north_ = 0;
+};
+
+// In units of its radii, how far a feature reaches before it ends.
+double reach(double peak_dbz, double extra_db) {
+    return (peak_dbz + extra_db - weakest_dbz) / (peak_dbz - edge_dbz);
+}
+
+double hook_reach_m(const Hook& hook) {
+    return std::hypot(hook.x_m, hook.y_m) + hook.radius_m +
+           hook.width_m * std::sqrt(reach(hook.peak_dbz, 0));
+}
+
+double hook_ceiling_m(const Hook& hook) {
+    return hook.top_m * std::sqrt(reach(hook.peak_dbz, 0));
+}
+
+double storm_ceiling_m(const Storm& storm) {
+    const double own_m = storm.core_m + (storm.top_m - storm.core_m) *
+                                            std::sqrt(reach(storm.peak_dbz, storm.ripple.most_db));
+    return storm.hook ? std::max(own_m, hook_ceiling_m(*storm.hook)) : own_m;
+}
+
+// Heights below sea level count down to here, the lowest of any site.
+constexpr double floor_m = -500;
+
+Disc storm_disc(const Storm& storm, double t_s) {
+    double radius_m = std::max(storm.footprint.major_m, storm.footprint.minor_m) *
+                      std::sqrt(reach(storm.peak_dbz, storm.ripple.most_db));
+    if (storm.hook) radius_m = std::max(radius_m, hook_reach_m(*storm.hook));
+    const double highest_m = storm_ceiling_m(storm) - storm.core_m;
+    const double lowest_m = storm.core_m - floor_m;
+    radius_m +=
+        std::hypot(storm.tilt_east, storm.tilt_north) * std::max({highest_m, lowest_m, 0.0});
+    const Footprint& footprint = storm.footprint;
+    return {footprint.x_m + footprint.motion.east_mps * t_s,
+            footprint.y_m + footprint.motion.north_mps * t_s, radius_m};
+}
+
+Disc layer_disc(const Layer& layer, double t_s) {
+    const Footprint& footprint = layer.footprint;
+    const double radii =
+        std::pow(reach(layer.peak_dbz, layer.bright_band_db + layer.ripple.most_db), 0.25);
+    return {footprint.x_m + footprint.motion.east_mps * t_s,
+            footprint.y_m + footprint.motion.north_mps * t_s,
+            std::max(footprint.major_m, footprint.minor_m) * radii};
+}
+
+}  // namespace
+
+Echo truth(const Weather& weather, const Point& point, double t_s) {
+    Sum sum;
+    for (const Storm& storm : weather.storms) {
+        const Offset offset = offset_from(storm.footprint, point, t_s, lean_of(storm, point.z_m));
+        sum.add(storm_dbz(storm, offset, point.z_m), storm.footprint.motion);
+        if (storm.hook) sum.add(hook_dbz(*storm.hook, offset, point.z_m), storm.footprint.motion);
+    }
+    for (const Layer& layer : weather.layers) {
+        sum.add(layer_dbz(layer, point, t_s), layer.footprint.motion);
+    }
+    return sum.echo();
+}
+
+double truth_dbz(const Weather& weather, const Point& point, double t_s) {
+    return truth(weather, point, t_s).dbz;
+}
+
+std::vector<Disc> echo_discs(const Weather& weather, double t_s) {
+    std::vector<Disc> discs;
+    for (const Storm& storm : weather.storms) {
+        discs.push_back(storm_disc(storm, t_s));
+    }
+    for (const Layer& layer : weather.layers) {
+        discs.push_back(layer_disc(layer, t_s));
+    }
+    return discs;
+}
+
+double echo_ceiling_m(const Weather& weather) {
+    double ceiling_m = -std::numeric_limits<double>::infinity();
+    for (const Storm& storm : weather.storms) {
+        ceiling_m = std::max(ceiling_m, storm_ceiling_m(storm));
+    }
+    for (const Layer& layer : weather.layers) {
+        ceiling_m = std::max(ceiling_m, layer.top_m);
+    }
+    return ceiling_m;
+}
+
+}  // namespace stormcellar::synth

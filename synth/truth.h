@@ -1,0 +1,121 @@
+// synth/truth.h -- an analytic atmosphere: the reflectivity at any point and time, in closed form.
+//
+// Storms and layers drift with constant velocity over a plane. What is here is the truth that a
+// simulated radar observes and that a grid made from its data can be compared with.
+// Units     metres, seconds, m/s, dBZ, degrees. x points east, y north of the scene's origin (the
+//           radar), in the azimuthal equidistant plane about it; z is the height above mean sea
+//           level; t is the time since the start of the scene. Directions are azimuths: degrees
+//           clockwise from north.
+// Formulas  Each feature has a reflectivity of its own; it ends where that falls below -20 dBZ.
+//           Where features overlap, their reflectivities add as mm^6/m^3.
+//   storm   peak - (peak - 10) (r^2 + h^2) + ripple
+//           r: distance from the axis in units of the radii; the axis leans with height by `tilt`
+//           and stands at (x, y) at the height of the core. h = (z - core) / (top - core) above
+//           the core, 0 below. So a storm is 10 dBZ at its radii and at its top.
+//   hook    dbz - (dbz - 10) ((d / width)^2 + (z / top)^2)
+//           d: horizontal distance from an arc of a circle, which moves and leans with its storm.
+//   layer   dbz - (dbz - 10) r^4 + bright_band exp(-((z - melting) / depth)^2)
+//           - lapse max(0, z - melting) + ripple, between base and top only
+// Accuracy  the formulas in double.
+// Threads   all functions are pure.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace stormcellar::synth {
+
+inline constexpr double edge_dbz = 10;      // of a feature at its radii
+inline constexpr double weakest_dbz = -20;  // a feature ends here
+
+struct Point {
+    double x_m = 0;
+    double y_m = 0;
+    double z_m = 0;
+};
+
+struct Motion {
+    double east_mps = 0;
+    double north_mps = 0;
+};
+
+// An upright ellipse in the plane, drifting.
+struct Footprint {
+    double x_m = 0;  // the centre at t = 0
+    double y_m = 0;
+    Motion motion;
+    double major_m = 10000;  // half axes
+    double minor_m = 10000;
+    double orientation_deg = 0;  // azimuth of the major axis
+};
+
+// A smooth pattern that moves with its feature: the mean of three waves of different directions.
+struct Ripple {
+    double most_db = 0;  // largest change, up or down
+    double length_m = 5000;
+};
+
+// The arc of a hook echo, seen from its storm's axis.
+struct Hook {
+    double x_m = 0;  // centre of the circle, east and north of the axis
+    double y_m = 0;
+    double radius_m = 5000;
+    double from_deg = 0;  // the arc runs clockwise between these azimuths
+    double to_deg = 270;
+    double width_m = 1500;
+    double top_m = 5000;
+    double peak_dbz = 50;
+};
+
+struct Storm {
+    Footprint footprint;
+    double core_m = 4000;
+    double top_m = 12000;
+    double peak_dbz = 50;
+    double tilt_east = 0;  // metres of lean for each metre of height
+    double tilt_north = 0;
+    Ripple ripple;
+    std::optional<Hook> hook;
+};
+
+struct Layer {
+    Footprint footprint;
+    double base_m = 0;
+    double top_m = 8000;
+    double peak_dbz = 25;  // below the melting level, without the bright band
+    double melting_m = 3500;
+    double bright_band_db = 0;
+    double bright_band_depth_m = 300;
+    double lapse_db_per_m = 0.003;  // above the melting level
+    Ripple ripple;
+};
+
+struct Weather {
+    std::vector<Storm> storms;
+    std::vector<Layer> layers;
+};
+
+// The reflectivity, minus infinity where there is nothing.
+[[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
+
+// What a radar measures at a point: the reflectivity, and the motion of the features there, each
+// weighted by its reflectivity in mm^6/m^3 (zero where there is nothing).
+struct Echo {
+    double dbz = 0;
+    Motion motion;
+};
+[[nodiscard]] Echo truth(const Weather& weather, const Point& point, double t_s);
+
+// Discs that contain everything at a time, whatever the height: beyond them truth_dbz is minus
+// infinity. One for each storm and layer.
+struct Disc {
+    double x_m = 0;
+    double y_m = 0;
+    double radius_m = 0;
+};
+[[nodiscard]] std::vector<Disc> echo_discs(const Weather& weather, double t_s);
+
+// No echo is higher than this, at any time.
+[[nodiscard]] double echo_ceiling_m(const Weather& weather);
+
+}  // namespace stormcellar::synth

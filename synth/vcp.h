@@ -1,0 +1,62 @@
+// synth/vcp.h -- the volume coverage patterns that simulated radars run.
+//
+// Angles, rates, pulses, PRFs and thresholds of the patterns that are built in are those of message
+// 5 in real volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1
+// minutes) and 35 (2022, clear air, 12 cuts in 7.2 minutes). The lowest three angles are split
+// cuts.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "level2/volume.h"
+
+namespace stormcellar::synth {
+
+enum class Waveform : std::uint8_t {  // as message 5 numbers them
+    surveillance = 1,                 // REF only, to the longest range
+    doppler = 2,                      // REF, VEL, SW: the second half of a split cut
+    doppler_without_ambiguity = 3,    // REF, VEL, SW: high angles
+    batch = 4,                        // REF, VEL, SW: middle angles
+};
+
+struct Cut {
+    float elevation_deg = 0;  // a multiple of 180/32768, as message 5 holds it
+    Waveform waveform = Waveform::surveillance;
+    double azimuth_rate_deg_s = 0;  // a multiple of 22.5/16384
+    float azimuth_spacing_deg = 1;  // 0.5 or 1
+    int surveillance_prf = 0;       // numbers of the radar's PRFs, 1 to 8; 0: none
+    int surveillance_pulses = 0;
+    int doppler_prf = 0;
+    int doppler_pulses = 0;
+    float snr_threshold_db = 2;
+};
+
+struct Pattern {
+    int number = 0;
+    std::vector<Cut> cuts;
+};
+
+// Nearest angle and rate that message 5 can say.
+[[nodiscard]] float nearest_elevation_deg(double elevation_deg);
+[[nodiscard]] double nearest_rate_deg_s(double rate_deg_s);
+
+// The pattern of this number; null when it is not built in. Numbers built in, rising.
+[[nodiscard]] const Pattern* find_pattern(int number);
+[[nodiscard]] std::span<const int> pattern_numbers();
+
+// What the PRFs of a cut bring.
+[[nodiscard]] float nyquist_mps(const Cut& cut);
+[[nodiscard]] float unambiguous_range_m(const Cut& cut);
+[[nodiscard]] bool has_velocity(const Cut& cut);
+
+// Time from the first radial of a cut to the first of the next: the turn, and the antenna's move.
+inline constexpr double move_s = 1.2;
+[[nodiscard]] double duration_s(const Cut& cut);
+[[nodiscard]] double duration_s(const Pattern& pattern);
+
+// As message 5.
+[[nodiscard]] level2::Vcp to_message(const Pattern& pattern);
+
+}  // namespace stormcellar::synth

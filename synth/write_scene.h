@@ -1,0 +1,36 @@
+// synth/write_scene.h -- a scene as Level II files.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "base/file_system.h"
+#include "synth/scene.h"
+
+namespace stormcellar::synth {
+
+struct WriteSceneOptions {
+    int threads = 1;                          // volumes observed and written at once
+    const std::atomic<bool>* stop = nullptr;  // when set, no further volume is begun
+    // Called after each volume, by one thread at a time.
+    std::function<void(const std::filesystem::path& file)> written;
+};
+
+struct WrittenScene {
+    std::vector<std::filesystem::path> files;  // in order of time; all of them unless stopped
+    std::uint64_t bytes = 0;
+    bool stopped = false;
+};
+
+// Writes every volume into `directory`, which is made if it does not exist; files of the same name
+// are replaced. Each file appears whole or not at all. The bytes are the same every time, whatever
+// the number of threads. The first error ends the work; files written before it stay.
+[[nodiscard]] Result<WrittenScene> write_scene(const Scene& scene,
+                                               const std::filesystem::path& directory,
+                                               FileSystem& file_system,
+                                               const WriteSceneOptions& options = {});
+
+}  // namespace stormcellar::synth
