@@ -102,7 +102,7 @@ Status GridFile::Mapping::check_holes() const {
         std::size_t end = begin + 1;
         while (end < view.bricks.size() && !is_stored(end))
             ++end;
-        const Status zeros = check_zeros(at.codes_offset + begin * brick_bytes(),
+        Status zeros = check_zeros(at.codes_offset + begin * brick_bytes(),
                                          at.codes_offset + end * brick_bytes());
         if (!zeros) return zeros;
         begin = end;

@@ -23,7 +23,7 @@ std::string database_name(std::string_view station) {
 
 // The station that a path seems to belong to, as a first guess of where its row stands.
 std::string guessed_station(const fs::path& path) {
-    const std::string name = path.filename().string().substr(0, 4);
+    std::string name = path.filename().string().substr(0, 4);
     if (is_icao(name)) return name;
     return database_name(path.parent_path().filename().string());
 }

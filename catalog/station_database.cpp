@@ -139,8 +139,8 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
     }
 }
 
-Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(const fs::path& path,
-                                                                           std::string station) {
+Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(
+    const fs::path& path, const std::string& station) {
     // A reader that may not write cannot make the WAL's index. While a writer has the database open
     // the index exists; when there is no WAL nobody writes, and the file alone is the truth.
     const bool has_wal = fs::exists(fs::path{path.native() + "-wal"});

@@ -22,7 +22,7 @@ class StationDatabase {
     static Result<std::unique_ptr<StationDatabase>> open_for_writing(
         const std::filesystem::path& path, std::string station);
     static Result<std::unique_ptr<StationDatabase>> open_for_reading(
-        const std::filesystem::path& path, std::string station);
+        const std::filesystem::path& path, const std::string& station);
 
     Registered register_file(const FileFacts& facts);
     int mark_gone(const std::filesystem::path& path);

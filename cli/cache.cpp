@@ -33,7 +33,7 @@ Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     for (const std::string& domain : *domains) {
         for (const level2::Moment moment : level2::all_moments) {
             const auto entries = store->list(domain, moment, range->from, range->to);
-            if (!entries) return entries;
+            if (!entries) return pass_on(entries);
             all.insert(all.end(), entries->begin(), entries->end());
         }
     }

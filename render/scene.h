@@ -13,7 +13,7 @@ enum class Product { volume, composite };
 [[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
 [[nodiscard]] std::string_view product_name(Product product);
 
-// Orthographic camera that looks at the grid's centre, at sea level.
+// Orthographic camera that looks at the middle of the box of the cells and the ground under them.
 struct Camera {
     double azimuth_deg = 180;  // from where it looks: 180 is from the south, north is up; finite
     double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground; 0..90

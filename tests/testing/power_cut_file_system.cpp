@@ -12,7 +12,7 @@ Status PowerCutFileSystem::count_operation() {
 
 Result<int> PowerCutFileSystem::create_exclusive(const std::filesystem::path& path) {
     if (Status counted = count_operation(); !counted) return pass_on(counted);
-    const Result<int> descriptor = real_file_system().create_exclusive(path);
+    Result<int> descriptor = real_file_system().create_exclusive(path);
     if (descriptor) {
         open_[*descriptor] = path;
         unsynced_contents_.insert(path);
