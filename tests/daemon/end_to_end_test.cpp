@@ -92,7 +92,7 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     write_file(daemon.drop() / "empty", "");
     write_file(daemon.drop() / "two\nlines", "not radar");
     fs::create_directory(daemon.drop() / "KBGM20050822_999999.gz");
-    daemon.start(quick);
+    daemon.start("[ingest]\nquiet_seconds = 5\n");  // a busy machine pauses between the pieces
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
     // Whole; into a directory made this moment; renamed from a dot-file; piece by piece.
     fs::copy_file(volumes[1], daemon.drop() / volumes[1].filename());
@@ -128,7 +128,9 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
 
     const json status = daemon.status();
     EXPECT_EQ(status["state"], "stopped");
-    EXPECT_GE(status["latency_s"]["count"], 3) << "the first stood there before";
+    // What a scan finds, before the start or in a directory not yet watched, has no known close.
+    EXPECT_GE(status["latency_s"]["count"], 1);
+    EXPECT_LE(status["latency_s"]["count"], 4) << "the first stood there before";
     EXPECT_GT(status["latency_s"]["max"], 0);
     EXPECT_NE(daemon.log().find("two\\x0alines"), std::string::npos) << "names are one line";
     // The raw files are LDM's.
