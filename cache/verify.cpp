@@ -103,7 +103,7 @@ Status GridFile::Mapping::check_holes() const {
         while (end < view.bricks.size() && !is_stored(end))
             ++end;
         Status zeros = check_zeros(at.codes_offset + begin * brick_bytes(),
-                                         at.codes_offset + end * brick_bytes());
+                                   at.codes_offset + end * brick_bytes());
         if (!zeros) return zeros;
         begin = end;
     }
