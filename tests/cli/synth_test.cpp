@@ -1,0 +1,174 @@
+// stormcellar synth and replay, run as a user runs them.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* first_volume = "XSYN20240601_220000_V06";
+constexpr const char* second_volume = "XSYN20240601_220100_V06";
+
+class Synth : public ::testing::Test {
+  protected:
+    static testing::ProgramResult run(const std::vector<std::string>& arguments) {
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    }
+    static std::string scene() {
+        return (testing::source_directory() / "scenes/small-storm.toml").string();
+    }
+    [[nodiscard]] std::string at(const std::string& name) const {
+        return (directory_ / name).string();
+    }
+    void synthesise() const {
+        const auto result = run({"synth", scene(), "-o", at("volumes")});
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    testing::TemporaryDirectory directory_;
+};
+
+std::vector<std::string> names_in(const fs::path& directory) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory))
+        names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// Starts the program, waits until `seen` holds, interrupts it: its wait status.
+int interrupted(std::vector<std::string> arguments, const std::function<bool()>& seen) {
+    arguments.insert(arguments.begin(), "stormcellar");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execv(STORMCELLAR_PROGRAM, argv.data());
+        ::_exit(127);
+    }
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!seen() && std::chrono::steady_clock::now() < limit)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return status;
+}
+
+TEST_F(Synth, WritesVolumesThatInfoReads) {
+    const auto written = run({"synth", scene(), "-o", at("volumes")});
+    ASSERT_EQ(written.status, 0) << written.err;
+    EXPECT_EQ(written.out,
+              at("volumes/") + first_volume + "\n" + at("volumes/") + second_volume + "\n");
+    const auto info = run({"info", at("volumes/") + second_volume, "--json"});
+    ASSERT_EQ(info.status, 0) << info.err;
+    const auto volume = nlohmann::json::parse(info.out);
+    EXPECT_EQ(volume["site"], "XSYN");
+    EXPECT_EQ(volume["n_sweeps"], 3);
+    EXPECT_EQ(volume["sweeps"][0]["n_radials"], 360);
+    EXPECT_TRUE(volume["corruption"].is_null());
+    EXPECT_GT(volume["sweeps"][0]["moments"]["REF"]["valid"], 1000);
+}
+
+TEST_F(Synth, SaysWhatItDidAsJson) {
+    const auto result = run({"synth", scene(), "-o", at("volumes"), "--threads", "2", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto report = nlohmann::json::parse(result.out);
+    ASSERT_EQ(report["files"].size(), 2U);
+    std::uintmax_t bytes = 0;
+    for (const std::string file : report["files"])
+        bytes += fs::file_size(file);
+    EXPECT_EQ(report["bytes"], bytes);
+}
+
+TEST_F(Synth, MistakesAreNamed) {
+    std::ofstream(at("bad.toml")) << "[radar]\nstation = \"KTLX\"\n[volumes]\ncount = 0\n";
+    const auto bad = run({"synth", at("bad.toml"), "-o", at("volumes")});
+    EXPECT_EQ(bad.status, 2);
+    EXPECT_THAT(bad.err, HasSubstr("bad.toml:4: volumes.count: 0 is not between"));
+    const auto missing = run({"synth", at("none.toml"), "-o", at("volumes")});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_THAT(missing.err, HasSubstr("none.toml"));
+    EXPECT_EQ(run({"synth", scene()}).status, 2) << "no directory";
+    EXPECT_FALSE(fs::exists(at("volumes")));
+}
+
+TEST_F(Synth, InterruptedKeepsWholeVolumesAndEndsByTheSignal) {
+    std::ifstream in(scene());
+    std::string toml{std::istreambuf_iterator<char>(in), {}};
+    toml.replace(toml.find("count = 2"), 9, "count = 9000");
+    std::ofstream(at("long.toml")) << toml;
+    const fs::path volumes = at("volumes");
+    const int status = interrupted({"synth", at("long.toml"), "-o", volumes, "--json"}, [&volumes] {
+        return fs::exists(volumes / first_volume) && fs::exists(volumes / second_volume);
+    });
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGINT);
+    const auto names = names_in(volumes);
+    ASSERT_GE(names.size(), 2U);
+    EXPECT_LT(names.size(), 9000U);
+    for (const std::string& name : names) {
+        EXPECT_EQ(run({"info", volumes / name}).status, 0) << name;
+    }
+}
+
+TEST_F(Synth, ReplayDeliversTheVolumes) {
+    synthesise();
+    fs::create_directory(at("drop"));
+    const auto result =
+        run({"replay", at("volumes"), at("drop"), "--as", "growing", "--interval", "0", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["files"], 2);
+    EXPECT_THAT(names_in(at("drop")), ElementsAre(first_volume, second_volume));
+    for (const char* name : {first_volume, second_volume}) {
+        EXPECT_EQ(fs::file_size(at("drop/") + name), fs::file_size(at("volumes/") + name));
+    }
+    const auto again = run({"replay", at("volumes"), at("drop"), "--interval", "0"});
+    EXPECT_EQ(again.status, 1);
+    EXPECT_THAT(again.err, HasSubstr("exists already; nothing was replayed"));
+}
+
+TEST_F(Synth, ReplayNamesMistakes) {
+    synthesise();
+    const auto missing = run({"replay", at("volumes"), at("none")});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_THAT(missing.err, HasSubstr("none: there is no such directory"));
+    const std::string drop = directory_.path();
+    EXPECT_EQ(run({"replay", drop}).status, 2);
+    EXPECT_EQ(run({"replay", at("volumes"), drop, "--as", "torn"}).status, 2);
+    EXPECT_EQ(run({"replay", at("volumes"), drop, "--interval", "-1"}).status, 2);
+    EXPECT_EQ(run({"replay", at("volumes"), drop, "--interval", "1", "--speed", "2"}).status, 2);
+}
+
+TEST_F(Synth, AnInterruptedReplayNamesTheUnfinishedFile) {
+    synthesise();
+    fs::create_directory(at("drop"));
+    const fs::path growing = at("drop/") + std::string(first_volume);
+    const int status =
+        interrupted({"replay", at("volumes"), at("drop"), "--as", "growing", "--interval", "3600"},
+                    [&growing] { return fs::exists(growing); });
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGINT);
+    EXPECT_THAT(names_in(at("drop")), ElementsAre(first_volume));
+    EXPECT_LT(fs::file_size(growing), fs::file_size(at("volumes/") + first_volume));
+}
+
+}  // namespace
+}  // namespace stormcellar
