@@ -1,17 +1,18 @@
-// GIF, straight: FFmpeg's writer has no comments and would bring a palette a frame.
-// Source: GIF89a specification (CompuServe 1990); the loop count is Netscape's application block.
+// GIF through giflib: FFmpeg's writer has no comments and would bring a palette a frame.
+// The loop count is Netscape's application block.
 //
 // The palette is known when the last frame is, so until then frames are held, deflated.
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <optional>
-#include <string_view>
+#include <memory>
+#include <utility>
 
+#include <gif_lib.h>
 #include <zlib.h>
 
 #include "render/animation_format.h"
 #include "render/frame_change.h"
-#include "render/gif_lzw.h"
 #include "render/palette.h"
 
 namespace stormcellar::render {
@@ -43,32 +44,53 @@ Status inflate_into(const std::vector<std::uint8_t>& packed, std::vector<std::ui
     return {};
 }
 
-class Writer {
+// giflib's writer into memory. The first failure of a call stays; later ones do nothing.
+class GifFile {
   public:
-    void u8(std::size_t value) { bytes_.push_back(static_cast<std::byte>(value)); }
-    void u16(std::int64_t value) {
-        u8(static_cast<std::size_t>(value & 0xFF));
-        u8(static_cast<std::size_t>((value >> 8) & 0xFF));
+    GifFile() {
+        int error = 0;
+        file_ = EGifOpen(&bytes_, append, &error);
+        if (file_ == nullptr) return;
+        EGifSetGifVersion(file_, true);
+        ok_ = true;
     }
-    void text(std::string_view text) {
-        for (const char c : text)
-            u8(static_cast<unsigned char>(c));
+    GifFile(const GifFile&) = delete;
+    GifFile& operator=(const GifFile&) = delete;
+    ~GifFile() {
+        if (file_ != nullptr) close();
     }
-    void comment(std::string_view comment) {
-        u8(0x21);
-        u8(0xFE);
-        while (!comment.empty()) {
-            const auto part = comment.substr(0, 255);
-            u8(part.size());
-            text(part);
-            comment.remove_prefix(part.size());
-        }
-        u8(0);
+
+    template <typename Call, typename... Arguments>
+    void put(Call call, Arguments... arguments) {
+        ok_ = ok_ && call(file_, arguments...) == GIF_OK;
     }
-    [[nodiscard]] Bytes& bytes() { return bytes_; }
+
+    Result<Bytes> finish() {
+        const bool closed = close();
+        if (!ok_ || !closed) return fail(ErrorCode::internal, "GIF: giflib cannot write it");
+        return std::move(bytes_);
+    }
 
   private:
+    static int append(GifFileType* file, const GifByteType* bytes, int count) {
+        auto& all = *static_cast<Bytes*>(file->UserData);
+        const auto* first = reinterpret_cast<const std::byte*>(bytes);
+        all.insert(all.end(), first, first + count);
+        return count;
+    }
+    bool close() {
+        int error = 0;
+        GifFileType* file = std::exchange(file_, nullptr);
+        return file != nullptr && EGifCloseFile(file, &error) == GIF_OK;
+    }
+
     Bytes bytes_;
+    GifFileType* file_ = nullptr;
+    bool ok_ = false;
+};
+
+struct FreeColourMap {
+    void operator()(ColorMapObject* map) const { GifFreeMapObject(map); }
 };
 
 class GifEncoder final : public FrameEncoder {
@@ -89,78 +111,67 @@ class GifEncoder final : public FrameEncoder {
 
     Result<Bytes> finish() override {
         PaletteMap map(histogram_.palette(most_colours));
-        // The entry after the colours stands for "as before"; the table's size is a power of two.
-        const int index_bits = std::max(2, static_cast<int>(std::bit_width(map.palette().size())));
-        Writer file;
-        write_head(file, map.palette(), index_bits);
+        // The entry after the colours stands for "as before".
+        const int as_before = static_cast<int>(map.palette().size());
+        GifFile file;
+        write_head(file, map.palette());
         Image frame(width_, height_, {});
         std::vector<std::uint8_t> before;
         for (std::size_t i = 0; i < kept_.size(); ++i) {
             if (auto read = inflate_into(kept_[i], frame.rgba); !read) return pass_on(read);
             auto indices = map.indices(frame);
-            write_frame(file, i, before, indices, index_bits,
-                        static_cast<std::uint8_t>(map.palette().size()));
+            write_frame(file, i, before, indices, as_before);
             before = std::move(indices);
         }
-        file.u8(0x3B);
-        return std::move(file.bytes());
+        return file.finish();
     }
 
   private:
-    void write_head(Writer& file, const std::vector<Rgb8>& palette, int index_bits) const {
-        file.text("GIF89a");
-        file.u16(width_);
-        file.u16(height_);
-        file.u8(0xF0U | static_cast<unsigned>(index_bits - 1));  // global table, 8 bits a channel
-        file.u8(0);                                              // background
-        file.u8(0);                                              // square pixels
-        for (std::size_t i = 0; i < (std::size_t{1} << index_bits); ++i) {
-            for (const std::uint8_t channel : i < palette.size() ? palette[i] : Rgb8{})
-                file.u8(channel);
+    void write_head(GifFile& file, const std::vector<Rgb8>& palette) const {
+        // A table's size is a power of two; there must be room for "as before".
+        const int bits = std::max(2, static_cast<int>(std::bit_width(palette.size())));
+        const std::unique_ptr<ColorMapObject, FreeColourMap> table(
+            GifMakeMapObject(1 << bits, nullptr));
+        if (table == nullptr) return;
+        for (std::size_t i = 0; i < palette.size(); ++i)
+            table->Colors[i] = {palette[i][0], palette[i][1], palette[i][2]};
+        file.put(EGifPutScreenDesc, width_, height_, 8, 0, table.get());
+        file.put(EGifPutExtensionLeader, APPLICATION_EXT_FUNC_CODE);
+        file.put(EGifPutExtensionBlock, 11, "NETSCAPE2.0");
+        file.put(EGifPutExtensionBlock, 3, "\x01\x00\x00");  // for ever
+        file.put(EGifPutExtensionTrailer);
+        if (!options_.metadata.empty()) {
+            file.put(EGifPutComment, metadata_text(options_).c_str());
         }
-        file.u8(0x21);
-        file.u8(0xFF);
-        file.u8(11);
-        file.text("NETSCAPE2.0");
-        file.u8(3);
-        file.u8(1);
-        file.u16(0);  // for ever
-        file.u8(0);
-        if (!options_.metadata.empty()) file.comment(metadata_text(options_));
     }
 
     // The changed rectangle, with what did not change in it left out.
-    void write_frame(Writer& file, std::size_t index, const std::vector<std::uint8_t>& before,
-                     const std::vector<std::uint8_t>& indices, int index_bits,
-                     std::uint8_t as_before) const {
+    void write_frame(GifFile& file, std::size_t index, const std::vector<std::uint8_t>& before,
+                     const std::vector<std::uint8_t>& indices, int as_before) const {
         const bool first = before.empty();
         const Rectangle part = first ? Rectangle{0, 0, width_, height_}
                                      : changed_rectangle(before, indices, width_, height_, 1);
         const auto delay =
             frame_duration(options_, index, index + 1 == kept_.size(), ticks_per_second);
-        file.u8(0x21);
-        file.u8(0xF9);
-        file.u8(4);
-        file.u8(first ? 0x04 : 0x05);  // leave it standing; with or without transparency
-        file.u16(std::max(shortest_ticks, delay));
-        file.u8(first ? 0 : as_before);
-        file.u8(0);
-        file.u8(0x2C);
-        file.u16(part.x);
-        file.u16(part.y);
-        file.u16(part.width);
-        file.u16(part.height);
-        file.u8(0);  // no table of its own, rows in order
-        std::vector<std::uint8_t> pixels;
+        const GraphicsControlBlock control{DISPOSE_DO_NOT, false,
+                                           static_cast<int>(std::max(shortest_ticks, delay)),
+                                           first ? NO_TRANSPARENT_COLOR : as_before};
+        std::array<GifByteType, 4> extension{};
+        EGifGCBToExtension(&control, extension.data());
+        file.put(EGifPutExtension, GRAPHICS_EXT_FUNC_CODE, 4, extension.data());
+        file.put(EGifPutImageDesc, part.x, part.y, part.width, part.height, false, nullptr);
+        std::vector<GifPixelType> row(static_cast<std::size_t>(part.width));
         for (int y = part.y; y < part.y + part.height; ++y) {
-            for (int x = part.x; x < part.x + part.width; ++x) {
-                const std::size_t i =
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                    static_cast<std::size_t>(x);
-                pixels.push_back(!first && before[i] == indices[i] ? as_before : indices[i]);
+            const std::size_t start =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                static_cast<std::size_t>(part.x);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                const std::size_t i = start + x;
+                const bool same = !first && before[i] == indices[i];
+                row[x] = same ? static_cast<GifPixelType>(as_before) : indices[i];
             }
+            file.put(EGifPutLine, row.data(), part.width);
         }
-        append_gif_lzw(pixels, index_bits, file.bytes());
     }
 
     AnimationOptions options_;
