@@ -128,13 +128,13 @@ int run_frame(const FrameOptions& options) {
 Command add_frame(CLI::App& app) {
     const auto options = std::make_shared<FrameOptions>();
     CLI::App* frame = app.add_subcommand("frame", "Draw one still picture of a grid in the cache");
-    frame->add_option("--cache", options->cache, "the cache's directory")->required();
-    frame->add_option("domain,--domain", options->domain, "whose grids; a station's is its ICAO")
+    frame->add_option("--cache", options->cache, "The cache's directory")->required();
+    frame->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
         ->required();
     frame->add_option("--time", options->time,
                       "UTC, or relative as -1h: the grid at or next before it (default: latest)");
-    frame->add_option("-o,--output", options->output, "the picture, .png")->required();
-    frame->add_flag("--json", options->json, "say what was done as one JSON document");
+    frame->add_option("-o,--output", options->output, "The picture, .png")->required();
+    frame->add_flag("--json", options->json, "Say what was done as one JSON document");
     add_scene_options(*frame, options->scene);
     return {frame, [options] { return run_frame(*options); }};
 }

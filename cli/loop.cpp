@@ -280,15 +280,16 @@ int run_loop(LoopOptions options) {
 
 Command add_loop(CLI::App& app) {
     const auto options = std::make_shared<LoopOptions>();
-    CLI::App* loop = app.add_subcommand(
-        "loop",
-        "Draw the grids of a time range as a looping animation. A grid file that is damaged is "
-        "named on stderr and left out; the exit status is 0 when at least one frame was written.");
-    loop->add_option("--cache", options->cache, "the cache's directory")->required();
-    loop->add_option("domain,--domain", options->domain, "whose grids; a station's is its ICAO")
+    CLI::App* loop =
+        app.add_subcommand("loop", "Draw the grids of a time range as a looping animation");
+    loop->footer(
+        "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
+        "at least one frame was written.\n");
+    loop->add_option("--cache", options->cache, "The cache's directory")->required();
+    loop->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
         ->required();
     add_time_range(*loop, options->range);
-    loop->add_option("--last", options->last, "of these only the newest so many")
+    loop->add_option("--last", options->last, "Of these only the newest so many")
         ->check(CLI::Range(1, 1'000'000));
     loop->add_option("-o,--output", options->outputs,
                      fmt::format("{}; several times: the same frames to each",
@@ -297,13 +298,13 @@ Command add_loop(CLI::App& app) {
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
-    loop->add_option("--fps", options->animation.frames_per_second, "frames a second, 0.1 to 60")
+    loop->add_option("--fps", options->animation.frames_per_second, "Frames a second, 0.1 to 60")
         ->capture_default_str();
     loop->add_option("--dwell", options->animation.last_frame_dwell_s,
-                     "seconds that the last frame stays longer, 0 to 60")
+                     "Seconds that the last frame stays longer, 0 to 60")
         ->capture_default_str();
-    loop->add_flag("--json", options->json, "say what was done as one JSON document");
-    loop->add_flag("--quiet", options->quiet, "no progress and no summary; warnings and errors");
+    loop->add_flag("--json", options->json, "Say what was done as one JSON document");
+    loop->add_flag("--quiet", options->quiet, "No progress and no summary; warnings and errors");
     add_scene_options(*loop, options->scene);
     return {loop, [options] { return run_loop(*options); }};
 }

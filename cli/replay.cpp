@@ -68,7 +68,7 @@ Command add_replay(CLI::App& app) {
         "replay", "Play files into a drop directory as LDM would, in the order of their times");
     replay
         ->add_option("PLACES", options->places,
-                     "files or directories to play, and the drop directory as the last")
+                     "Files or directories to play, and the drop directory as the last")
         ->required()
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");
@@ -76,18 +76,18 @@ Command add_replay(CLI::App& app) {
                                                             {"growing", synth::Delivery::growing}};
     replay
         ->add_option("--as", options->delivery,
-                     "whole: renamed when complete; growing: appended and closed again and again")
+                     "Whole: renamed when complete; growing: appended and closed again and again")
         ->transform(CLI::CheckedTransformer(deliveries).description(""))
         ->option_text("whole|growing");
     auto* interval = replay->add_option("--interval", options->interval_s,
-                                        "seconds from file to file, whatever their times");
+                                        "Seconds from file to file, whatever their times");
     interval->check(CLI::Range(0.0, 86400.0));
     replay
         ->add_option("--speed", options->speed,
-                     "how many times faster than the files' own times (default: 1)")
+                     "How many times faster than the files' own times (default: 1)")
         ->check(CLI::Range(0.001, 1e6))
         ->excludes(interval);
-    replay->add_flag("--json", options->json, "say what was done as one JSON document");
+    replay->add_flag("--json", options->json, "Say what was done as one JSON document");
     return {replay, [options] { return run_replay(*options); }};
 }
 

@@ -8,36 +8,36 @@ namespace stormcellar::cli {
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     render::Scene& scene = options.scene;
     const std::string group = "Picture";
-    app.add_option("--product", options.product, "volume or composite (column maximum)")
+    app.add_option("--product", options.product, "Volume or composite (column maximum)")
         ->group(group)
         ->capture_default_str();
-    app.add_option("--width", scene.width, "pixels")->group(group)->capture_default_str();
-    app.add_option("--height", scene.height, "pixels")->group(group)->capture_default_str();
+    app.add_option("--width", scene.width, "Pixels")->group(group)->capture_default_str();
+    app.add_option("--height", scene.height, "Pixels")->group(group)->capture_default_str();
     app.add_option("--azimuth", scene.camera.azimuth_deg,
-                   "where the view is from, degrees: 180 is from the south, north up")
+                   "Where the view is from, degrees: 180 is from the south, north up")
         ->group(group)
         ->capture_default_str();
     app.add_option("--tilt", scene.camera.tilt_deg,
-                   "degrees from the vertical: 0 straight down, 90 along the ground")
+                   "Degrees from the vertical: 0 straight down, 90 along the ground")
         ->group(group)
         ->capture_default_str();
     app.add_option("--zoom", scene.camera.zoom, "1 shows the whole grid")
         ->group(group)
         ->capture_default_str();
-    app.add_option("--slices", scene.slices, "slices through the volume, 8 to 4096")
+    app.add_option("--slices", scene.slices, "Slices through the volume, 8 to 4096")
         ->group(group)
         ->capture_default_str();
-    app.add_option("--exaggeration", scene.vertical_exaggeration, "stretches heights")
+    app.add_option("--exaggeration", scene.vertical_exaggeration, "Stretches heights")
         ->group(group)
         ->capture_default_str();
-    app.add_option("--opacity", scene.opacity, "factor on how opaque echo is")
+    app.add_option("--opacity", scene.opacity, "Factor on how opaque echo is")
         ->group(group)
         ->capture_default_str();
-    app.add_option("--ring-spacing-km", options.range_ring_spacing_km, "between range rings")
+    app.add_option("--ring-spacing-km", options.range_ring_spacing_km, "Between range rings")
         ->group(group)
         ->capture_default_str();
-    app.add_flag("--no-labels", options.no_labels, "the picture alone")->group(group);
-    app.add_option("--threads", options.threads, "0: as many as the machine has")
+    app.add_flag("--no-labels", options.no_labels, "The picture alone")->group(group);
+    app.add_option("--threads", options.threads, "Else as many as the machine has")
         ->group(group)
         ->capture_default_str();
 }

@@ -66,14 +66,14 @@ Command add_synth(CLI::App& app) {
     const auto options = std::make_shared<SynthOptions>();
     CLI::App* synth = app.add_subcommand(
         "synth", "Write the Level II files of a simulated scene, the same bytes every time");
-    synth->add_option("SCENE", options->scene, "the scene, in TOML (docs/scenes.md)")->required();
+    synth->add_option("SCENE", options->scene, "The scene, in TOML (docs/scenes.md)")->required();
     synth
         ->add_option("-o,--output", options->directory,
-                     "directory for the files; files of the same name are replaced")
+                     "Directory for the files; files of the same name are replaced")
         ->required();
-    synth->add_option("--threads", options->threads, "volumes to write at once")
+    synth->add_option("--threads", options->threads, "Volumes to write at once")
         ->check(CLI::Range(1, 256));
-    synth->add_flag("--json", options->json, "say what was done as one JSON document");
+    synth->add_flag("--json", options->json, "Say what was done as one JSON document");
     return {synth, [options] { return run_synth(*options); }};
 }
 
