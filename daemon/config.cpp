@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/printable.h"
-#include "daemon/toml_reader.h"
+#include "base/toml_file.h"
 #include "grid/grid_spec.h"
 #include "level2/volume.h"
 
@@ -35,22 +35,22 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     return resolved;
 }
 
-void read_path(TomlReader& reader, std::string_view key, const std::filesystem::path& file,
+void read_path(TomlTable& paths, std::string_view key, const std::filesystem::path& file,
                std::filesystem::path& path) {
-    const std::optional<std::string> text = reader.text("paths", key);
+    const std::optional<std::string> text = paths.text(key);
     if (text && text->empty()) {
-        reader.complain("paths", key, "must not be empty");
+        paths.complain(key, "must not be empty");
     } else if (text) {
         path = resolve(*text, file);
     }
 }
 
-void read_paths(TomlReader& reader, const std::filesystem::path& file, Config& config) {
-    read_path(reader, "drop", file, config.drop);
-    read_path(reader, "state", file, config.state);
-    read_path(reader, "cache", file, config.cache);
+void read_paths(TomlTable paths, const std::filesystem::path& file, Config& config) {
+    read_path(paths, "drop", file, config.drop);
+    read_path(paths, "state", file, config.state);
+    read_path(paths, "cache", file, config.cache);
     if (config.drop.empty()) {
-        reader.complain("paths", "drop", "the drop directory must be named");
+        paths.complain("drop", "the drop directory must be named");
         return;
     }
     using Named = std::pair<std::string_view, const std::filesystem::path*>;
@@ -59,9 +59,9 @@ void read_paths(TomlReader& reader, const std::filesystem::path& file, Config& c
     for (const auto& [name, path] : all) {
         for (const auto& [other_name, other] : all) {
             if (name == other_name || !is_within(*path, *other)) continue;
-            reader.complain("paths", name,
-                            fmt::format("{} is or lies within {} ({}); the three must be apart",
-                                        path->native(), other->native(), other_name));
+            paths.complain(name,
+                           fmt::format("{} is or lies within {} ({}); the three must be apart",
+                                       path->native(), other->native(), other_name));
         }
     }
 }
@@ -70,9 +70,9 @@ std::chrono::milliseconds milliseconds_of(double seconds) {
     return std::chrono::milliseconds{std::llround(seconds * 1000)};
 }
 
-void read_seconds(TomlReader& reader, std::string_view section, std::string_view key, double least,
-                  double most, std::chrono::milliseconds& value) {
-    if (const auto seconds = reader.number(section, key, least, most)) {
+void read_seconds(TomlTable& table, std::string_view key, TomlRange range,
+                  std::chrono::milliseconds& value) {
+    if (const auto seconds = table.number(key, range)) {
         value = milliseconds_of(*seconds);
     }
 }
@@ -101,18 +101,18 @@ std::optional<std::vector<double>> expand_levels(const std::string& text) {
     return levels_m;
 }
 
-void read_levels(TomlReader& reader, Config& config) {
-    if (reader.is_array("ingest", "levels_km")) {
-        const auto levels_km = reader.numbers("ingest", "levels_km");
+void read_levels(TomlTable& ingest, Config& config) {
+    if (ingest.is_array("levels_km")) {
+        const auto levels_km = ingest.numbers("levels_km");
         if (!levels_km) return;
         config.ingest.levels_m.clear();
         for (const double level : *levels_km)
             config.ingest.levels_m.push_back(level * 1000);
-        if (levels_km->empty()) reader.complain("ingest", "levels_km", "must name a level");
-    } else if (const auto text = reader.text("ingest", "levels_km")) {
+        if (levels_km->empty()) ingest.complain("levels_km", "must name a level");
+    } else if (const auto text = ingest.text("levels_km")) {
         const auto levels_m = expand_levels(*text);
         if (!levels_m) {
-            reader.complain("ingest", "levels_km",
+            ingest.complain("levels_km",
                             fmt::format("\"{}\" is not BOTTOM:TOP:STEP, as in \"0.5:16:0.5\"",
                                         printable(*text)));
             return;
@@ -121,14 +121,14 @@ void read_levels(TomlReader& reader, Config& config) {
     }
 }
 
-void read_size(TomlReader& reader, Config& config) {
-    if (const auto spacing = reader.number("ingest", "spacing_km", 0.05, 100)) {
+void read_size(TomlTable& ingest, Config& config) {
+    if (const auto spacing = ingest.number("spacing_km", {0.05, 100})) {
         config.ingest.spacing_m = *spacing * 1000;
     }
     std::vector<double> extent_km = {460, 460};
-    if (const auto given = reader.numbers("ingest", "extent_km")) {
+    if (const auto given = ingest.numbers("extent_km")) {
         if (given->size() != 2) {
-            reader.complain("ingest", "extent_km", "must be [width, height]");
+            ingest.complain("extent_km", "must be [width, height]");
             return;
         }
         extent_km = *given;
@@ -137,9 +137,8 @@ void read_size(TomlReader& reader, Config& config) {
     for (std::size_t i = 0; i < 2; ++i) {
         const double cells = extent_km[i] * 1000 / config.ingest.spacing_m;
         if (!(cells >= 1 && cells <= 16384) || std::abs(cells - std::round(cells)) > 1e-6) {
-            reader.complain("ingest", "extent_km",
-                            fmt::format("{} km is not 1 to 16384 cells of {} km", extent_km[i],
-                                        config.ingest.spacing_m / 1000));
+            ingest.complain("extent_km", fmt::format("{} km is not 1 to 16384 cells of {} km",
+                                                     extent_km[i], config.ingest.spacing_m / 1000));
             return;
         }
         counts[i] = static_cast<int>(std::lround(cells));
@@ -148,11 +147,23 @@ void read_size(TomlReader& reader, Config& config) {
     config.ingest.ny = counts[1];
 }
 
-void read_ingest(TomlReader& reader, Config& config) {
-    if (const auto workers = reader.whole_number("ingest", "workers", 0, 256)) {
+// What the grid room would refuse is refused here, with the line.
+void check_grid(TomlTable& ingest, const Config& config) {
+    grid::GridSpec spec = grid::default_spec(0, 0);
+    spec.spacing_m = config.ingest.spacing_m;
+    spec.nx = config.ingest.nx;
+    spec.ny = config.ingest.ny;
+    if (!config.ingest.levels_m.empty()) spec.levels_m = config.ingest.levels_m;
+    if (const Status valid = grid::validate(spec); !valid) {
+        ingest.complain("levels_km", valid.error().message);
+    }
+}
+
+void read_ingest(TomlTable ingest, Config& config) {
+    if (const auto workers = ingest.whole_number("workers", {0, 256})) {
         config.workers = *workers;
     }
-    if (const auto threads = reader.whole_number("ingest", "threads", 0, 256)) {
+    if (const auto threads = ingest.whole_number("threads", {0, 256})) {
         config.ingest.decode_threads = *threads;
     } else {
         config.ingest.decode_threads = 0;
@@ -162,46 +173,34 @@ void read_ingest(TomlReader& reader, Config& config) {
             std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     }
     config.ingest.grid_threads = config.ingest.decode_threads;
-    read_seconds(reader, "ingest", "quiet_seconds", 1, 86400, config.quiet);
-    read_seconds(reader, "ingest", "reread_seconds", 0, 60, config.reread);
-    if (const auto name = reader.text("ingest", "moment")) {
+    read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
+    read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
+    if (const auto name = ingest.text("moment")) {
         const auto moment = level2::moment_from_name(*name);
         if (moment) {
             config.ingest.moment = *moment;
         } else {
-            reader.complain("ingest", "moment",
+            ingest.complain("moment",
                             fmt::format("\"{}\" is no moment; one of REF VEL SW ZDR PHI RHO CFP",
                                         printable(*name)));
         }
     }
-    read_size(reader, config);
-    read_levels(reader, config);
+    read_size(ingest, config);
+    read_levels(ingest, config);
+    check_grid(ingest, config);
 }
 
-// What the grid room would refuse is refused here, with the line.
-void check_grid(TomlReader& reader, const Config& config) {
-    grid::GridSpec spec = grid::default_spec(0, 0);
-    spec.spacing_m = config.ingest.spacing_m;
-    spec.nx = config.ingest.nx;
-    spec.ny = config.ingest.ny;
-    if (!config.ingest.levels_m.empty()) spec.levels_m = config.ingest.levels_m;
-    if (const Status valid = grid::validate(spec); !valid) {
-        reader.complain("ingest", "levels_km", valid.error().message);
-    }
-}
-
-void read_rest(TomlReader& reader, Config& config) {
-    read_seconds(reader, "watch", "rescan_seconds", 1, 86400, config.rescan);
-    if (const auto limit = reader.whole_number("watch", "queue_limit", 16, 10'000'000)) {
+void read_rest(TomlTable watch, TomlTable log, Config& config) {
+    read_seconds(watch, "rescan_seconds", {1, 86400}, config.rescan);
+    if (const auto limit = watch.whole_number("queue_limit", {16, 10'000'000})) {
         config.queue_limit = static_cast<std::size_t>(*limit);
     }
-    if (const auto level = reader.text("log", "level")) {
+    if (const auto level = log.text("level")) {
         static constexpr std::array<std::string_view, 4> levels = {"debug", "info", "warning",
                                                                    "error"};
         if (std::find(levels.begin(), levels.end(), *level) == levels.end()) {
-            reader.complain(
-                "log", "level",
-                fmt::format("\"{}\" is none of debug, info, warning, error", printable(*level)));
+            log.complain("level", fmt::format("\"{}\" is none of debug, info, warning, error",
+                                              printable(*level)));
         } else {
             config.log_level = *level;
         }
@@ -222,14 +221,14 @@ bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions&
 }
 
 Result<Config> load_config(const std::filesystem::path& file) {
-    Result<TomlReader> reader = TomlReader::open(file);
-    if (!reader) return pass_on(reader);
+    Result<TomlFile> toml = TomlFile::open(file);
+    if (!toml) return pass_on(toml);
+    TomlTable root = toml->root();
     Config config;
-    read_paths(*reader, file, config);
-    read_ingest(*reader, config);
-    check_grid(*reader, config);
-    read_rest(*reader, config);
-    if (const Status read = reader->finish(); !read) return tl::unexpected<Error>(read.error());
+    read_paths(root.section("paths"), file, config);
+    read_ingest(root.section("ingest"), config);
+    read_rest(root.section("watch"), root.section("log"), config);
+    if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;
 }
 

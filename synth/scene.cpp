@@ -2,192 +2,235 @@
 
 #include <cmath>
 
-#include "base/file_system.h"
 #include "base/station_table.h"
-#include "synth/toml_reader.h"
+#include "base/toml_file.h"
 
 namespace stormcellar::synth {
 namespace {
 
 // No value of a scene is beyond these.
-constexpr Range places_km{-1000, 1000};
-constexpr Range lengths_km{0.05, 1000};
-constexpr Range heights_km{0, 30};
-constexpr Range speeds_mps{-200, 200};
-constexpr Range peaks_dbz{edge_dbz + 1, 90};
-constexpr Range directions_deg{-360, 360};
+constexpr TomlRange places_km{-1000, 1000};
+constexpr TomlRange lengths_km{0.05, 1000};
+constexpr TomlRange heights_km{0, 30};
+constexpr TomlRange speeds_mps{-200, 200};
+constexpr TomlRange peaks_dbz{edge_dbz + 1, 90};
+constexpr TomlRange directions_deg{-360, 360};
 constexpr double km = 1000;
 
-Site read_site(TomlReader& root) {
+// Keys that must be there. What is missing or wrong is complained about, and the least stands for
+// it.
+double needed_number(TomlTable& table, std::string_view key, TomlRange range) {
+    if (!table.has(key)) table.complain(key, "is missing");
+    return table.number(key, range).value_or(range.least);
+}
+
+int needed_whole_number(TomlTable& table, std::string_view key, TomlRange range) {
+    if (!table.has(key)) table.complain(key, "is missing");
+    return table.whole_number(key, range).value_or(static_cast<int>(range.least));
+}
+
+std::string needed_text(TomlTable& table, std::string_view key) {
+    if (!table.has(key)) table.complain(key, "is missing");
+    return table.text(key).value_or("");
+}
+
+struct Pair {
+    double first = 0;
+    double second = 0;
+};
+
+// Two numbers, as [east, north].
+Pair pair_or(TomlTable& table, std::string_view key, TomlRange range, Pair otherwise) {
+    const auto numbers = table.numbers(key);
+    if (!numbers) return otherwise;
+    if (numbers->size() != 2) {
+        table.complain(key, "must be two numbers, as in [east, north]");
+        return otherwise;
+    }
+    for (const double number : *numbers) {
+        if (number >= range.least && number <= range.most) continue;
+        table.complain(key, fmt::format("{} is out of range, must be {} to {}", number, range.least,
+                                        range.most));
+        return otherwise;
+    }
+    return {(*numbers)[0], (*numbers)[1]};
+}
+
+Pair needed_pair(TomlTable& table, std::string_view key, TomlRange range) {
+    if (!table.has(key)) table.complain(key, "is missing");
+    return pair_or(table, key, range, {range.least, range.least});
+}
+
+Site read_site(TomlTable radar) {
     Site site;
-    auto radar = root.table("radar", true);
-    if (!radar) return site;
-    site.station = radar->text("station");
-    if (!site.station.empty() && !is_icao(site.station)) {
-        radar->refuse("station", "not four letters and digits, as in KTLX");
+    site.station = needed_text(radar, "station");
+    const bool named = is_icao(site.station);
+    if (!named && !site.station.empty()) {
+        radar.complain("station", "must be four letters and digits, as in KTLX");
     }
     const auto known = find_station(site.station);
-    const auto otherwise = [&](double Station::*field) {
-        return known ? std::optional{(*known).*field} : std::nullopt;
+    const auto read = [&](std::string_view key, TomlRange range, double Station::*field) {
+        if (known) return radar.number(key, range).value_or((*known).*field);
+        // A wrong name would only seem to have no position.
+        return named ? needed_number(radar, key, range) : radar.number(key, range).value_or(0);
     };
-    site.latitude_deg = radar->number("latitude_deg", {-90, 90}, otherwise(&Station::latitude_deg));
-    site.longitude_deg =
-        radar->number("longitude_deg", {-180, 180}, otherwise(&Station::longitude_deg));
-    const double altitude_m =
-        radar->number("altitude_m", {-400, 9000}, otherwise(&Station::antenna_altitude_m));
+    site.latitude_deg = read("latitude_deg", {-90, 90}, &Station::latitude_deg);
+    site.longitude_deg = read("longitude_deg", {-180, 180}, &Station::longitude_deg);
+    const double altitude_m = read("altitude_m", {-400, 9000}, &Station::antenna_altitude_m);
     site.antenna_altitude_m = static_cast<int>(std::lround(altitude_m));
-    radar->finish();
     return site;
 }
 
-Cut read_cut(TomlReader& table) {
+Waveform read_waveform(TomlTable& cut) {
+    const std::string name = cut.text("waveform").value_or("batch");
+    if (name == "surveillance") return Waveform::surveillance;
+    if (name == "doppler") return Waveform::doppler;
+    if (name != "batch") cut.complain("waveform", "must be surveillance, doppler or batch");
+    return Waveform::batch;
+}
+
+Cut read_cut(TomlTable& table) {
     Cut cut;
-    cut.elevation_deg = nearest_elevation_deg(table.number("elevation_deg", {-1, 60}));
-    const std::string waveform = table.text("waveform", "batch");
-    if (waveform == "surveillance") {
-        cut.waveform = Waveform::surveillance;
-    } else if (waveform == "doppler") {
-        cut.waveform = Waveform::doppler;
-    } else if (waveform == "batch") {
-        cut.waveform = Waveform::batch;
-    } else {
-        table.refuse("waveform", "not surveillance, doppler or batch");
-    }
-    cut.azimuth_rate_deg_s = nearest_rate_deg_s(table.number("azimuth_rate_deg_s", {1, 40}));
-    const double spacing_deg = table.number("azimuth_spacing_deg", {0.5, 1}, 1);
+    cut.elevation_deg = nearest_elevation_deg(needed_number(table, "elevation_deg", {-1, 60}));
+    cut.waveform = read_waveform(table);
+    cut.azimuth_rate_deg_s =
+        nearest_rate_deg_s(needed_number(table, "azimuth_rate_deg_s", {1, 40}));
+    const double spacing_deg = table.number("azimuth_spacing_deg", {0.5, 1}).value_or(1);
     if (spacing_deg != 0.5 && spacing_deg != 1) {
-        table.refuse("azimuth_spacing_deg", "not 0.5 or 1");
+        table.complain("azimuth_spacing_deg", "must be 0.5 or 1");
     }
     cut.azimuth_spacing_deg = static_cast<float>(spacing_deg);
     cut.surveillance_prf = cut.waveform == Waveform::doppler ? 0 : 1;
-    cut.doppler_prf = table.integer("doppler_prf", {4, 8}, 6);
+    cut.doppler_prf = table.whole_number("doppler_prf", {4, 8}).value_or(6);
     if (!has_velocity(cut)) cut.doppler_prf = 0;
-    table.finish();
     return cut;
 }
 
-Pattern read_pattern(TomlReader& volumes, TomlReader& root) {
+Pattern read_pattern(TomlTable& volumes, TomlTable& root) {
     auto cuts = root.tables("cut");
     if (cuts.empty()) {
-        const int number = volumes.integer("vcp", {1, 999});
+        const int number = needed_whole_number(volumes, "vcp", {1, 999});
         const Pattern* known = find_pattern(number);
         if (known != nullptr) return *known;
-        volumes.refuse("vcp", fmt::format("{} is not one of {}; other patterns need [[cut]] tables",
-                                          number, fmt::join(pattern_numbers(), ", ")));
+        volumes.complain(
+            "vcp", fmt::format("{} is not one of {}; other patterns need [[cut]] tables", number,
+                               fmt::join(pattern_numbers(), ", ")));
         return {};
     }
     Pattern pattern;
-    pattern.number = volumes.integer("vcp", {1, 767}, 767);
-    if (cuts.size() > 32) root.refuse("cut", "more than 32 cuts");
-    for (TomlReader& cut : cuts) {
+    pattern.number = volumes.whole_number("vcp", {1, 767}).value_or(767);
+    if (cuts.size() > 32) root.complain("cut", "more than 32 cuts");
+    for (TomlTable& cut : cuts) {
         pattern.cuts.push_back(read_cut(cut));
     }
     return pattern;
 }
 
-Schedule read_schedule(TomlReader& root) {
+Schedule read_schedule(TomlTable volumes, TomlTable& root) {
     Schedule schedule;
-    auto volumes = root.table("volumes", true);
-    if (!volumes) return schedule;
-    schedule.count = volumes->integer("count", {1, 10000});
-    const std::string start = volumes->text("start");
+    schedule.count = needed_whole_number(volumes, "count", {1, 10000});
+    const std::string start = needed_text(volumes, "start");
     // "now" and relative times would make a scene differ from run to run.
     const bool fixed = !start.empty() && start.front() >= '0' && start.front() <= '9';
     const auto time = fixed ? parse_utc(start, UtcTime{}) : Result<UtcTime>(UtcTime{});
-    if (!fixed || !time) volumes->refuse("start", "not a time, as in \"2024-06-01T22:00:00Z\"");
-    if (time) schedule.start = *time;
-    schedule.pattern = read_pattern(*volumes, root);
-    const double needed_s = duration_s(schedule.pattern);
-    schedule.interval_s = volumes->number("interval_s", {1, 86400}, 300);
-    if (schedule.interval_s < needed_s) {
-        volumes->refuse("interval_s", fmt::format("{} s is shorter than the {:.0f} s that VCP {} "
-                                                  "takes",
-                                                  schedule.interval_s, std::ceil(needed_s),
-                                                  schedule.pattern.number));
+    if (!fixed || !time) {
+        volumes.complain("start", "must be a time, as in \"2024-06-01T22:00:00Z\"");
     }
-    volumes->finish();
+    if (time) schedule.start = *time;
+    schedule.pattern = read_pattern(volumes, root);
+    const double needed_s = duration_s(schedule.pattern);
+    schedule.interval_s = volumes.number("interval_s", {1, 86400}).value_or(300);
+    if (schedule.interval_s < needed_s) {
+        volumes.complain(
+            "interval_s",
+            fmt::format("{} s is shorter than the {:.0f} s that VCP {} takes", schedule.interval_s,
+                        std::ceil(needed_s), schedule.pattern.number));
+    }
     return schedule;
 }
 
-Footprint read_footprint(TomlReader& table) {
+Footprint read_footprint(TomlTable& table) {
     Footprint footprint;
-    const auto [east_km, north_km] = table.pair("position_km", places_km);
-    const auto [east_mps, north_mps] = table.pair("velocity_mps", speeds_mps, std::pair{0.0, 0.0});
-    const auto [major_km, minor_km] = table.pair("radii_km", lengths_km);
-    footprint.x_m = east_km * km;
-    footprint.y_m = north_km * km;
-    footprint.motion = {east_mps, north_mps};
-    footprint.major_m = major_km * km;
-    footprint.minor_m = minor_km * km;
-    footprint.orientation_deg = table.number("orientation_deg", directions_deg, 0);
+    const Pair position_km = needed_pair(table, "position_km", places_km);
+    const Pair velocity_mps = pair_or(table, "velocity_mps", speeds_mps, {});
+    const Pair radii_km = needed_pair(table, "radii_km", lengths_km);
+    footprint.x_m = position_km.first * km;
+    footprint.y_m = position_km.second * km;
+    footprint.motion = {velocity_mps.first, velocity_mps.second};
+    footprint.major_m = radii_km.first * km;
+    footprint.minor_m = radii_km.second * km;
+    footprint.orientation_deg = table.number("orientation_deg", directions_deg).value_or(0);
     return footprint;
 }
 
-Ripple read_ripple(TomlReader& table) {
+Ripple read_ripple(TomlTable& table) {
     Ripple ripple;
-    ripple.most_db = table.number("ripple_db", {0, 20}, 0);
-    ripple.length_m = table.number("ripple_length_km", lengths_km, 5) * km;
+    ripple.most_db = table.number("ripple_db", {0, 20}).value_or(0);
+    ripple.length_m = table.number("ripple_length_km", lengths_km).value_or(5) * km;
     return ripple;
 }
 
-Hook read_hook(TomlReader& table) {
+Hook read_hook(TomlTable& table) {
     Hook hook;
-    const auto [east_km, north_km] = table.pair("center_km", {-100, 100});
-    hook.x_m = east_km * km;
-    hook.y_m = north_km * km;
-    hook.radius_m = table.number("radius_km", {0.1, 100}) * km;
-    const auto [from_deg, to_deg] = table.pair("arc_deg", {-360, 720});
-    if (to_deg <= from_deg || to_deg - from_deg >= 360) {
-        table.refuse("arc_deg", "not [from, to], clockwise and less than a full circle");
+    const Pair center_km = needed_pair(table, "center_km", {-100, 100});
+    hook.x_m = center_km.first * km;
+    hook.y_m = center_km.second * km;
+    hook.radius_m = needed_number(table, "radius_km", {0.1, 100}) * km;
+    const Pair arc_deg = needed_pair(table, "arc_deg", {-360, 720});
+    if (arc_deg.second <= arc_deg.first || arc_deg.second - arc_deg.first >= 360) {
+        table.complain("arc_deg", "must be [from, to], clockwise and less than a full circle");
     }
-    hook.from_deg = from_deg;
-    hook.to_deg = to_deg;
-    hook.width_m = table.number("width_km", lengths_km) * km;
-    hook.top_m = table.number("top_km", {0.1, 30}) * km;
-    hook.peak_dbz = table.number("peak_dbz", peaks_dbz);
-    table.finish();
+    hook.from_deg = arc_deg.first;
+    hook.to_deg = arc_deg.second;
+    hook.width_m = needed_number(table, "width_km", lengths_km) * km;
+    hook.top_m = needed_number(table, "top_km", {0.1, 30}) * km;
+    hook.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
     return hook;
 }
 
-Storm read_storm(TomlReader& table) {
+Storm read_storm(TomlTable& table) {
     Storm storm;
     storm.footprint = read_footprint(table);
-    storm.core_m = table.number("core_km", heights_km) * km;
-    storm.top_m = table.number("top_km", heights_km) * km;
-    if (storm.top_m <= storm.core_m) table.refuse("top_km", "not above core_km");
-    storm.peak_dbz = table.number("peak_dbz", peaks_dbz);
-    const auto [east, north] = table.pair("tilt", {-10, 10}, std::pair{0.0, 0.0});
-    storm.tilt_east = east;
-    storm.tilt_north = north;
+    storm.core_m = needed_number(table, "core_km", heights_km) * km;
+    storm.top_m = needed_number(table, "top_km", heights_km) * km;
+    if (storm.top_m <= storm.core_m) table.complain("top_km", "must be above core_km");
+    storm.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
+    const Pair tilt = pair_or(table, "tilt", {-10, 10}, {});
+    storm.tilt_east = tilt.first;
+    storm.tilt_north = tilt.second;
     storm.ripple = read_ripple(table);
-    if (auto hook = table.table("hook", false)) storm.hook = read_hook(*hook);
-    table.finish();
+    if (auto hook = table.table("hook")) storm.hook = read_hook(*hook);
     return storm;
 }
 
-Layer read_layer(TomlReader& table) {
+Layer read_layer(TomlTable& table) {
     Layer layer;
     layer.footprint = read_footprint(table);
-    layer.base_m = table.number("base_km", heights_km, 0) * km;
-    layer.top_m = table.number("top_km", heights_km) * km;
-    if (layer.top_m <= layer.base_m) table.refuse("top_km", "not above base_km");
-    layer.peak_dbz = table.number("peak_dbz", peaks_dbz);
-    layer.melting_m = table.number("melting_km", heights_km, 3.5) * km;
-    layer.bright_band_db = table.number("bright_band_db", {0, 30}, 0);
-    layer.bright_band_depth_m = table.number("bright_band_depth_km", {0.05, 5}, 0.3) * km;
-    layer.lapse_db_per_m = table.number("lapse_db_per_km", {0, 50}, 3) / km;
+    layer.base_m = table.number("base_km", heights_km).value_or(0) * km;
+    layer.top_m = needed_number(table, "top_km", heights_km) * km;
+    if (layer.top_m <= layer.base_m) table.complain("top_km", "must be above base_km");
+    layer.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
+    layer.melting_m = table.number("melting_km", heights_km).value_or(3.5) * km;
+    layer.bright_band_db = table.number("bright_band_db", {0, 30}).value_or(0);
+    layer.bright_band_depth_m = table.number("bright_band_depth_km", {0.05, 5}).value_or(0.3) * km;
+    layer.lapse_db_per_m = table.number("lapse_db_per_km", {0, 50}).value_or(3) / km;
     layer.ripple = read_ripple(table);
-    table.finish();
     return layer;
 }
 
-Result<toml::table> parse(std::string_view toml, const std::string& name) {
-    try {
-        return toml::parse(toml, name);
-    } catch (const toml::parse_error& error) {
-        const auto& begin = error.source().begin;
-        return fail(ErrorCode::bad_argument, "{}:{}: {}", name, begin.line, error.description());
+Result<Scene> scene_of(TomlFile& file) {
+    TomlTable root = file.root();
+    Scene scene;
+    scene.site = read_site(root.section("radar"));
+    scene.schedule = read_schedule(root.section("volumes"), root);
+    for (TomlTable& table : root.tables("storm")) {
+        scene.weather.storms.push_back(read_storm(table));
     }
+    for (TomlTable& table : root.tables("layer")) {
+        scene.weather.layers.push_back(read_layer(table));
+    }
+    if (const Status read = file.finish(); !read) return pass_on(read);
+    return scene;
 }
 
 }  // namespace
@@ -197,29 +240,15 @@ UtcTime Schedule::start_of(int volume) const {
 }
 
 Result<Scene> parse_scene(std::string_view toml, const std::string& name) {
-    const auto document = parse(toml, name);
-    if (!document) return pass_on(document);
-    TomlErrors errors(name);
-    TomlReader root(*document, "", errors);
-    Scene scene;
-    scene.site = read_site(root);
-    scene.schedule = read_schedule(root);
-    for (TomlReader& table : root.tables("storm")) {
-        scene.weather.storms.push_back(read_storm(table));
-    }
-    for (TomlReader& table : root.tables("layer")) {
-        scene.weather.layers.push_back(read_layer(table));
-    }
-    root.finish();
-    if (errors.first()) return tl::unexpected(*errors.first());
-    return scene;
+    auto file = TomlFile::parse(toml, name);
+    if (!file) return pass_on(file);
+    return scene_of(*file);
 }
 
 Result<Scene> read_scene(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, 1U << 20U);
-    if (!bytes) return pass_on(bytes);
-    return parse_scene({reinterpret_cast<const char*>(bytes->data()), bytes->size()},
-                       path.string());
+    auto file = TomlFile::open(path);
+    if (!file) return pass_on(file);
+    return scene_of(*file);
 }
 
 }  // namespace stormcellar::synth

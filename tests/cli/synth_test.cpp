@@ -99,10 +99,11 @@ TEST_F(Synth, SaysWhatItDidAsJson) {
 }
 
 TEST_F(Synth, MistakesAreNamed) {
-    std::ofstream(at("bad.toml")) << "[radar]\nstation = \"KTLX\"\n[volumes]\ncount = 0\n";
+    std::ofstream(at("bad.toml")) << "[radar]\nstation = \"KTLX\"\n[volumes]\ncount = 0\n"
+                                  << "start = \"2024-06-01\"\nvcp = 212\n";
     const auto bad = run({"synth", at("bad.toml"), "-o", at("volumes")});
     EXPECT_EQ(bad.status, 2);
-    EXPECT_THAT(bad.err, HasSubstr("bad.toml:4: volumes.count: 0 is not between"));
+    EXPECT_THAT(bad.err, HasSubstr("bad.toml:4: [volumes] count: 0 is out of range"));
     const auto missing = run({"synth", at("none.toml"), "-o", at("volumes")});
     EXPECT_EQ(missing.status, 1);
     EXPECT_THAT(missing.err, HasSubstr("none.toml"));

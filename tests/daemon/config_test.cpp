@@ -113,7 +113,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
     EXPECT_EQ(complaint(p + "[ingest]\nworker = 2\n"), "s.toml:6: unknown key [ingest] worker");
     EXPECT_EQ(complaint(p + "[ingets]\nworkers = 2\n"), "s.toml:5: unknown section [ingets]");
     EXPECT_EQ(complaint("workers = 2\n" + p), "s.toml:1: unknown key workers");
-    EXPECT_EQ(complaint("log = 2\n" + p), "s.toml:1: log must be a section: [log]");
+    EXPECT_EQ(complaint("log = 2\n" + p), "s.toml:1: log: must be a section: [log], is a number");
     EXPECT_EQ(complaint(p + "[ingest]\n\nworkers = \"2\"\n"),
               "s.toml:7: [ingest] workers: must be a whole number, is text");
     EXPECT_EQ(complaint(p + "[ingest]\nworkers = 2.5\n"),

@@ -1,0 +1,149 @@
+#include "base/toml_file.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TomlFile file_of(std::string_view text) {
+    auto file = TomlFile::parse(text, "s.toml");
+    if (!file) throw std::runtime_error(file.error().message);
+    return std::move(*file);
+}
+
+std::string complaint(TomlFile& file) {
+    const Status finished = file.finish();
+    if (finished) return "";
+    EXPECT_EQ(finished.error().code, ErrorCode::bad_argument);
+    return finished.error().message;
+}
+
+TEST(TomlFile, GivesWhatIsThere) {
+    TomlFile file = file_of(
+        "title = \"a\"\n[grid]\nspacing = 0.5\ncount = 3\nlevels = [1, 2.5]\n[grid.inner]\nx = 1\n"
+        "[[storm]]\npeak = 50\n[storm.hook]\nwidth = 2\n[[storm]]\npeak = 60\n");
+    TomlTable root = file.root();
+    EXPECT_EQ(root.text("title"), "a");
+    auto grid = root.table("grid");
+    ASSERT_TRUE(grid);
+    EXPECT_EQ(grid->number("spacing", {0, 1}), 0.5);
+    EXPECT_EQ(grid->whole_number("count", {3, 3}), 3);
+    EXPECT_TRUE(grid->is_array("levels"));
+    EXPECT_FALSE(grid->is_array("count"));
+    EXPECT_THAT(*grid->numbers("levels"), ElementsAre(1, 2.5));
+    EXPECT_EQ(grid->table("inner")->number("x", {0, 1}), 1);
+    auto storms = root.tables("storm");
+    ASSERT_EQ(storms.size(), 2U);
+    EXPECT_EQ(storms[0].number("peak", {0, 100}), 50);
+    EXPECT_EQ(storms[0].table("hook")->number("width", {0, 9}), 2);
+    EXPECT_EQ(storms[1].number("peak", {0, 100}), 60);
+    EXPECT_FALSE(storms[1].has("hook"));
+    EXPECT_EQ(complaint(file), "");
+}
+
+TEST(TomlFile, WhatIsAbsentIsNone) {
+    TomlFile file = file_of("");
+    TomlTable root = file.root();
+    EXPECT_FALSE(root.text("a"));
+    EXPECT_FALSE(root.number("a", {0, 1}));
+    EXPECT_FALSE(root.whole_number("a", {0, 1}));
+    EXPECT_FALSE(root.numbers("a"));
+    EXPECT_FALSE(root.table("a"));
+    EXPECT_TRUE(root.tables("a").empty());
+    TomlTable section = root.section("a");
+    EXPECT_FALSE(section.number("b", {0, 1}));
+    EXPECT_EQ(complaint(file), "");
+    section.complain("b", "is missing");
+    EXPECT_EQ(complaint(file), "s.toml: [a] b: is missing");
+}
+
+TEST(TomlFile, TheWrongKindIsNamed) {
+    const auto complaint_about = [](const std::string& value, const auto& read) {
+        TomlFile file = file_of("[t]\n\nk = " + value + "\n");
+        TomlTable table = *file.root().table("t");
+        read(table);
+        return complaint(file);
+    };
+    const auto number = [](TomlTable& t) { EXPECT_FALSE(t.number("k", {0, 1})); };
+    const auto whole = [](TomlTable& t) { EXPECT_FALSE(t.whole_number("k", {0, 1})); };
+    const auto text = [](TomlTable& t) { EXPECT_FALSE(t.text("k")); };
+    const auto numbers = [](TomlTable& t) { EXPECT_FALSE(t.numbers("k")); };
+    const auto table = [](TomlTable& t) { EXPECT_FALSE(t.table("k")); };
+    const auto tables = [](TomlTable& t) { EXPECT_TRUE(t.tables("k").empty()); };
+    EXPECT_EQ(complaint_about("true", number),
+              "s.toml:3: [t] k: must be a number, is true or false");
+    EXPECT_EQ(complaint_about("1.5", number),
+              "s.toml:3: [t] k: 1.5 is out of range, must be 0 to 1");
+    EXPECT_EQ(complaint_about("nan", number),
+              "s.toml:3: [t] k: nan is out of range, must be 0 to 1");
+    EXPECT_EQ(complaint_about("1.0", whole),
+              "s.toml:3: [t] k: must be a whole number, is a number");
+    EXPECT_EQ(complaint_about("9000000000000000000", whole),
+              "s.toml:3: [t] k: 9e+18 is out of range, must be 0 to 1");
+    EXPECT_EQ(complaint_about("1", text), "s.toml:3: [t] k: must be text in quotes, is a number");
+    EXPECT_EQ(complaint_about("1", numbers),
+              "s.toml:3: [t] k: must be an array of numbers, is a number");
+    EXPECT_EQ(complaint_about("[1, \"2\"]", numbers),
+              "s.toml:3: [t] k: must be an array of numbers, holds text");
+    EXPECT_EQ(complaint_about("[]", table),
+              "s.toml:3: [t] k: must be a section: [t.k], is an array");
+    EXPECT_EQ(complaint_about("2024-06-01", tables),
+              "s.toml:3: [t] k: must be sections: [[t.k]], is a date or time");
+}
+
+TEST(TomlFile, WhatNobodyAskedForIsNamed) {
+    for (const auto& [text, message] : {std::pair{"[t]\nk = 1\n", "s.toml:2: unknown key [t] k"},
+                                        {"k = 1\n", "s.toml:1: unknown key k"},
+                                        {"[u]\nk = 1\n", "s.toml:1: unknown section [u]"},
+                                        {"[t.u]\nk = 1\n", "s.toml:1: unknown section [t.u]"},
+                                        {"[[u]]\nk = 1\n", "s.toml:1: unknown section [[u]]"},
+                                        {"\"a\\nb\" = 1\n", "s.toml:1: unknown key a\\x0ab"}}) {
+        TomlFile file = file_of(text);
+        (void)file.root().table("t");
+        EXPECT_EQ(complaint(file), message);
+    }
+}
+
+TEST(TomlFile, TheEarliestLineIsNamed) {
+    TomlFile file = file_of("a = 1\nb = 2\nc = 3\n");
+    (void)file.root().text("c");
+    (void)file.root().text("b");
+    (void)file.root().number("a", {0, 1});
+    EXPECT_THAT(complaint(file), StartsWith("s.toml:2: b: "));
+}
+
+TEST(TomlFile, WhatIsNotTomlNamesTheLine) {
+    for (const char* text : {"a = 1\nb = \n", "a = 1\na = 2\n", "a = 1\n[b\n"}) {
+        const auto file = TomlFile::parse(text, "s.toml");
+        ASSERT_FALSE(file);
+        EXPECT_EQ(file.error().code, ErrorCode::bad_argument);
+        EXPECT_THAT(file.error().message, StartsWith("s.toml:2: not valid TOML: "));
+        EXPECT_EQ(file.error().message.find('\n'), std::string::npos);
+    }
+}
+
+TEST(TomlFile, BytesThatAreNotTextAreRefused) {
+    const auto file = TomlFile::parse("a = \"\xFF\"", "s.toml");
+    ASSERT_FALSE(file);
+    EXPECT_THAT(file.error().message, StartsWith("s.toml:1: not valid TOML: "));
+}
+
+TEST(TomlFile, WhatCannotBeReadIsNamed) {
+    const testing::TemporaryDirectory directory;
+    const auto missing = TomlFile::open(directory / "none.toml");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+    EXPECT_THAT(missing.error().message, HasSubstr("none.toml"));
+}
+
+}  // namespace
+}  // namespace stormcellar
