@@ -20,7 +20,7 @@ Status StatusFile::write(const std::string& text) {
     (void)file_system_.remove(temporary_);  // of a daemon that was killed in between
     const Result<int> descriptor = file_system_.create_exclusive(temporary_);
     if (!descriptor) return pass_on(descriptor);
-    const Status written = file_system_.write_at(*descriptor, 0, std::as_bytes(std::span{text}));
+    Status written = file_system_.write_at(*descriptor, 0, std::as_bytes(std::span{text}));
     file_system_.close(*descriptor);
     if (!written) {
         (void)file_system_.remove(temporary_);

@@ -1,40 +1,24 @@
 // The program itself, as a user runs it: `stormcellar grid`.
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include "tests/testing/data.h"
+#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
 
-struct Ran {
-    int status = -1;
-    std::string out;
-    std::string err;
-};
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using testing::ProgramResult;
 
 class GridTest : public ::testing::Test {
   protected:
-    // Arguments are quoted here; none of them may hold a quote.
-    Ran grid(const std::vector<std::string>& arguments) {
-        std::string command = "'" STORMCELLAR_PROGRAM "' grid";
-        for (const std::string& argument : arguments)
-            command += " '" + argument + "'";
-        command += " >'" + file("out") + "' 2>'" + file("err") + "'";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(file("out")),
-                contents(file("err"))};
+    static ProgramResult grid(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "grid");
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
     }
     [[nodiscard]] std::string file(const std::string& name) const {
         return (directory_.path() / name).string();
@@ -45,7 +29,7 @@ class GridTest : public ::testing::Test {
     // Bad usage: exit 2 and one line that names what is wrong; nothing is written.
     void expect_usage(std::vector<std::string> arguments, const std::string& part) {
         arguments.insert(arguments.end(), {"-o", file("out.nc")});
-        const Ran ran = grid(arguments);
+        const ProgramResult ran = grid(arguments);
         EXPECT_EQ(ran.status, 2) << part;
         EXPECT_EQ(ran.out, "");
         EXPECT_NE(ran.err.find(part), std::string::npos) << part << " in " << ran.err;
@@ -81,7 +65,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
 TEST_F(GridTest, AFileThatCannotBeReadIsExit1AndNamed) {
     std::ofstream(file("empty"));
     for (const std::string& bad : {file("empty"), file("missing"), directory_.path().string()}) {
-        const Ran ran = grid({bad, "-o", file("out.nc")});
+        const ProgramResult ran = grid({bad, "-o", file("out.nc")});
         EXPECT_EQ(ran.status, 1);
         EXPECT_EQ(ran.out, "");
         EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
@@ -92,7 +76,7 @@ TEST_F(GridTest, AFileThatCannotBeReadIsExit1AndNamed) {
 
 TEST_F(GridTest, ReportsFactsAndTimings) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran =
+    const ProgramResult ran =
         grid({volume("KTLX19990503_235621.gz"), "-o", file("out.nc"), "--json", "--extent-km",
               "200,100", "--spacing-km", "2", "--levels-km", "0.1:1:0.3", "--center", "-10,20"});
     ASSERT_EQ(ran.status, 0) << ran.err;
@@ -117,7 +101,8 @@ TEST_F(GridTest, OddVolumesAreGriddedOrRefusedWithAReason) {
     STORMCELLAR_NEED_DATA();
     for (const auto& entry :
          std::filesystem::directory_iterator(*testing::data_directory() / "volumes")) {
-        const Ran ran = grid({entry.path(), "-o", file("out.nc"), "--extent-km", "60,60"});
+        const ProgramResult ran =
+            grid({entry.path(), "-o", file("out.nc"), "--extent-km", "60,60"});
         EXPECT_TRUE(ran.status == 0 || ran.status == 1) << entry.path() << " " << ran.status;
         EXPECT_EQ(ran.status == 0, std::filesystem::exists(file("out.nc"))) << entry.path();
         if (ran.status == 1) {
@@ -129,14 +114,15 @@ TEST_F(GridTest, OddVolumesAreGriddedOrRefusedWithAReason) {
 
 TEST_F(GridTest, AVolumeWithoutRadialsHasNothingToGrid) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran = grid({volume("KFDR20160420_214957_V06.gz"), "-o", file("out.nc")});
+    const ProgramResult ran = grid({volume("KFDR20160420_214957_V06.gz"), "-o", file("out.nc")});
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("no sweep with REF"), std::string::npos) << ran.err;
 }
 
 TEST_F(GridTest, OfSeveralVolumesTheFirstIsTakenAndSaidSo) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran = grid({volume("KBBX20060113_170337.gz"), "-o", file("out.nc"), "--json"});
+    const ProgramResult ran =
+        grid({volume("KBBX20060113_170337.gz"), "-o", file("out.nc"), "--json"});
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(nlohmann::json::parse(ran.out)["notes"].dump().find("this is number 1"),
               std::string::npos);
@@ -144,7 +130,7 @@ TEST_F(GridTest, OfSeveralVolumesTheFirstIsTakenAndSaidSo) {
 
 TEST_F(GridTest, WhatCannotBeWrittenIsExit1) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran = grid(
+    const ProgramResult ran = grid(
         {volume("KTLX19990503_235621.gz"), "-o", file("no/such/out.nc"), "--extent-km", "20,20"});
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("no/such"), std::string::npos) << ran.err;

@@ -1,46 +1,24 @@
 // The program itself, as a user runs it: what it prints and how it ends.
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include "tests/testing/data.h"
+#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
 
-struct Ran {
-    int status = -1;
-    std::string out;
-    std::string err;
-};
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string quoted(const std::string& argument) {
-    std::string text = "'";
-    for (const char c : argument)
-        text += c == '\'' ? std::string{"'\\''"} : std::string{c};
-    return text + "'";
-}
+using testing::ProgramResult;
 
 class InfoTest : public ::testing::Test {
   protected:
-    Ran info(const std::vector<std::string>& arguments) {
-        std::string command = quoted(STORMCELLAR_PROGRAM) + " info";
-        for (const std::string& argument : arguments)
-            command += " " + quoted(argument);
-        command += " >" + quoted(directory_ / "out") + " 2>" + quoted(directory_ / "err");
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(directory_ / "out"),
-                contents(directory_ / "err")};
+    static ProgramResult info(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "info");
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
     }
     std::string write(const std::string& name, const std::string& text) {
         const auto path = directory_ / name;
@@ -48,7 +26,7 @@ class InfoTest : public ::testing::Test {
         return path;
     }
     // One line on stderr that has all these parts, nothing on stdout, exit 1.
-    static void expect_refused(const Ran& ran, const std::vector<std::string>& parts) {
+    static void expect_refused(const ProgramResult& ran, const std::vector<std::string>& parts) {
         EXPECT_EQ(ran.status, 1);
         EXPECT_EQ(ran.out, "");
         EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
@@ -81,7 +59,7 @@ TEST_F(InfoTest, BadUsageIsExit2) {
 
 TEST_F(InfoTest, JsonIsOneDocumentWithTheFactsAndNoProblems) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran =
+    const ProgramResult ran =
         info({*testing::data_directory() / "volumes" / "KLOT20220317_000842_V06", "--json"});
     EXPECT_EQ(ran.status, 0);
     EXPECT_EQ(ran.err, "");
@@ -96,7 +74,7 @@ TEST_F(InfoTest, JsonIsOneDocumentWithTheFactsAndNoProblems) {
 TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
     STORMCELLAR_NEED_DATA();
     const auto file = *testing::data_directory() / "volumes" / "KTLX19910720_160529.gz";
-    const Ran ran = info({file, "--json"});
+    const ProgramResult ran = info({file, "--json"});
     EXPECT_EQ(ran.status, 0);
     const auto json = nlohmann::json::parse(ran.out);
     EXPECT_EQ(json.at("site"), "KTLX") << "from the file's name";
@@ -106,7 +84,7 @@ TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
     EXPECT_EQ(problem.at("severity"), "error");
     EXPECT_EQ(problem.at("code"), "damaged_messages");
     EXPECT_EQ(problem.at("offset"), 1507840);
-    const Ran table = info({file});
+    const ProgramResult table = info({file});
     EXPECT_EQ(table.status, 0);
     EXPECT_NE(table.out.find("partial"), std::string::npos);
     EXPECT_NE(table.out.find("1367 bytes dropped (at 1507840)"), std::string::npos) << table.out;
@@ -114,7 +92,8 @@ TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
 
 TEST_F(InfoTest, TheTableHasALineForEachSweep) {
     STORMCELLAR_NEED_DATA();
-    const Ran ran = info({*testing::data_directory() / "volumes" / "KBBX20060113_170337.gz"});
+    const ProgramResult ran =
+        info({*testing::data_directory() / "volumes" / "KBBX20060113_170337.gz"});
     EXPECT_EQ(ran.status, 0);
     EXPECT_NE(ran.out.find("68 sweeps, 13623 radials, 4 volumes"), std::string::npos) << ran.out;
     const int facts = 8, blank_and_heading = 2, further_volumes = 3;

@@ -1,13 +1,11 @@
 // stormcellar loop, run as a user runs it.
+#include <algorithm>
+#include <csignal>
 #include <fstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "cache/store.h"
 #include "grid/brick_grid.h"
@@ -226,27 +224,17 @@ TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
     }
     const std::string cache = (directory_ / "cache").string();
     const std::string webp = out("a.webp"), frames = out("frames/");
-    const pid_t child = ::fork();
-    if (child == 0) {
-        ::execl(STORMCELLAR_PROGRAM, "stormcellar", "loop", "KBGM", "--quiet", "--cache",
-                cache.c_str(), "-o", webp.c_str(), "-o", frames.c_str(), nullptr);
-        ::_exit(127);
-    }
     // Its directory of frames stands under a temporary name while it works.
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     const auto frames_drawn = [&] {
         for (const auto& entry : fs::directory_iterator(directory_ / "out")) {
             if (entry.is_directory() && fs::exists(entry.path() / "frame_0001.png")) return true;
         }
         return false;
     };
-    while (!frames_drawn() && std::chrono::steady_clock::now() < limit)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ::kill(child, SIGINT);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFSIGNALED(status));
-    EXPECT_EQ(WTERMSIG(status), SIGINT);
+    const int signal = testing::interrupt_program(
+        STORMCELLAR_PROGRAM,
+        {"loop", "KBGM", "--quiet", "--cache", cache, "-o", webp, "-o", frames}, frames_drawn);
+    EXPECT_EQ(signal, SIGINT);
     EXPECT_THAT(written(), IsEmpty());
 }
 

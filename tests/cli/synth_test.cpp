@@ -2,13 +2,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
@@ -49,27 +46,6 @@ std::vector<std::string> names_in(const fs::path& directory) {
         names.push_back(entry.path().filename());
     std::sort(names.begin(), names.end());
     return names;
-}
-
-// Starts the program, waits until `seen` holds, interrupts it: its wait status.
-int interrupted(std::vector<std::string> arguments, const std::function<bool()>& seen) {
-    arguments.insert(arguments.begin(), "stormcellar");
-    std::vector<char*> argv;
-    for (std::string& argument : arguments)
-        argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        ::execv(STORMCELLAR_PROGRAM, argv.data());
-        ::_exit(127);
-    }
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!seen() && std::chrono::steady_clock::now() < limit)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ::kill(child, SIGINT);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return status;
 }
 
 TEST_F(Synth, WritesVolumesThatInfoReads) {
@@ -117,11 +93,11 @@ TEST_F(Synth, InterruptedKeepsWholeVolumesAndEndsByTheSignal) {
     toml.replace(toml.find("count = 2"), 9, "count = 9000");
     std::ofstream(at("long.toml")) << toml;
     const fs::path volumes = at("volumes");
-    const int status = interrupted({"synth", at("long.toml"), "-o", volumes, "--json"}, [&volumes] {
-        return fs::exists(volumes / first_volume) && fs::exists(volumes / second_volume);
-    });
-    EXPECT_TRUE(WIFSIGNALED(status));
-    EXPECT_EQ(WTERMSIG(status), SIGINT);
+    const int signal = testing::interrupt_program(
+        STORMCELLAR_PROGRAM, {"synth", at("long.toml"), "-o", volumes, "--json"}, [&volumes] {
+            return fs::exists(volumes / first_volume) && fs::exists(volumes / second_volume);
+        });
+    EXPECT_EQ(signal, SIGINT);
     const auto names = names_in(volumes);
     ASSERT_GE(names.size(), 2U);
     EXPECT_LT(names.size(), 9000U);
@@ -162,11 +138,11 @@ TEST_F(Synth, AnInterruptedReplayNamesTheUnfinishedFile) {
     synthesise();
     fs::create_directory(at("drop"));
     const fs::path growing = at("drop/") + std::string(first_volume);
-    const int status =
-        interrupted({"replay", at("volumes"), at("drop"), "--as", "growing", "--interval", "3600"},
-                    [&growing] { return fs::exists(growing); });
-    EXPECT_TRUE(WIFSIGNALED(status));
-    EXPECT_EQ(WTERMSIG(status), SIGINT);
+    const int signal = testing::interrupt_program(
+        STORMCELLAR_PROGRAM,
+        {"replay", at("volumes"), at("drop"), "--as", "growing", "--interval", "3600"},
+        [&growing] { return fs::exists(growing); });
+    EXPECT_EQ(signal, SIGINT);
     EXPECT_THAT(names_in(at("drop")), ElementsAre(first_volume));
     EXPECT_LT(fs::file_size(growing), fs::file_size(at("volumes/") + first_volume));
 }

@@ -1,8 +1,10 @@
 #include "tests/testing/program.h"
 
-#include <array>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -20,6 +22,21 @@ std::string contents(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+pid_t start(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+            const posix_spawn_file_actions_t* actions) {
+    std::string name = program.string();
+    std::vector<std::string> copies = arguments;
+    std::vector<char*> argv = {name.data()};
+    for (std::string& copy : copies)
+        argv.push_back(copy.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    if (posix_spawn(&child, name.c_str(), actions, nullptr, argv.data(), environ) != 0) {
+        throw std::runtime_error("cannot start " + name);
+    }
+    return child;
+}
+
 }  // namespace
 
 ProgramResult run_program(const std::filesystem::path& program,
@@ -35,20 +52,24 @@ ProgramResult run_program(const std::filesystem::path& program,
     posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), flags, 0600);
 
-    std::string name = program.string();
-    std::vector<std::string> copies = arguments;
-    std::vector<char*> argv = {name.data()};
-    for (std::string& copy : copies)
-        argv.push_back(copy.data());
-    argv.push_back(nullptr);
-
-    pid_t child = 0;
-    const int failed = posix_spawn(&child, name.c_str(), &actions, nullptr, argv.data(), environ);
+    const pid_t child = start(program, arguments, &actions);
     posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) throw std::runtime_error("cannot start " + name);
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+}
+
+int interrupt_program(const std::filesystem::path& program,
+                      const std::vector<std::string>& arguments,
+                      const std::function<bool()>& seen) {
+    const pid_t child = start(program, arguments, nullptr);
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!seen() && std::chrono::steady_clock::now() < limit)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
 }
 
 }  // namespace stormcellar::testing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,12 @@ struct ProgramResult {
 // Waits for the program to end. Throws std::runtime_error when it cannot be started.
 [[nodiscard]] ProgramResult run_program(const std::filesystem::path& program,
                                         const std::vector<std::string>& arguments);
+
+// Starts the program, waits until `seen` holds (at most a minute), sends it SIGINT and waits for
+// its end: the number of the signal that ended it, 0 when it ended by itself. Its output is the
+// test's.
+[[nodiscard]] int interrupt_program(const std::filesystem::path& program,
+                                    const std::vector<std::string>& arguments,
+                                    const std::function<bool()>& seen);
 
 }  // namespace stormcellar::testing
