@@ -75,7 +75,7 @@ Status check_sweep(const Sweep& sweep) {
         }
     }
     for (const SweepMoment& moment : sweep.moments) {
-        const Status checked = check_moment(sweep, moment);
+        Status checked = check_moment(sweep, moment);
         if (!checked) return checked;
     }
     return {};
@@ -103,7 +103,7 @@ Status check_volume(const Volume& volume) {
                       44 + volume.block->rest.size());
     }
     for (const Sweep& sweep : volume.sweeps) {
-        const Status checked = check_sweep(sweep);
+        Status checked = check_sweep(sweep);
         if (!checked) return checked;
     }
     return {};
@@ -161,7 +161,7 @@ Status append_sweep(std::vector<EncodedRecord>& records, const Volume& volume, c
         const std::size_t end = std::min(first + step, sweep.radials.size());
         ByteWriter messages;
         for (std::size_t i = first; i < end; ++i) {
-            const Status written = append_radial(messages, volume, sweep, i, run);
+            Status written = append_radial(messages, volume, sweep, i, run);
             if (!written) return written;
         }
         auto record = compress(messages.bytes(), options.compression_level);

@@ -249,7 +249,7 @@ Status append_metadata(ByteWriter& out, const Volume& volume, UtcTime time, Mess
     const std::size_t used_frames = volume.vcp_message ? 2 : 1;
     out.zeros((metadata_frames - used_frames) * frame_bytes);
     if (volume.vcp_message) {
-        const Status written = append_vcp(out, *volume.vcp_message, time, run);
+        Status written = append_vcp(out, *volume.vcp_message, time, run);
         if (!written) return written;
     }
     const int block_vcp = volume.block ? volume.block->vcp : 0;

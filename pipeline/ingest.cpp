@@ -48,7 +48,8 @@ struct Ingestor::Impl {
     Result<IngestOutcome> reject(const FileFacts& facts, std::string reason, IngestOutcome outcome);
     Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
                                   IngestOutcome outcome);
-    Result<IngestOutcome> grid_all(FileFacts facts, const std::vector<level2::Volume>& volumes,
+    Result<IngestOutcome> grid_all(const FileFacts& facts,
+                                   const std::vector<level2::Volume>& volumes,
                                    IngestOutcome outcome);
     Status grid_one(const FileFacts& facts, const level2::Volume& volume, IngestOutcome& outcome);
 };
@@ -112,7 +113,7 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
 
 // Grids first, then settles the catalog's row: a crash between the two makes the work be done
 // again, never lost.
-Result<IngestOutcome> Ingestor::Impl::grid_all(FileFacts facts,
+Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
                                                const std::vector<level2::Volume>& volumes,
                                                IngestOutcome outcome) {
     outcome.result = IngestResult::no_moment;
@@ -153,7 +154,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         return outcome;
     }
     facts.state = complete ? FileState::complete : FileState::partial;
-    return grid_all(std::move(facts), volumes, std::move(outcome));
+    return grid_all(facts, volumes, std::move(outcome));
 }
 
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
