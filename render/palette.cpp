@@ -137,6 +137,7 @@ std::vector<Point> split_into(std::vector<Sample>& samples, std::size_t size) {
         boxes.push_back({right, moments_of(right)});
     }
     std::vector<Point> means;
+    means.reserve(boxes.size());
     for (const Box& box : boxes)
         means.push_back(box.moments.mean());
     return means;

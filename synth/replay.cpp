@@ -81,7 +81,7 @@ Status append(const fs::path& path, std::span<const std::byte> bytes) {
         const ssize_t written = ::write(file, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) {
-            const Status outcome = failed();
+            Status outcome = failed();
             ::close(file);
             return outcome;
         }
@@ -127,7 +127,7 @@ class Player {
             return fail(ErrorCode::io, "{}: {}", target.parent_path().native(), problem.message());
         }
         if (options_.delivery == Delivery::whole) {
-            const auto written = write_file_atomically(file_system_, target, *bytes);
+            auto written = write_file_atomically(file_system_, target, *bytes);
             if (!written) return written;
         } else {
             const auto whole = grow(target, *bytes);
