@@ -103,6 +103,22 @@ std::filesystem::path directory_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : std::filesystem::path{"."};
 }
 
+// The file that a rename may replace: none, a regular one, or the one that a link leads to. A
+// device, a directory or a FIFO would be destroyed by it.
+Result<std::filesystem::path> file_behind(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status link = std::filesystem::symlink_status(path, error);
+    if (!std::filesystem::exists(link)) return path;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::is_regular_file(status)) {
+        return fail(ErrorCode::not_a_file, "{}: is there and is not a regular file", path.native());
+    }
+    if (!std::filesystem::is_symlink(link)) return path;
+    std::filesystem::path target = std::filesystem::canonical(path, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
+    return target;
+}
+
 // The failure of a descriptor operation knows no path: put it in front.
 Status name_failure(Status status, const std::filesystem::path& path) {
     if (!status)
@@ -155,6 +171,19 @@ FileSystem& real_file_system() {
     return file_system;
 }
 
+Status check_target(const std::filesystem::path& path) {
+    const auto target = file_behind(path);
+    if (!target) return pass_on(target);
+    const std::filesystem::path directory = directory_of(*target);
+    std::error_code error;
+    if (!std::filesystem::is_directory(directory, error)) {
+        return fail(ErrorCode::not_found, "{}: there is no directory {}", path.native(),
+                    directory.native());
+    }
+    if (::access(directory.c_str(), W_OK) != 0) return system_failure(path.native(), errno);
+    return {};
+}
+
 AtomicFile::AtomicFile(FileSystem& file_system, std::filesystem::path final_path,
                        std::filesystem::path temporary_path, int descriptor)
     : file_system_(&file_system),
@@ -163,9 +192,17 @@ AtomicFile::AtomicFile(FileSystem& file_system, std::filesystem::path final_path
       descriptor_(descriptor) {}
 
 Result<AtomicFile> AtomicFile::create(FileSystem& file_system, std::filesystem::path final_path) {
+    auto target = file_behind(final_path);
+    if (!target) return pass_on(target);
+    final_path = std::move(*target);
     std::filesystem::path temporary_path = temporary_name(final_path);
     const Result<int> descriptor = file_system.create_exclusive(temporary_path);
-    if (!descriptor) return pass_on(descriptor);
+    if (!descriptor) {
+        // The directory's fault, told under the name that the caller knows.
+        const std::string& message = descriptor.error().message;
+        return fail(descriptor.error().code, "{}: cannot be made{}", final_path.native(),
+                    message.substr(std::min(message.size(), message.rfind(": "))));
+    }
     return AtomicFile(file_system, std::move(final_path), std::move(temporary_path), *descriptor);
 }
 

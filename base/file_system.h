@@ -44,8 +44,12 @@ class FileSystem {
 // Our temporary files start with this, so that others are never touched when leftovers are swept.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
 
+// Whether a file can appear at this path: its directory is there and may be written, and nothing
+// but a regular file (or a link to one) stands there. For asking before long work.
+[[nodiscard]] Status check_target(const std::filesystem::path& path);
+
 // A file that exists under its final name wholly or not at all. Destroyed without commit(), it
-// leaves nothing behind.
+// leaves nothing behind. A link is followed; not_a_file where anything but a regular file stands.
 class AtomicFile {
   public:
     static Result<AtomicFile> create(FileSystem& file_system, std::filesystem::path final_path);

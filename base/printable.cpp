@@ -19,6 +19,14 @@ std::size_t utf8_length(std::string_view text) {
         length = 4;
     }
     if (length == 0 || length > text.size()) return 0;
+    // Neither overlong, nor a surrogate, nor beyond U+10FFFF (RFC 3629 section 4).
+    if (length > 1) {
+        const auto second = static_cast<unsigned char>(text[1]);
+        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
+            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90)) {
+            return 0;
+        }
+    }
     for (const char c : text.substr(1, length - 1)) {
         if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) return 0;
     }

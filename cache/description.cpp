@@ -22,6 +22,7 @@ enum class RecordKind : std::uint16_t {
     partial = 8,
     note = 9,
     site = 10,
+    source_modified = 11,
 };
 
 struct RecordHead {
@@ -65,7 +66,8 @@ std::string text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-bool read_number(std::span<const std::byte> bytes, std::int32_t& number) {
+template <class Number>
+bool read_number(std::span<const std::byte> bytes, Number& number) {
     if (bytes.size() != sizeof number) return false;
     std::memcpy(&number, bytes.data(), sizeof number);
     return true;
@@ -118,6 +120,8 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
         case RecordKind::note:
             provenance.notes.push_back(text_of(contents));
             return true;
+        case RecordKind::source_modified:
+            return read_number(contents, provenance.source_modified_ns);
         case RecordKind::site:
             return read_site(contents, description);
     }
@@ -142,6 +146,8 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
     append_record(bytes, RecordKind::vcp, std::as_bytes(std::span(&vcp, 1)));
     const std::int32_t partial = provenance.partial ? 1 : 0;
     append_record(bytes, RecordKind::partial, std::as_bytes(std::span(&partial, 1)));
+    const std::int64_t modified_ns = provenance.source_modified_ns;
+    append_record(bytes, RecordKind::source_modified, std::as_bytes(std::span(&modified_ns, 1)));
     for (const auto& note : provenance.notes)
         append_text(bytes, RecordKind::note, note);
     for (const auto& site : description.sites)

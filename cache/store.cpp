@@ -228,7 +228,8 @@ Result<fs::path> Store::commit(const std::string& domain, const GridDescription&
     Result<fs::path> path = path_of(domain, description.moment, description.time);
     if (!path) return path;
     const fs::path day = path->parent_path();
-    for (const fs::path& directory : {day.parent_path().parent_path(), day.parent_path(), day}) {
+    const fs::path& moment = day.parent_path();
+    for (const fs::path& directory : {directory_, moment.parent_path(), moment, day}) {
         if (Status made = make_directory(directory); !made) return pass_on(made);
     }
     const auto written = write_grid_file(*file_system_, *path, description, view);

@@ -21,11 +21,25 @@ std::string database_name(std::string_view station) {
     return std::string{is_icao(station) ? station : unknown_station};
 }
 
+// Of a station that a user asks for. Lower case is no other station's answer.
+Result<std::string> name_asked_for(std::string_view station) {
+    if (station.empty() || is_icao(station)) return database_name(station);
+    return fail(ErrorCode::bad_argument, "'{}' is no station: four letters and digits, as in KTLX",
+                station);
+}
+
 // The station that a path seems to belong to, as a first guess of where its row stands.
 std::string guessed_station(const fs::path& path) {
     std::string name = path.filename().string().substr(0, 4);
     if (is_icao(name)) return name;
     return database_name(path.parent_path().filename().string());
+}
+
+// Of another station's database: whether it concerns a file of this one. A damaged, foreign or
+// missing database does not; it is named when its own station's files come, or when it is asked.
+bool is_ours_to_solve(const Error& error) {
+    return error.code != ErrorCode::not_found && error.code != ErrorCode::corrupt &&
+           error.code != ErrorCode::unsupported;
 }
 
 }  // namespace
@@ -75,7 +89,7 @@ struct Catalog::Impl {
         try {
             return work(*place.database);
         } catch (const SQLite::Exception& error) {
-            return fail(ErrorCode::io, "{}: {}", path.native(), error.what());
+            return fail(code_of(error), "{}: {}", path.native(), error.what());
         }
     }
 
@@ -131,14 +145,17 @@ Result<Registered> Catalog::register_file(const FileFacts& facts) {
     auto registered = impl_->with(
         name, true, [&](StationDatabase& database) { return database.register_file(facts); });
     if (!registered) return registered;
-    if (name != unknown_station) {
-        // Its station may not have been known when the file was smaller.
-        const auto forgotten =
-            impl_->with(std::string{unknown_station}, false, [&](StationDatabase& database) {
-                database.forget(facts.path);
-                return true;
-            });
-        if (!forgotten && forgotten.error().code != ErrorCode::not_found) return pass_on(forgotten);
+    // What stood there before may have been of another station, or of none that was known.
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    for (const std::string& other : *names) {
+        if (other == name) continue;
+        const auto forgotten = impl_->with(other, false, [&](StationDatabase& database) {
+            database.forget(facts.path);
+            return true;
+        });
+        // A damaged database of another station must not hold this file up.
+        if (!forgotten && is_ours_to_solve(forgotten.error())) return pass_on(forgotten);
     }
     return registered;
 }
@@ -150,8 +167,31 @@ Result<int> Catalog::mark_gone(const fs::path& path) {
     for (const std::string& name : *names) {
         const auto here = impl_->with(
             name, false, [&](StationDatabase& database) { return database.mark_gone(path); });
-        if (!here) return pass_on(here);
-        marked += *here;
+        if (!here && is_ours_to_solve(here.error())) return pass_on(here);
+        marked += here.value_or(0);
+    }
+    return marked;
+}
+
+Result<int> Catalog::mark_missing(const fs::path& directory) {
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    int marked = 0;
+    for (const std::string& name : *names) {
+        const auto paths = impl_->with(name, false, [&](StationDatabase& database) {
+            return database.paths_below(directory);
+        });
+        if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
+        if (!paths) continue;
+        for (const fs::path& path : *paths) {
+            std::error_code error;
+            const fs::file_status status = fs::symlink_status(path, error);
+            if (status.type() != fs::file_type::not_found) continue;
+            const auto here = impl_->with(
+                name, false, [&](StationDatabase& database) { return database.mark_gone(path); });
+            if (!here) return pass_on(here);
+            marked += *here;
+        }
     }
     return marked;
 }
@@ -171,8 +211,8 @@ Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
     for (const std::string& name : *names) {
         if (name == guess) continue;
         const auto here = impl_->with(name, false, ask);
-        if (!here) return pass_on(here);
-        if (here->has_value()) return **here;
+        if (!here && is_ours_to_solve(here.error())) return pass_on(here);
+        if (here && here->has_value()) return **here;
     }
     return false;
 }
@@ -191,17 +231,23 @@ Result<std::vector<StationSummary>> Catalog::stations() {
 }
 
 Result<std::vector<CatalogEntry>> Catalog::list(std::string_view station, const Query& query) {
-    return impl_->with(database_name(station), false,
+    const auto name = name_asked_for(station);
+    if (!name) return pass_on(name);
+    return impl_->with(*name, false,
                        [&](StationDatabase& database) { return database.list(query); });
 }
 
 Result<std::optional<CatalogEntry>> Catalog::latest(std::string_view station) {
-    return impl_->with(database_name(station), false,
+    const auto name = name_asked_for(station);
+    if (!name) return pass_on(name);
+    return impl_->with(*name, false,
                        [](StationDatabase& database) { return database.first(true); });
 }
 
 Result<std::optional<CatalogEntry>> Catalog::oldest(std::string_view station) {
-    return impl_->with(database_name(station), false,
+    const auto name = name_asked_for(station);
+    if (!name) return pass_on(name);
+    return impl_->with(*name, false,
                        [](StationDatabase& database) { return database.first(false); });
 }
 

@@ -7,13 +7,16 @@
 // gets the next generation.
 // Tables: file (one row a raw file), volume (station, start, number, generation), part (which file
 // holds which volume).
-// Errors: io (SQLite's reason), corrupt (not our database, or a later version), not_found.
+// Errors: io, no_space, permission (SQLite's reason), corrupt (damaged, or not our database),
+// unsupported (a later version), not_found. What concerns one station is not held up by the
+// damaged database of another.
 // Thread contract: a Catalog may be used by many threads (a mutex a database inside); many
 // processes may read while one writes.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +38,10 @@ enum class FileState {
 [[nodiscard]] std::string_view file_state_name(FileState state);
 [[nodiscard]] std::optional<FileState> file_state_from_name(std::string_view name);
 
+// The modification time of a file that could not be read: it is never settled, and tried again
+// when it is next looked at.
+inline constexpr std::int64_t never_read_ns = std::numeric_limits<std::int64_t>::min();
+
 // A volume as a file holds it.
 struct VolumeFacts {
     std::optional<UtcTime> start_time;
@@ -50,7 +57,7 @@ struct FileFacts {
     std::filesystem::path path;  // absolute
     std::string station;         // ICAO, or empty: unknown
     std::uint64_t size_bytes = 0;
-    std::int64_t modified_ns = 0;  // since the epoch
+    std::int64_t modified_ns = 0;  // since the epoch; never_read_ns: its contents are unknown
     std::uint64_t content_hash = 0;
     FileState state = FileState::seen;
     std::string reason;                // why rejected or partial; one line
@@ -100,6 +107,9 @@ class Catalog {
     Result<Registered> register_file(const FileFacts& facts);
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
+
+    // The same for every row below the directory: what went while nobody watched.
+    Result<int> mark_missing(const std::filesystem::path& directory);
 
     // True when the path stands in the catalog with this size and modification time and was decoded
     // to its end (complete, partial or rejected): nothing to do again.

@@ -64,21 +64,6 @@ std::string uri_of(const fs::path& path, std::string_view query) {
     return uri + std::string{query};
 }
 
-ErrorCode code_of(const SQLite::Exception& error) {
-    switch (error.getErrorCode()) {
-        case SQLITE_CORRUPT:
-        case SQLITE_NOTADB:
-            return ErrorCode::corrupt;
-        case SQLITE_FULL:
-            return ErrorCode::no_space;
-        case SQLITE_READONLY:
-        case SQLITE_PERM:
-            return ErrorCode::permission;
-        default:
-            return ErrorCode::io;
-    }
-}
-
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
     return fail(code_of(error), "{}: {}", path.native(), error.what());
 }
@@ -117,6 +102,21 @@ constexpr const char* entry_join =
     "FROM volume v JOIN part p ON p.volume_id = v.id JOIN file f ON f.id = p.file_id ";
 
 }  // namespace
+
+ErrorCode code_of(const SQLite::Exception& error) {
+    switch (error.getErrorCode()) {
+        case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
+            return ErrorCode::corrupt;
+        case SQLITE_FULL:
+            return ErrorCode::no_space;
+        case SQLITE_READONLY:
+        case SQLITE_PERM:
+            return ErrorCode::permission;
+        default:
+            return ErrorCode::io;
+    }
+}
 
 StationDatabase::StationDatabase(const std::string& uri, int flags, std::string station)
     : database_(uri, flags | SQLite::OPEN_URI, busy_timeout_ms), station_(std::move(station)) {}
@@ -259,7 +259,22 @@ int StationDatabase::mark_gone(const fs::path& path) {
     return update.exec();
 }
 
+std::vector<fs::path> StationDatabase::paths_below(const fs::path& directory) {
+    const std::string start = directory.native() + "/";
+    SQLite::Statement rows(database_, "SELECT path FROM file WHERE state <> 'gone'");
+    std::vector<fs::path> paths;
+    while (rows.executeStep()) {
+        std::string path = rows.getColumn(0).getString();
+        if (path.starts_with(start)) paths.emplace_back(std::move(path));
+    }
+    return paths;
+}
+
 void StationDatabase::forget(const fs::path& path) {
+    SQLite::Statement known(database_, "SELECT 1 FROM file WHERE path = ?");
+    bind_path(known, 1, path);
+    if (!known.executeStep()) return;
+    known.reset();
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
     SQLite::Statement remove(database_, "DELETE FROM file WHERE path = ?");
     bind_path(remove, 1, path);

@@ -15,6 +15,9 @@
 
 namespace stormcellar::catalog {
 
+// What an SQLite failure is to a caller.
+[[nodiscard]] ErrorCode code_of(const SQLite::Exception& error);
+
 class StationDatabase {
   public:
     // Creates the file and its tables when they are missing. unsupported or corrupt for a database
@@ -26,6 +29,8 @@ class StationDatabase {
 
     Registered register_file(const FileFacts& facts);
     int mark_gone(const std::filesystem::path& path);
+    // Of the rows that are not gone.
+    std::vector<std::filesystem::path> paths_below(const std::filesystem::path& directory);
     void forget(const std::filesystem::path& path);
     // None when the path has no row.
     std::optional<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,

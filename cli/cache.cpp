@@ -130,10 +130,10 @@ Command add_cache(CLI::App& app) {
     return {command, [=]() -> int {
                 const auto entries = matching(*options);
                 if (!entries) return report_error(entries.error());
-                if (entries->empty()) return exit_nothing_matched;
-                if (stat->parsed()) return run_stat(*options, *entries);
-                return verify->parsed() ? run_verify(*options, *entries)
-                                        : run_list(*options, *entries);
+                const int status = stat->parsed()     ? run_stat(*options, *entries)
+                                   : verify->parsed() ? run_verify(*options, *entries)
+                                                      : run_list(*options, *entries);
+                return entries->empty() ? report_nothing_matched() : status;
             }};
 }
 

@@ -2,6 +2,7 @@
 #include "catalog/catalog.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -66,7 +67,7 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
         for (const CatalogEntry& entry : entries)
             print_entry(entry);
     }
-    return entries.empty() ? exit_nothing_matched : exit_done;
+    return entries.empty() ? report_nothing_matched() : exit_done;
 }
 
 int run_stations(const CatalogOptions& options) {
@@ -92,7 +93,7 @@ int run_stations(const CatalogOptions& options) {
                                   : "");
     }
     if (options.json) print_json(document);
-    return stations->empty() ? exit_nothing_matched : exit_done;
+    return stations->empty() ? report_nothing_matched() : exit_done;
 }
 
 // The entries that the options name, of one station or of all.
@@ -115,14 +116,16 @@ Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options) {
     return all;
 }
 
+// A station that the catalog does not know is nothing that matched; a missing catalog is a failure.
+int report_query_error(const Error& error, const CatalogOptions& options) {
+    const int status = report_error(error);
+    const bool unknown = error.code == ErrorCode::not_found && fs::is_directory(options.directory);
+    return unknown ? exit_nothing_matched : status;
+}
+
 int run_list(const CatalogOptions& options) {
     const auto entries = matching(options);
-    if (!entries && entries.error().code == ErrorCode::not_found &&
-        fs::is_directory(options.directory)) {
-        report_error(entries.error());
-        return exit_nothing_matched;
-    }
-    if (!entries) return report_error(entries.error());
+    if (!entries) return report_query_error(entries.error(), options);
     return print_entries(*entries, options.json);
 }
 
@@ -130,11 +133,8 @@ int run_one(const CatalogOptions& options, bool latest) {
     auto opened = Catalog::open_for_reading(options.directory);
     if (!opened) return report_error(opened.error());
     const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
-    if (!entry) {
-        report_error(entry.error());
-        return entry.error().code == ErrorCode::not_found ? exit_nothing_matched : exit_failed;
-    }
-    if (!entry->has_value()) return exit_nothing_matched;
+    if (!entry) return report_query_error(entry.error(), options);
+    if (!entry->has_value()) return report_nothing_matched();
     if (options.json) {
         print_json(to_json(**entry));
     } else {
@@ -144,19 +144,23 @@ int run_one(const CatalogOptions& options, bool latest) {
 }
 
 // Copies one raw file; an existing file is left alone unless --force.
-Status copy_raw(const fs::path& from, const fs::path& to, bool force) {
+Status copy_raw(const CatalogEntry& entry, const fs::path& to, bool force) {
     if (!force && fs::exists(to)) {
         return fail(ErrorCode::bad_argument, "{}: exists (--force replaces it)", to.native());
     }
-    const auto bytes = read_file(from);
+    const auto bytes = read_file(entry.path);
     if (!bytes) return pass_on(bytes);
+    if (bytes->size() != entry.size_bytes) {
+        return fail(ErrorCode::corrupt, "{}: has {} bytes and not the {} of the catalog",
+                    entry.path.native(), bytes->size(), entry.size_bytes);
+    }
     return write_file_atomically(real_file_system(), to, *bytes);
 }
 
 int run_get(const CatalogOptions& options) {
     const auto entries = matching(options);
-    if (!entries) return report_error(entries.error());
-    if (entries->empty()) return exit_nothing_matched;
+    if (!entries) return report_query_error(entries.error(), options);
+    if (entries->empty()) return report_nothing_matched();
     std::error_code error;
     fs::create_directories(options.output, error);
     if (error) {
@@ -164,12 +168,16 @@ int run_get(const CatalogOptions& options) {
             {ErrorCode::io, fmt::format("{}: {}", options.output, error.message())});
     }
     int status = exit_done;
-    fs::path last;
+    std::map<fs::path, fs::path> copies;  // and what each was copied from
     for (const CatalogEntry& entry : *entries) {
-        if (entry.path == last) continue;  // a file of several volumes is one file
-        last = entry.path;
         const fs::path to = fs::path{options.output} / entry.path.filename();
-        if (const Status copied = copy_raw(entry.path, to, options.force); !copied) {
+        const auto [copy, is_new] = copies.emplace(to, entry.path);
+        if (!is_new && copy->second == entry.path) continue;  // a file of several volumes
+        const Status copied =
+            is_new ? copy_raw(entry, to, options.force)
+                   : fail(ErrorCode::bad_argument, "{}: not copied, {} has the same name",
+                          entry.path.native(), copy->second.native());
+        if (!copied) {
             status = report_error(copied.error());
             continue;
         }

@@ -108,6 +108,9 @@ int run_frame(const FrameOptions& options) {
         return report_error({ErrorCode::bad_argument,
                              fmt::format("{}: a frame is written as .png", options.output)});
     }
+    if (const Status writable = check_target(options.output); !writable) {
+        return report_error(writable.error());
+    }
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
     const auto store = cache::Store::open_for_reading(options.cache);

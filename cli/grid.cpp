@@ -338,6 +338,14 @@ int run_grid(const GridOptions& options) {
     const auto request = parse_request(options);
     if (!request) return report_error(request.error());
     Timings timings;
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options.files.front(), options.output, ignored)) {
+        return report_error(
+            {ErrorCode::bad_argument, fmt::format("{}: is the volume itself", options.output)});
+    }
+    if (const Status writable = check_target(options.output); !writable) {
+        return report_error(writable.error());
+    }
     const auto made = grid_file(options.files.front(), *request, timings);
     if (!made) return report_error(made.error());
     Stopwatch watch;

@@ -1,7 +1,9 @@
 // stormcellar: the command line. One subcommand a file; see cli/commands.h.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -31,6 +33,14 @@ std::string help_of(const CLI::App& app) {
         return fmt::format("stormcellar {}", command->get_name());
     }
     return "stormcellar";
+}
+
+// What was printed counts as done only when it arrived.
+int flushed(int status) {
+    const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    if (!failed) return status;
+    fmt::print(stderr, "stormcellar: standard output cannot be written\n");
+    return status == exit_done ? exit_failed : status;
 }
 
 int run(int argc, char** argv) {
@@ -70,7 +80,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return stormcellar::cli::run(argc, argv);
+        return stormcellar::cli::flushed(stormcellar::cli::run(argc, argv));
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "stormcellar: it takes more memory than there is\n");
+        return stormcellar::cli::exit_failed;
     } catch (const std::exception& error) {
         fmt::print(stderr, "stormcellar: {}\n", stormcellar::cli::printable(error.what()));
         return stormcellar::cli::exit_failed;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands.h"
+
 namespace stormcellar::cli {
 
 void add_time_range(CLI::App& app, TimeRangeOptions& options) {
@@ -32,6 +34,11 @@ Result<TimeRange> parse_time_range(const TimeRangeOptions& options) {
 
 void print_json(const nlohmann::json& document) {
     fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+int report_nothing_matched() {
+    fmt::print(stderr, "stormcellar: nothing matched\n");
+    return exit_nothing_matched;
 }
 
 nlohmann::json json_time(const std::optional<UtcTime>& time) {

@@ -28,6 +28,9 @@ struct TimeRange {
 // The document on stdout, two spaces a level. Bytes that are not UTF-8 become U+FFFD.
 void print_json(const nlohmann::json& document);
 
+// Says so on stderr; gives the exit status.
+int report_nothing_matched();
+
 [[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none
 
 }  // namespace stormcellar::cli

@@ -1,7 +1,6 @@
 // stormcellar replay SOURCE... DROP: play files into a drop directory as LDM would.
 #include "synth/replay.h"
 
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -16,7 +15,7 @@ namespace {
 
 struct ReplayCommandOptions {
     std::vector<std::string> places;  // sources, and the drop directory as the last
-    synth::Delivery delivery = synth::Delivery::whole;
+    std::string delivery = "whole";
     std::optional<double> interval_s;
     double speed = 1;
     bool json = false;
@@ -41,7 +40,8 @@ int run_replay(const ReplayCommandOptions& options) {
     Interrupt interrupt;
     Progress progress("files", items->size(), !options.json);
     synth::ReplayOptions replay_options;
-    replay_options.delivery = options.delivery;
+    replay_options.delivery =
+        options.delivery == "growing" ? synth::Delivery::growing : synth::Delivery::whole;
     replay_options.interval_s = options.interval_s;
     replay_options.speed = options.speed;
     replay_options.stop = &interrupt.flag();
@@ -72,12 +72,10 @@ Command add_replay(CLI::App& app) {
         ->required()
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");
-    const std::map<std::string, synth::Delivery> deliveries{{"whole", synth::Delivery::whole},
-                                                            {"growing", synth::Delivery::growing}};
     replay
         ->add_option("--as", options->delivery,
                      "Whole: renamed when complete; growing: appended and closed again and again")
-        ->transform(CLI::CheckedTransformer(deliveries).description(""))
+        ->check(CLI::IsMember({"whole", "growing"}))
         ->option_text("whole|growing");
     auto* interval = replay->add_option("--interval", options->interval_s,
                                         "Seconds from file to file, whatever their times");

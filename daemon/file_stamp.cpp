@@ -2,9 +2,17 @@
 
 namespace stormcellar::daemon {
 
+namespace {
+
+std::int64_t nanoseconds(const timespec& time) {
+    return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+}  // namespace
+
 FileStamp stamp_of(const struct stat& facts) {
     return {static_cast<std::uint64_t>(facts.st_ino), static_cast<std::uint64_t>(facts.st_size),
-            std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec};
+            nanoseconds(facts.st_mtim), nanoseconds(facts.st_ctim)};
 }
 
 FileFound look_at(const std::filesystem::path& path) {

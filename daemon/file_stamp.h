@@ -13,6 +13,7 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
+    std::int64_t changed_ns = 0;  // the same of its rights and owner: an unreadable file was mended
 
     bool operator==(const FileStamp&) const = default;
 };

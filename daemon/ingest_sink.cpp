@@ -5,7 +5,8 @@
 namespace stormcellar::daemon {
 
 IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config)
-    : catalog_(std::move(catalog)),
+    : drop_(config.drop),
+      catalog_(std::move(catalog)),
       store_(std::move(store)),
       ingestor_(catalog_, store_, config.ingest) {}
 

@@ -15,10 +15,12 @@ class IngestSink final : public Sink {
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override;
+    Result<int> mark_missing() override { return catalog_.mark_missing(drop_); }
 
   private:
     IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config);
 
+    std::filesystem::path drop_;
     catalog::Catalog catalog_;
     cache::Store store_;
     pipeline::Ingestor ingestor_;

@@ -29,7 +29,7 @@ std::string describe_gridded(const Finished& finished) {
     const std::optional<double> latency = latency_of(finished);
     const double took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
     return fmt::format("gridded {}{}: {}, read {:.0f} decode {:.0f} grid {:.0f} commit {:.0f} ms{}",
-                       outcome.reason.empty() ? "" : "partial ", subject(finished),
+                       outcome.partial ? "partial " : "", subject(finished),
                        latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
                                : fmt::format("{:.0f} ms", took_s * 1000),
                        outcome.read_s * 1000, outcome.decode_s * 1000, outcome.grid_s * 1000,

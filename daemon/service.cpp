@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <system_error>
 #include <utility>
 
 #include <poll.h>
@@ -165,12 +166,33 @@ bool Service::scan() {
         spdlog::info("drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
+    if (scanned) mark_missing();
     status_.count_scan(watcher_.directory_count());
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
     rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
     next_scan_ = std::max(ended + config_.rescan, rested_);
     return scanned.has_value();
+}
+
+// In a thread of its own: it looks at every file of the catalog.
+void Service::mark_missing() {
+    const bool busy =
+        missing_.valid() && missing_.wait_for(std::chrono::seconds{0}) != std::future_status::ready;
+    if (busy) return;
+    const auto look = [this] {
+        const Result<int> marked = parts_.sink.mark_missing();
+        if (!marked) {
+            spdlog::warn("cannot look for files that went: {}", printable(marked.error().message));
+        } else if (*marked > 0) {
+            spdlog::info("{} files went while nobody watched", *marked);
+        }
+    };
+    try {
+        missing_ = std::async(std::launch::async, look);
+    } catch (const std::system_error& error) {  // no thread to be had
+        spdlog::warn("cannot look for files that went: {}", error.what());
+    }
 }
 
 void Service::start_jobs() {

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <future>
 #include <optional>
 
 #include "base/file_system.h"
@@ -62,6 +63,7 @@ class Service {
     void collect();
     void scan_if_due();
     bool scan();
+    void mark_missing();
     void start_jobs();
     void keep_house();
     [[nodiscard]] SteadyTime next_time() const;
@@ -80,6 +82,7 @@ class Service {
     bool drop_missing_ = false;
     SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
     WorkerPool pool_;                    // last: its threads use what stands above
+    std::future<void> missing_;          // the last member: waited for before the rest goes
 };
 
 }  // namespace stormcellar::daemon

@@ -73,7 +73,7 @@ void StatusBook::add_ingested(const Finished& finished) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     ++ingested_;
     grids_ += outcome.grids.size();
-    if (!outcome.reason.empty()) ++partial_;
+    if (outcome.partial) ++partial_;
     const std::optional<double> latency = latency_of(finished);
     if (latency) push_bounded(latencies_, *latency, most_latencies);
     push_bounded(
@@ -133,7 +133,8 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
                                        {"grid_s", volume.grid_s},
                                        {"commit_s", volume.commit_s}});
     }
-    return document.dump(1) + "\n";
+    // Texts were made printable; whatever else a name may bring must not end the service.
+    return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string StatusBook::line(const Pending& pending) const {

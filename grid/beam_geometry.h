@@ -7,11 +7,11 @@
 // Source  Doviak & Zrnic (1993) eqs 2.28b-c, rearranged so that nothing cancels.
 // Threads a BeamGeometry is immutable.
 // Accuracy (each line enforced by tests/grid/beam_geometry_test.cpp)
-//   height, arc  1e-9 m of the formula in 113-bit floats, range [-1, 470] km, elevation [-5, 60]
-//   deg round trip   1e-9 m and 1e-12 deg, ranges of 1 km and more float        do not narrow: the
-//   same formula in float errs by 0.1 m NOT covered  the model itself (radius along the azimuth: 7
-//   m at 230 km, 28 m at 460 km, 35 N;
-//                refraction other than 4/3: docs/geometry.md)
+//   height, arc: 1e-9 m of the formula in 113-bit floats, range [-1, 470] km, elevation [-5, 60]
+//   deg; round trip: 1e-9 m and 1e-12 deg, ranges of 1 km and more. Do not narrow: the same formula
+//   in float errs by 0.1 m.
+// Not covered is the model itself: the radius along the azimuth (7 m at 230 km, 28 m at 460 km,
+// 35 N), refraction other than 4/3 (docs/geometry.md).
 #pragma once
 
 namespace stormcellar::grid {

@@ -29,9 +29,11 @@ struct Provenance {
     std::string beam_model;                 // e.g. "4/3 earth"
     std::string averaging;                  // "dBZ" or "Z"
     std::string software_version;
-    int vcp = 0;                     // 0: unknown
-    bool partial = false;            // the volume was not complete
-    std::vector<std::string> notes;  // e.g. a position that disagrees with the table
+    int vcp = 0;           // 0: unknown
+    bool partial = false;  // the volume was not complete
+    // Of the newest source file, since the epoch: tells a re-sent volume from an older file of it.
+    std::int64_t source_modified_ns = 0;  // 0: unknown
+    std::vector<std::string> notes;       // e.g. a position that disagrees with the table
 };
 
 struct SitePosition {

@@ -6,6 +6,7 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int largest_side = 16384;
+constexpr std::uint64_t largest_cell_count = std::uint64_t{1} << 30;  // 5 GiB in memory
 constexpr int largest_level_count = 1024;
 constexpr double lowest_level_m = -1000;
 constexpr double highest_level_m = 60000;
@@ -68,7 +69,14 @@ Status validate(const GridSpec& spec) {
         return fail(ErrorCode::bad_argument, "the centre {}, {} is not on the earth",
                     spec.center_latitude_deg, spec.center_longitude_deg);
     }
-    return validate_levels(spec);
+    if (Status levels = validate_levels(spec); !levels) return levels;
+    const auto cells = static_cast<std::uint64_t>(spec.nx) * static_cast<std::uint64_t>(spec.ny) *
+                       static_cast<std::uint64_t>(spec.nz());
+    if (cells > largest_cell_count) {
+        return fail(ErrorCode::bad_argument, "{} x {} x {} are {} cells, more than {}", spec.nx,
+                    spec.ny, spec.nz(), cells, largest_cell_count);
+    }
+    return {};
 }
 
 }  // namespace stormcellar::grid

@@ -106,16 +106,18 @@ class RowFiller {
 
 void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                     Grid& grid) {
-    grid.start_time = UtcTime::max();
-    grid.end_time = UtcTime::min();
+    std::optional<UtcTime> first, last;
     for (const ChosenSweep& sweep : chosen) {
         for (const std::uint32_t radial : sweep.radials) {
             const UtcTime time = volume.sweeps[sweep.sweep_index].radials[radial].time;
-            grid.start_time = std::min(grid.start_time, time);
-            grid.end_time = std::max(grid.end_time, time);
+            if (!level2::is_plausible(time)) continue;
+            first = std::min(first.value_or(time), time);
+            last = std::max(last.value_or(time), time);
         }
     }
-    grid.time = volume.start_time().value_or(grid.start_time);
+    grid.time = volume.start_time().value_or(UtcTime{});
+    grid.start_time = first.value_or(grid.time);
+    grid.end_time = last.value_or(grid.time);
 }
 
 void describe(const level2::Volume& volume, const SitePosition& site,

@@ -61,6 +61,7 @@ class Decoder {
     Status check_arrays() const;
     Result<Decoded> finish();
     void report_position(const Volume& volume);
+    void report_time(const Volume& volume);
     void report_end(const Volume& volume);
     [[nodiscard]] std::size_t output_left() const {
         return static_cast<std::size_t>(options_.output_limit_bytes - produced_bytes_);
@@ -125,8 +126,9 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
             break;
     }
     if (read_archive_header(bytes)) {
-        if (bytes.size() == archive_header_bytes) {
-            return fail(ErrorCode::truncated, "holds a volume header and nothing else");
+        // Too short to know what it begins.
+        if (bytes.size() < archive_header_bytes + message_header_bytes) {
+            return fail(ErrorCode::truncated, "holds a volume header and next to nothing else");
         }
         return fail(ErrorCode::corrupt, "holds a volume header and no readable message");
     }
@@ -343,6 +345,7 @@ Result<Decoded> Decoder::finish() {
     if (volume.station.empty() && volume.header) volume.station = volume.header->icao;
     if (volume.station.empty()) volume.station = options_.fallback_station;
     report_position(volume);
+    report_time(volume);
     report_end(volume);
     report_.finish();
     decoded.report = std::move(report_data_);
@@ -360,10 +363,20 @@ Result<Decoded> Decoder::finish() {
 void Decoder::report_end(const Volume& volume) {
     if (volume.sweeps.empty()) {
         report_.add(Severity::warning, "no_radials", "metadata without radials");
-    } else if (volume.sweeps.back().radials.back().status !=
-               static_cast<std::uint8_t>(RadialStatus::end_of_volume)) {
+    } else if (!has_ended(volume)) {
         report_.add(Severity::warning, "no_end_of_volume",
                     "the volume stops before its end: its last radial is not marked as the last");
+    }
+}
+
+void Decoder::report_time(const Volume& volume) {
+    const auto start = volume.start_time();
+    if (volume.header && start != volume.header->time()) {
+        report_.add(Severity::warning, "header_time",
+                    fmt::format("the volume header's date, day {} of the radar's calendar, is {}",
+                                volume.header->date,
+                                start ? "not that of the radials: theirs is taken"
+                                      : "impossible, and no radial has a better one"));
     }
 }
 

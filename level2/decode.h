@@ -61,6 +61,14 @@ struct DecodeReport {
         VolumeHeader header;
     };
     std::vector<FurtherHeader> further_headers;
+    // The pattern of each further volume, as Volume has that of the first.
+    struct FurtherPattern {
+        std::size_t sweep = 0;
+        std::optional<Vcp> message;
+        std::optional<int> vcp;
+        VcpSource source = VcpSource::none;
+    };
+    std::vector<FurtherPattern> further_patterns;
     std::string message_station;  // ICAO of message 31; empty where there is none
     std::map<int, std::uint64_t> radial_compression;  // message 31: indicator, radials
     double decompress_s = 0;  // CPU seconds in decompression, all threads added

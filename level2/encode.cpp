@@ -68,6 +68,10 @@ Status check_sweep(const Sweep& sweep) {
         return refuse("elevation {} has radials every {} degrees, not 0.5 or 1", number, spacing);
     }
     for (const Radial& radial : sweep.radials) {
+        if (!fits<std::uint16_t>(nexrad_from_time(radial.time).day)) {
+            return refuse("elevation {} has a radial of {}; message 31 ends in 2149", number,
+                          format_utc(radial.time));
+        }
         if (!fits<std::uint16_t>(radial.nyquist_mps * 100.0) ||
             !fits<std::uint16_t>(radial.unambiguous_range_m / 100.0)) {
             return refuse("elevation {} has a Nyquist velocity of {} m/s at {} m", number,
@@ -89,6 +93,10 @@ Status check_volume(const Volume& volume) {
         if (!volume.header->icao.empty() && volume.header->icao.size() != 4) {
             return refuse("the header's site '{}' is not four characters", volume.header->icao);
         }
+    }
+    if (const auto start = volume.start_time();
+        start && !fits<std::uint16_t>(nexrad_from_time(*start).day)) {
+        return refuse("the volume begins at {}; messages end in 2149", format_utc(*start));
     }
     if (volume.radial_count() == 0) {
         if (!volume.header) return refuse("neither header nor radials");

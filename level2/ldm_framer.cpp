@@ -18,10 +18,15 @@ bool is_ldm_record(std::span<const std::byte> bytes) {
     return bytes.size() > control_word_bytes && is_bzip2(bytes.subspan(control_word_bytes));
 }
 
+LdmFramer::LdmFramer(std::span<const std::byte> bytes) : bytes_(bytes), zeros_from_(bytes.size()) {
+    while (zeros_from_ > 0 && bytes_[zeros_from_ - 1] == std::byte{0})
+        --zeros_from_;
+}
+
 bool LdmFramer::may_begin_at(std::size_t position) const {
     const auto rest = bytes_.subspan(position);
     if (rest.size() < control_word_bytes + bzip2_mark_bytes) return true;  // a tail, or the end
-    return is_ldm_record(rest) || read_archive_header(rest) || all_zero(rest);
+    return is_ldm_record(rest) || read_archive_header(rest) || position >= zeros_from_;
 }
 
 LdmPart LdmFramer::record(std::span<const std::byte> rest) {

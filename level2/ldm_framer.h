@@ -32,7 +32,7 @@ struct LdmPart {
 
 class LdmFramer {
   public:
-    explicit LdmFramer(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    explicit LdmFramer(std::span<const std::byte> bytes);
     [[nodiscard]] std::optional<LdmPart> next();
 
   private:
@@ -40,6 +40,7 @@ class LdmFramer {
     [[nodiscard]] bool may_begin_at(std::size_t position) const;
 
     std::span<const std::byte> bytes_;
+    std::size_t zeros_from_;  // nothing but zeros from here to the end
     std::size_t at_ = 0;
 };
 

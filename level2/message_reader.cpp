@@ -179,8 +179,14 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
         report_.damage("bad_radial", std::string{radial.error()}, offset_, message.size());
         return;
     }
+    const SweepBuilder::Added added = builder_.add(*radial);
+    if (added == SweepBuilder::Added::refused) {
+        report_.damage("bad_radial", "no sweep holds so many kinds of a moment", offset_,
+                       message.size());
+        return;
+    }
     ++report_.report().message_counts[header.type];
-    if (!builder_.add(*radial)) full_ = true;
+    full_ = added == SweepBuilder::Added::full;
 }
 
 void MessageFeed::append(std::span<const std::byte> bytes) {

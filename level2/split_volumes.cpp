@@ -21,6 +21,15 @@ std::optional<VolumeHeader> header_of(const DecodeReport& report, const Volume& 
     return header;
 }
 
+void set_pattern(const DecodeReport& report, std::size_t first_sweep, Volume& volume) {
+    for (const auto& pattern : report.further_patterns) {
+        if (pattern.sweep != first_sweep) continue;
+        volume.vcp_message = pattern.message;
+        volume.vcp = pattern.vcp;
+        volume.vcp_source = pattern.source;
+    }
+}
+
 }  // namespace
 
 std::vector<Volume> split_volumes(Decoded decoded) {
@@ -35,9 +44,13 @@ std::vector<Volume> split_volumes(Decoded decoded) {
         volume.header = i == 0 ? whole.header : header_of(decoded.report, whole, starts[i]);
         volume.station = whole.station;
         volume.block = whole.block;
-        volume.vcp_message = whole.vcp_message;
-        volume.vcp = whole.vcp;
-        volume.vcp_source = whole.vcp_source;
+        if (i == 0) {
+            volume.vcp_message = whole.vcp_message;
+            volume.vcp = whole.vcp;
+            volume.vcp_source = whole.vcp_source;
+        } else {
+            set_pattern(decoded.report, starts[i], volume);
+        }
     }
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const std::size_t end = i + 1 < starts.size() ? starts[i + 1] : whole.sweeps.size();

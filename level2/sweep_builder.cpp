@@ -12,10 +12,11 @@ namespace {
 constexpr std::size_t radials_half_degree = 720;
 constexpr std::size_t radials_one_degree = 368;
 constexpr std::size_t reserve_limit_bytes = std::size_t{4} << 20;
+// Real sweeps hold one or two kinds of a moment.
+constexpr std::ptrdiff_t most_kinds_of_a_moment = 16;
 
-// Radials with bad data have the top bit of the status set.
-RadialStatus status_of(const Radial& radial) {
-    return static_cast<RadialStatus>(radial.status & 0x7FU);
+VcpSource source_of(const Vcp& vcp) {
+    return vcp.message_type == 7 ? VcpSource::message_7 : VcpSource::message_5;
 }
 
 bool begins_sweep(const Radial& radial) {
@@ -30,6 +31,10 @@ std::size_t expected_radials(float azimuth_spacing_deg) {
 
 std::size_t bytes_per_code(const SweepMoment& moment) {
     return moment.word_size_bits == 8 ? 1 : 2;
+}
+
+std::uint64_t bytes_per_row(const SweepMoment& moment, std::int32_t stride) {
+    return sizeof(std::uint16_t) + static_cast<std::uint64_t>(stride) * bytes_per_code(moment);
 }
 
 // Calls the function with the array of codes that is in use.
@@ -112,9 +117,28 @@ void SweepBuilder::set_vcp(Vcp vcp) {
     if (!volume_.vcp_message) {
         volume_.vcp_message = vcp;
         volume_.vcp = vcp.pattern_number;
-        volume_.vcp_source = vcp.message_type == 7 ? VcpSource::message_7 : VcpSource::message_5;
+        volume_.vcp_source = source_of(vcp);
     }
     current_vcp_ = std::move(vcp);
+    vcp_is_new_ = true;
+}
+
+// What is known of the pattern of a volume that begins with this radial. An old message 5 counts
+// only as long as the radials name its pattern.
+DecodeReport::FurtherPattern SweepBuilder::pattern_of(const RadialMessage& message) {
+    const int named = message.vcp.value_or(0);
+    if (current_vcp_ && !vcp_is_new_ && named != 0 && named != current_vcp_->pattern_number) {
+        current_vcp_.reset();
+    }
+    DecodeReport::FurtherPattern pattern{volume_.sweeps.size(), current_vcp_, {}, VcpSource::none};
+    if (current_vcp_) {
+        pattern.vcp = current_vcp_->pattern_number;
+        pattern.source = source_of(*current_vcp_);
+    } else if (named != 0) {
+        pattern.vcp = named;
+        pattern.source = VcpSource::radial;
+    }
+    return pattern;
 }
 
 void SweepBuilder::further_header(const VolumeHeader& header) {
@@ -145,11 +169,13 @@ bool SweepBuilder::begins_volume(const RadialMessage& message) const {
 void SweepBuilder::begin_sweep(const RadialMessage& message) {
     if (begins_volume(message)) {
         volume_starts_.push_back(volume_.sweeps.size());
+        further_patterns_.push_back(pattern_of(message));
         if (pending_header_) {
             further_headers_.push_back({volume_.sweeps.size(), *pending_header_});
         }
     }
     pending_header_.reset();
+    vcp_is_new_ = false;
     end_sweep();
     Sweep& sweep = volume_.sweeps.emplace_back();
     sweep.elevation_number = message.elevation_number;
@@ -172,10 +198,16 @@ void SweepBuilder::end_sweep() {
     if (sweep.radials.capacity() > 2 * sweep.radials.size()) sweep.radials.shrink_to_fit();
 }
 
-SweepMoment& SweepBuilder::moment_for(Sweep& sweep, const MomentBlock& block) {
+SweepMoment* SweepBuilder::find_kind(Sweep& sweep, const MomentBlock& block) {
     for (SweepMoment& moment : sweep.moments) {
-        if (same_kind(moment, block)) return moment;
+        if (same_kind(moment, block)) return &moment;
     }
+    return nullptr;
+}
+
+// Room is made for the first kind of a moment: another one is rare and most often short.
+SweepMoment& SweepBuilder::begin_kind(Sweep& sweep, const MomentBlock& block) {
+    const bool first = sweep.find(block.moment) == nullptr;
     SweepMoment& moment = sweep.moments.emplace_back();
     moment.moment = block.moment;
     moment.first_gate_m = block.first_gate_m;
@@ -187,6 +219,7 @@ SweepMoment& SweepBuilder::moment_for(Sweep& sweep, const MomentBlock& block) {
     moment.control_flags = block.control_flags;
     moment.snr_threshold_db = block.snr_threshold_db;
     moment.folding_threshold_db = block.folding_threshold_db;
+    if (!first) return moment;
     const std::size_t rows = expected_radials(sweep.azimuth_spacing_deg);
     const std::size_t most = reserve_limit_bytes / bytes_per_code(moment);
     moment.gate_counts.reserve(rows);
@@ -194,45 +227,73 @@ SweepMoment& SweepBuilder::moment_for(Sweep& sweep, const MomentBlock& block) {
     return moment;
 }
 
-// Adds the row of the sweep's newest radial.
+// Adds the row of the sweep's newest radial. Its bytes are taken already where the kind was there.
 bool SweepBuilder::add_moment(Sweep& sweep, const MomentBlock& block) {
-    SweepMoment& moment = moment_for(sweep, block);
     const std::size_t rows = sweep.radials.size();
-    std::int32_t stride = moment.gate_stride;
-    // By a quarter at least, so that ever longer radials are not copied ever again; the end of the
-    // sweep takes the surplus back.
-    if (block.gates > stride) stride = std::max<std::int32_t>(block.gates, stride + stride / 4);
-    const std::size_t before =
-        moment.gate_counts.size() * static_cast<std::size_t>(moment.gate_stride);
-    const std::size_t after = rows * static_cast<std::size_t>(stride);
-    if (!take((after - before) * bytes_per_code(moment))) return false;
-    if (stride != moment.gate_stride) set_stride(moment, stride);
-    pad_rows(moment, rows - 1);
-    append_row(moment, block);
+    SweepMoment* moment = find_kind(sweep, block);
+    if (moment == nullptr) {
+        moment = &begin_kind(sweep, block);
+        if (!take(rows * bytes_per_row(*moment, moment->gate_stride))) return false;
+    }
+    if (block.gates > moment->gate_stride) {
+        // By a quarter at least, so that ever longer radials are not copied ever again; the end of
+        // the sweep takes the surplus back.
+        const std::int32_t stride =
+            std::max<std::int32_t>(block.gates, moment->gate_stride + moment->gate_stride / 4);
+        const auto more = static_cast<std::uint64_t>(stride - moment->gate_stride);
+        if (!take(rows * more * bytes_per_code(*moment))) return false;
+        set_stride(*moment, stride);
+    }
+    pad_rows(*moment, rows - 1);
+    append_row(*moment, block);
     return true;
 }
 
-bool SweepBuilder::add(const RadialMessage& message) {
+bool SweepBuilder::has_too_many_kinds(const Sweep& sweep, const RadialMessage& message) {
+    for (const MomentBlock& block : message.moments()) {
+        const auto same_moment = [&](const SweepMoment& m) { return m.moment == block.moment; };
+        const auto kinds = std::count_if(sweep.moments.begin(), sweep.moments.end(), same_moment);
+        const bool known = std::any_of(sweep.moments.begin(), sweep.moments.end(),
+                                       [&](const SweepMoment& m) { return same_kind(m, block); });
+        if (!known && kinds >= most_kinds_of_a_moment) return true;
+    }
+    return false;
+}
+
+// A radial's row in every kind of its sweep: those that it lacks are padded at the end.
+std::uint64_t SweepBuilder::row_bytes(const Sweep& sweep) {
+    std::uint64_t bytes = 0;
+    for (const SweepMoment& moment : sweep.moments)
+        bytes += bytes_per_row(moment, moment.gate_stride);
+    return bytes;
+}
+
+SweepBuilder::Added SweepBuilder::add(const RadialMessage& message) {
     const bool first_of_sweep =
         volume_.sweeps.empty() || begins_sweep(message.radial) || pending_header_ ||
         volume_.sweeps.back().elevation_number != message.elevation_number ||
         volume_.sweeps.back().message_type != message.message_type;
-    if (!take(sizeof(Radial) + (first_of_sweep ? sizeof(Sweep) : 0))) return false;
+    if (!first_of_sweep && has_too_many_kinds(volume_.sweeps.back(), message)) {
+        return Added::refused;
+    }
+    const std::uint64_t bytes = first_of_sweep ? sizeof(Sweep) : row_bytes(volume_.sweeps.back());
+    if (!take(sizeof(Radial) + bytes)) return Added::full;
     if (first_of_sweep) begin_sweep(message);
     note_station(message);
     volume_ended_ = status_of(message.radial) == RadialStatus::end_of_volume;
     Sweep& sweep = volume_.sweeps.back();
     sweep.radials.push_back(message.radial);
     for (const MomentBlock& block : message.moments()) {
-        if (!add_moment(sweep, block)) return false;
+        if (!add_moment(sweep, block)) return Added::full;
     }
-    return true;
+    return Added::added;
 }
 
 Volume SweepBuilder::finish(DecodeReport& report) {
     end_sweep();
     report.further_volume_starts = std::move(volume_starts_);
     report.further_headers = std::move(further_headers_);
+    report.further_patterns = std::move(further_patterns_);
     report.message_station = message_station_;
     report.complete = volume_ended_ && report.bytes_dropped == 0;
     volume_.station = std::move(message_station_);

@@ -28,6 +28,9 @@ constexpr std::array<MomentFacts, moment_count> moment_facts = {{
 // Clutter filter power: codes below this are flags (ICD 2620002 table XVII-I, data moment notes).
 constexpr std::uint16_t first_valid_cfp_code = 8;
 
+// They differ by up to 10 s in sound volumes, and by more where the first records are lost.
+constexpr std::chrono::hours header_tolerance{1};
+
 constexpr double altitude_tolerance_m = 30;
 constexpr double position_tolerance_deg = 0.01;
 // Sites have been moved by some kilometres, so the radar is believed within this; a radar that
@@ -134,12 +137,30 @@ std::optional<int> VolumeHeader::volume_number() const {
     return number;
 }
 
+bool is_plausible(UtcTime time) {
+    using namespace std::chrono;
+    return UtcTime{} <= time && time < UtcTime{sys_days{year{2150} / 1 / 1}};
+}
+
+RadialStatus status_of(const Radial& radial) {
+    return static_cast<RadialStatus>(radial.status & 0x7FU);
+}
+
+bool has_ended(const Volume& volume) {
+    if (volume.sweeps.empty() || volume.sweeps.back().radials.empty()) return false;
+    return status_of(volume.sweeps.back().radials.back()) == RadialStatus::end_of_volume;
+}
+
 std::optional<UtcTime> Volume::start_time() const {
-    if (header && header->date != 0) return header->time();
+    std::optional<UtcTime> first;
     for (const Sweep& sweep : sweeps) {
-        if (!sweep.radials.empty()) return sweep.radials.front().time;
+        for (const Radial& radial : sweep.radials) {
+            if (!first && is_plausible(radial.time)) first = radial.time;
+        }
     }
-    return std::nullopt;
+    if (!header || !is_plausible(header->time())) return first;
+    if (first && std::chrono::abs(header->time() - *first) > header_tolerance) return first;
+    return header->time();
 }
 
 std::size_t Volume::radial_count() const {

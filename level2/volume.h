@@ -197,10 +197,20 @@ struct Volume {
     VcpSource vcp_source = VcpSource::none;
     std::vector<Sweep> sweeps;  // file order
 
-    // Start of the volume: the header's time, else the first radial's; none with neither.
+    // Start of the volume: the header's time, else the first radial's, of those that are plausible.
+    // A header that is more than an hour off its radials is not believed.
     [[nodiscard]] std::optional<UtcTime> start_time() const;
     [[nodiscard]] std::size_t radial_count() const;
 };
+
+// Whether a radar can have meant this time: 1970 to 2149, the years that messages can say. A day
+// number of 0 stands for no time.
+[[nodiscard]] bool is_plausible(UtcTime time);
+
+// Without the top bit, which marks bad data.
+[[nodiscard]] RadialStatus status_of(const Radial& radial);
+// The last radial is marked as the volume's last.
+[[nodiscard]] bool has_ended(const Volume& volume);
 
 // Where the antenna stands (DESIGN section 5): altitude = site height + tower height of message
 // 31; where the two are equal (TDWR) the site height alone. More than 30 m from the station table,

@@ -24,12 +24,6 @@ Result<FileStamp> stamp_of(const std::filesystem::path& path) {
         S_ISREG(facts.st_mode)};
 }
 
-bool has_ended(const level2::Volume& volume) {
-    if (volume.sweeps.empty() || volume.sweeps.back().radials.empty()) return false;
-    return volume.sweeps.back().radials.back().status ==
-           static_cast<std::uint8_t>(level2::RadialStatus::end_of_volume);
-}
-
 catalog::VolumeFacts facts_of(const level2::Volume& volume) {
     catalog::VolumeFacts facts;
     facts.start_time = volume.start_time();
@@ -37,9 +31,10 @@ catalog::VolumeFacts facts_of(const level2::Volume& volume) {
     facts.vcp = volume.vcp;
     facts.sweep_count = static_cast<int>(volume.sweeps.size());
     facts.radial_count = static_cast<int>(volume.radial_count());
-    facts.complete = has_ended(volume);
+    facts.complete = level2::has_ended(volume);
     for (const level2::Sweep& sweep : volume.sweeps) {
         for (const level2::Radial& radial : sweep.radials) {
+            if (!level2::is_plausible(radial.time)) continue;
             facts.end_time = std::max(facts.end_time.value_or(radial.time), radial.time);
         }
     }

@@ -26,9 +26,6 @@ struct FileStamp {
 
 [[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume);
 
-// Whether the last radial of the volume says that the volume ends with it.
-[[nodiscard]] bool has_ended(const level2::Volume& volume);
-
 // The gravest problem in one line, with how many there are; empty when there are none that count.
 [[nodiscard]] std::string reason_of(const level2::DecodeReport& report);
 

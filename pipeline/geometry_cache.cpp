@@ -27,6 +27,8 @@ Result<std::shared_ptr<const grid::ColumnGeometry>> GeometryCache::get(
     if (auto found = find(site, spec)) return found;
     auto made = grid::make_column_geometry(site, spec);
     if (!made) return made;
+    // Another thread may have made the same meanwhile.
+    if (auto found = find(site, spec)) return found;
     const std::scoped_lock lock(mutex_);
     entries_.push_front({site, spec, *made});
     if (entries_.size() > capacity_) entries_.pop_back();

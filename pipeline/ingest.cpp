@@ -1,11 +1,16 @@
 #include "pipeline/ingest.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/checksum.h"
 #include "base/file_system.h"
+#include "cache/grid_file.h"
 #include "grid/brick_grid.h"
 #include "level2/decode.h"
 #include "pipeline/file_facts.h"
@@ -22,6 +27,18 @@ using Clock = std::chrono::steady_clock;
 // A geometry of the default grid takes a few MiB.
 constexpr std::size_t kept_geometries = 16;
 
+// Counts a file in while it is worked on.
+class Running {
+  public:
+    explicit Running(std::atomic<int>& count) : count_(count) { ++count_; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { --count_; }
+
+  private:
+    std::atomic<int>& count_;
+};
+
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -37,13 +54,44 @@ std::string without_path(const std::string& message, const fs::path& path) {
     return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
+// Why the grid that stands must stay: it is whole and the new one is not, or its file is newer.
+// None when it is to be replaced, as one that is damaged or was made otherwise always is.
+std::optional<std::string> reason_to_keep(const fs::path& path, const grid::Grid& made) {
+    std::error_code error;
+    if (!fs::exists(path, error)) return std::nullopt;
+    const auto file = cache::GridFile::open(path);
+    if (!file) return std::nullopt;
+    const auto& stands = file->description();
+    if (stands.spec != made.spec || stands.moment != made.moment) return std::nullopt;
+    const auto& old = stands.provenance;
+    const bool better = !old.partial && made.provenance.partial;
+    const bool worse = old.partial && !made.provenance.partial;
+    if (better) return "a grid of the whole volume stands in the cache";
+    if (!worse && old.source_modified_ns > made.provenance.source_modified_ns) {
+        return "a grid of a newer file of this volume stands in the cache";
+    }
+    return std::nullopt;
+}
+
+// Whether another try cannot help: the fault lies in what the file says.
+bool is_of_the_data(const Error& error) {
+    return error.code == ErrorCode::bad_argument || error.code == ErrorCode::corrupt ||
+           error.code == ErrorCode::unsupported;
+}
+
 }  // namespace
 
 struct Ingestor::Impl {
+    Impl(catalog::Catalog& its_catalog, const cache::Store& its_store, IngestOptions its_options)
+        : catalog(its_catalog), store(its_store), options(std::move(its_options)) {}
+
     catalog::Catalog& catalog;
     const cache::Store& store;
     IngestOptions options;
     GeometryCache geometries{kept_geometries};
+    std::atomic<int> running{0};
+    std::array<std::mutex, 16>
+        commits;  // one at a time for each grid file, by the hash of its path
 
     Result<IngestOutcome> reject(const FileFacts& facts, std::string reason, IngestOutcome outcome);
     Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
@@ -52,10 +100,12 @@ struct Ingestor::Impl {
                                    const std::vector<level2::Volume>& volumes,
                                    IngestOutcome outcome);
     Status grid_one(const FileFacts& facts, const level2::Volume& volume, IngestOutcome& outcome);
+    Result<fs::path> commit(const grid::Grid& made, IngestOutcome& outcome);
+    [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
 };
 
 Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
-    : impl_(new Impl{catalog, store, std::move(options), GeometryCache{kept_geometries}}) {}
+    : impl_(new Impl(catalog, store, std::move(options))) {}
 Ingestor::~Ingestor() = default;
 
 Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string reason,
@@ -94,21 +144,35 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
     if (!geometry) return pass_on(geometry);
     grid::GridderOptions gridder;
     gridder.moment = options.moment;
-    gridder.threads = options.grid_threads;
+    gridder.threads = share_of(options.grid_threads);
     auto made = grid::make_grid(volume, site, **geometry, gridder);
     if (!made) return pass_on(made);
     made->provenance.source_files = {facts.path.filename().string()};
-    made->provenance.partial = facts.state != FileState::complete;
+    made->provenance.source_modified_ns = facts.modified_ns;
+    made->provenance.partial = !level2::has_ended(volume) || facts.state != FileState::complete;
     if (antenna->disagreement) made->provenance.notes.push_back(*antenna->disagreement);
-    const auto bricks = grid::BrickGrid::from(*made, grid::default_quantization(options.moment));
     outcome.grid_s += seconds_since(start);
+    outcome.partial = outcome.partial || made->provenance.partial;
 
     const auto commit_start = Clock::now();
-    auto path = store.commit(volume.station, cache::describe(*made), bricks.view());
+    auto path = commit(*made, outcome);
     outcome.commit_s += seconds_since(commit_start);
     if (!path) return pass_on(path);
     outcome.grids.push_back(std::move(*path));
     return {};
+}
+
+Result<fs::path> Ingestor::Impl::commit(const grid::Grid& made, IngestOutcome& outcome) {
+    const std::string& domain = made.sites.front().icao;
+    auto path = store.path_of(domain, made.moment, made.time);
+    if (!path) return path;
+    const auto bricks = grid::BrickGrid::from(made, grid::default_quantization(options.moment));
+    const std::scoped_lock lock(commits.at(fs::hash_value(*path) % commits.size()));
+    if (auto reason = reason_to_keep(*path, made)) {
+        outcome.reason = std::move(*reason);
+        return path;
+    }
+    return store.commit(domain, cache::describe(made), bricks.view());
 }
 
 // Grids first, then settles the catalog's row: a crash between the two makes the work be done
@@ -120,7 +184,8 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
     for (const level2::Volume& volume : volumes) {
         if (!has_moment(volume, options.moment)) continue;
         if (const Status gridded = grid_one(facts, volume, outcome); !gridded) {
-            return pass_on(gridded);
+            if (!is_of_the_data(gridded.error())) return pass_on(gridded);
+            return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
         }
     }
     if (!outcome.grids.empty()) outcome.result = IngestResult::gridded;
@@ -148,7 +213,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
     }
-    const bool ended = !volumes.empty() && has_ended(volumes.back());
+    const bool ended = !volumes.empty() && level2::has_ended(volumes.back());
     if (!ended && !finish_partial) {
         outcome.result = IngestResult::incomplete;
         return outcome;
@@ -158,6 +223,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
 }
 
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
+    const Running running(impl_->running);
     IngestOutcome outcome;
     const auto before = stamp_of(path);
     if (!before) {
@@ -184,6 +250,10 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     outcome.read_s = seconds_since(read_start);
     const auto after = stamp_of(path);
     if (!bytes && after) {
+        const ErrorCode code = bytes.error().code;
+        // Ours for now, as when descriptors run out: the file is not to blame.
+        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
+        if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
         return impl_->reject(facts, without_path(bytes.error().message, path), outcome);
     }
     if (!bytes || !after || *after != *before) {
@@ -195,7 +265,7 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
 
     const auto decode_start = Clock::now();
     level2::DecodeOptions decode_options;
-    decode_options.threads = impl_->options.decode_threads;
+    decode_options.threads = impl_->share_of(impl_->options.decode_threads);
     decode_options.fallback_station = facts.station;
     auto decoded = level2::decode(*bytes, decode_options);
     outcome.decode_s = seconds_since(decode_start);

@@ -2,7 +2,10 @@
 //
 // Shared by the daemon and the CLI. Never changes the raw file. A file that cannot be decoded is
 // recorded as rejected with its reason; that is a result, not an error.
-// Errors are ours alone: the catalog or the cache cannot be written.
+// A grid in the cache is replaced by one of a whole volume or of a newer file, never by one of a
+// part of it or of an older file.
+// Errors are not of the data: the catalog or the cache cannot be written, the system gives no
+// memory or descriptors. Trying again later may help.
 // Thread contract: an Ingestor may be used by many threads at once, for different files.
 #pragma once
 
@@ -24,6 +27,8 @@ struct IngestOptions {
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
+    // In all: files that are ingested at the same time share them, so that each has its part and
+    // one alone has all.
     int decode_threads = 1;
     int grid_threads = 1;
 };
@@ -34,7 +39,7 @@ enum class IngestResult {
     no_position,  // registered; neither the file nor the table says where the radar stands
     incomplete,   // not settled: the volume has not ended and finish_partial is false, or the file
                   // changed while it was read; ask again when it was closed or quiet
-    rejected,     // registered as rejected
+    rejected,     // registered as rejected: no volume, or none that can be gridded
     unchanged,    // settled before; nothing was done
     vanished,     // the file is gone; its rows, if any, are marked so
 };
@@ -43,7 +48,8 @@ struct IngestOutcome {
     IngestResult result = IngestResult::rejected;
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
-    std::string reason;  // of rejection or partiality, one line
+    std::string reason;    // why rejected, or what is wrong or worth saying; one line
+    bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
 };

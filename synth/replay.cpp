@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t pieces_without_records = 16;
+constexpr double longest_gap_s = 1e8;            // three years: no clock overflows
 constexpr std::size_t start_bytes = 64U << 10U;  // holds the header, gzipped or not
 
 // None when it cannot be read, which is said when its turn comes.
@@ -114,7 +115,8 @@ class Player {
     [[nodiscard]] double gap(const ReplayItem& item, const ReplayItem& next) const {
         if (options_.interval_s) return *options_.interval_s;
         if (!item.time || !next.time) return 0;
-        return std::chrono::duration<double>(*next.time - *item.time).count() / options_.speed;
+        const double gap_s = std::chrono::duration<double>(*next.time - *item.time).count();
+        return std::min(gap_s / options_.speed, longest_gap_s);
     }
 
     Status play_one(const ReplayItem& item) {

@@ -111,5 +111,46 @@ TEST(ReadFile, DirectoryFifoMissingAndTooLargeAreNamed) {
     EXPECT_EQ(read_file(directory / "big", 4).error().code, ErrorCode::unsupported);
 }
 
+// A rename over a device, a FIFO or a directory would destroy it.
+TEST(AtomicFileTarget, OnlyRegularFilesAreReplaced) {
+    const testing::TemporaryDirectory directory;
+    ASSERT_EQ(::mkfifo((directory / "fifo").c_str(), 0600), 0);
+    std::filesystem::create_directory(directory / "directory");
+    std::filesystem::create_symlink("nowhere", directory / "dangling");
+    for (const char* name : {"fifo", "directory", "dangling"}) {
+        const auto created = AtomicFile::create(real_file_system(), directory / name);
+        ASSERT_FALSE(created) << name;
+        EXPECT_EQ(created.error().code, ErrorCode::not_a_file);
+        EXPECT_NE(created.error().message.find(name), std::string::npos);
+        EXPECT_FALSE(check_target(directory / name));
+    }
+    EXPECT_TRUE(std::filesystem::is_fifo(directory / "fifo"));
+}
+
+TEST(AtomicFileTarget, ALinkIsFollowed) {
+    const testing::TemporaryDirectory directory;
+    std::filesystem::create_directory(directory / "elsewhere");
+    ASSERT_TRUE(write_file_atomically(real_file_system(), directory / "elsewhere/file", {}));
+    std::filesystem::create_symlink("elsewhere/file", directory / "link");
+    const std::vector<std::byte> bytes(3);
+    EXPECT_TRUE(check_target(directory / "link"));
+    ASSERT_TRUE(write_file_atomically(real_file_system(), directory / "link", bytes));
+    EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+    EXPECT_EQ(std::filesystem::file_size(directory / "elsewhere/file"), 3U);
+}
+
+TEST(AtomicFileTarget, AMissingDirectoryIsToldUnderTheFilesOwnName) {
+    const testing::TemporaryDirectory directory;
+    const auto created = AtomicFile::create(real_file_system(), directory / "none/file");
+    ASSERT_FALSE(created);
+    EXPECT_NE(created.error().message.find("none/file: cannot be made: No such file"),
+              std::string::npos)
+        << created.error().message;
+    const Status target = check_target(directory / "none/file");
+    ASSERT_FALSE(target);
+    EXPECT_EQ(target.error().code, ErrorCode::not_found);
+    EXPECT_TRUE(check_target(directory / "file"));
+}
+
 }  // namespace
 }  // namespace stormcellar

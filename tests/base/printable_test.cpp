@@ -17,5 +17,16 @@ TEST(Printable, EscapesControlsAndBrokenUtf8) {
     EXPECT_EQ(printable("\x7F"), "\\x7f");
 }
 
+// Others refuse these, so they must not pass as text (RFC 3629).
+TEST(Printable, EscapesSurrogatesOverlongFormsAndWhatIsBeyondUnicode) {
+    EXPECT_EQ(printable("\xED\x9F\xBF"), "\xED\x9F\xBF");
+    EXPECT_EQ(printable("\xED\xA0\x80"), "\\xed\\xa0\\x80");
+    EXPECT_EQ(printable("\xE0\x9F\xBF"), "\\xe0\\x9f\\xbf");
+    EXPECT_EQ(printable("\xE0\xA0\x80"), "\xE0\xA0\x80");
+    EXPECT_EQ(printable("\xF0\x8F\xBF\xBF"), "\\xf0\\x8f\\xbf\\xbf");
+    EXPECT_EQ(printable("\xF4\x8F\xBF\xBF"), "\xF4\x8F\xBF\xBF");
+    EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
+}
+
 }  // namespace
 }  // namespace stormcellar

@@ -258,5 +258,67 @@ TEST(FileState, NamesRoundTrip) {
     EXPECT_EQ(file_state_from_name("lost"), std::nullopt);
 }
 
+// The bytes of a station's database are lost; the others go on.
+TEST_F(CatalogTest, ADamagedDatabaseHoldsUpItsOwnStationOnly) {
+    std::ofstream(directory_ / "catalog/KAAA.sqlite") << std::string(5000, 'x');
+    EXPECT_FALSE(*catalog_.is_settled("/d/KTLX_a", 1, 1));
+    EXPECT_EQ(*catalog_.register_file(file("/d/KTLX_a", {volume("2022-03-17T00:00")})),
+              Registered::added);
+    EXPECT_TRUE(*catalog_.is_settled("/d/KTLX_a", 1000, 42));
+    EXPECT_EQ(*catalog_.mark_gone("/d/KTLX_a"), 1);
+    const auto its_own = catalog_.register_file(file("/d/KAAA_a", {}, "KAAA"));
+    ASSERT_FALSE(its_own);
+    EXPECT_EQ(its_own.error().code, ErrorCode::corrupt);
+    EXPECT_NE(its_own.error().message.find("KAAA.sqlite"), std::string::npos);
+}
+
+TEST_F(CatalogTest, WhatStandsAtAPathNowIsTheOnlyRowOfThatPath) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/current", {volume("2022-03-17T00:00")}, "KTLX")));
+    ASSERT_TRUE(catalog_.register_file(file("/d/current", {volume("2022-03-17T01:00")}, "KDMX")));
+    EXPECT_TRUE(catalog_.list("KTLX", {{}, {}, true})->empty());
+    EXPECT_EQ(catalog_.list("KDMX", {})->size(), 1U);
+    FileFacts rejected = file("/d/current", {}, "");
+    rejected.state = FileState::rejected;
+    ASSERT_TRUE(catalog_.register_file(rejected));
+    EXPECT_TRUE(catalog_.list("KDMX", {{}, {}, true})->empty());
+}
+
+TEST_F(CatalogTest, AMisspeltStationIsNamedAndIsNotTheUnknownOnes) {
+    FileFacts rejected = file("/d/noise", {}, "");
+    rejected.state = FileState::rejected;
+    ASSERT_TRUE(catalog_.register_file(rejected));
+    for (const char* name : {"ktlx", "KTL", "../x", "KTLX "}) {
+        EXPECT_EQ(catalog_.list(name, {{}, {}, true}).error().code, ErrorCode::bad_argument);
+        EXPECT_EQ(catalog_.latest(name).error().code, ErrorCode::bad_argument);
+        EXPECT_EQ(catalog_.oldest(name).error().code, ErrorCode::bad_argument);
+    }
+    EXPECT_EQ(catalog_.list("", {{}, {}, true})->size(), 1U);
+}
+
+TEST_F(CatalogTest, WhatCouldNotBeReadIsNeverSettled) {
+    FileFacts unread = file("/d/KTLX_a", {});
+    unread.state = FileState::rejected;
+    unread.modified_ns = never_read_ns;
+    ASSERT_TRUE(catalog_.register_file(unread));
+    EXPECT_FALSE(*catalog_.is_settled("/d/KTLX_a", 1000, 42));
+}
+
+TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
+    const std::filesystem::path drop = directory_ / "drop";
+    std::filesystem::create_directory(drop);
+    std::ofstream(drop / "stays") << "x";
+    for (const char* name : {"stays", "went"})
+        ASSERT_TRUE(catalog_.register_file(file(drop / name, {volume("2022-03-17T00:00")})));
+    ASSERT_TRUE(catalog_.register_file(file("/elsewhere/went", {volume("2022-03-17T00:00")})));
+    EXPECT_EQ(*catalog_.mark_missing(drop), 1);
+    EXPECT_EQ(*catalog_.mark_missing(drop), 0);
+    const auto entries = *catalog_.list("KTLX", {});
+    EXPECT_EQ(entries.size(), 3U);
+    for (const CatalogEntry& entry : entries) {
+        EXPECT_EQ(entry.state, entry.path == drop / "went" ? FileState::gone : FileState::complete)
+            << entry.path;
+    }
+}
+
 }  // namespace
 }  // namespace stormcellar::catalog

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
@@ -134,6 +135,20 @@ TEST_F(GridTest, WhatCannotBeWrittenIsExit1) {
         {volume("KTLX19990503_235621.gz"), "-o", file("no/such/out.nc"), "--extent-km", "20,20"});
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("no/such"), std::string::npos) << ran.err;
+}
+
+TEST_F(GridTest, TheVolumeItselfAndThingsThatAreNoFilesStay) {
+    STORMCELLAR_NEED_DATA();
+    std::filesystem::copy_file(volume("KLBB20160601_150025_V06"), file("volume"));
+    const auto size = std::filesystem::file_size(file("volume"));
+    const auto itself = grid({file("volume"), "-o", file("volume")});
+    EXPECT_EQ(itself.status, 2);
+    EXPECT_NE(itself.err.find("is the volume itself"), std::string::npos);
+    EXPECT_EQ(std::filesystem::file_size(file("volume")), size);
+    ASSERT_EQ(::mkfifo(file("fifo").c_str(), 0600), 0);
+    EXPECT_EQ(grid({file("volume"), "-o", file("fifo")}).status, 1);
+    EXPECT_TRUE(std::filesystem::is_fifo(file("fifo")));
+    expect_usage({file("volume"), "--extent-km", "16384,16384"}, "cells, more than");
 }
 
 }  // namespace

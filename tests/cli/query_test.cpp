@@ -99,5 +99,50 @@ TEST_F(QueryTest, CacheIsListedAndADamagedGridIsNamed) {
     EXPECT_NE(ran.out.find("2 grids checked, 1 bad"), std::string::npos);
 }
 
+// Two directories of the archive may hold files of one name.
+TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
+    const std::filesystem::path kbgm = *testing::data_directory() / "sequence-kbgm";
+    auto catalog = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+    const auto store =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", false);
+    pipeline::Ingestor ingestor(catalog, store, {});
+    std::filesystem::create_directory(directory_ / "other");
+    const auto copy = directory_ / "other/KBGM20050822_024414.gz";
+    std::filesystem::copy_file(kbgm / "KBGM20050822_025549.gz", copy);
+    ASSERT_TRUE(ingestor.ingest(copy, true));
+    const std::string out = directory_ / "out";
+    const auto ran = run({"catalog", "get", "--station", "KBGM", "-o", out, "--force"});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find("has the same name"), std::string::npos) << ran.err;
+    EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.gz"),
+              *read_file(kbgm / "KBGM20050822_024414.gz"));
+    // What is no longer what was catalogued is not handed out.
+    std::filesystem::resize_file(copy, 1000);
+    const auto changed =
+        run({"catalog", "get", "--station", "KBGM", "--from", "2005-08-22T02:55", "-o", out + "2"});
+    EXPECT_EQ(changed.status, 1);
+    EXPECT_NE(changed.err.find("has 1000 bytes and not"), std::string::npos) << changed.err;
+}
+
+TEST_F(QueryTest, AnUnknownStationIsNothingMatchedAndAMisspeltOneIsBadUsage) {
+    for (const char* command : {"latest", "oldest"})
+        EXPECT_EQ(run({"catalog", command, "--station", "KXXX"}).status, 3);
+    const std::string out = directory_ / "out";
+    EXPECT_EQ(run({"catalog", "get", "--station", "KXXX", "-o", out}).status, 3);
+    const auto misspelt = run({"catalog", "list", "--station", "kbgm"});
+    EXPECT_EQ(misspelt.status, 2);
+    EXPECT_NE(misspelt.err.find("'kbgm' is no station"), std::string::npos);
+    const auto none = run({"cache", "list", "--domain", "KXXX", "--json"});
+    EXPECT_EQ(none.status, 3);
+    EXPECT_EQ(json::parse(none.out), json::array());
+    EXPECT_NE(none.err.find("nothing matched"), std::string::npos);
+}
+
+TEST_F(QueryTest, WhatCannotBePrintedIsAFailure) {
+    const std::string command = std::string(STORMCELLAR_PROGRAM) + " catalog stations --catalog " +
+                                (directory_ / "catalog").string() + " >/dev/full 2>/dev/null";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+}
+
 }  // namespace
 }  // namespace stormcellar::cli

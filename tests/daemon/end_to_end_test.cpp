@@ -198,6 +198,39 @@ TEST(EndToEnd, ARawFileThatIsDeletedStaysInTheCatalogAsGone) {
     EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "its grid stays";
 }
 
+TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    RunningDaemon daemon;
+    fs::copy_file(volumes[0], daemon.drop() / "a");
+    daemon.start(quick);
+    ASSERT_TRUE(
+        daemon.wait_for([](const json& s) { return s["ingested"] == 1 && everything_is_done(s); }));
+    EXPECT_EQ(daemon.terminate(), 0);
+    fs::remove(daemon.drop() / "a");
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for_log("1 files went while nobody watched")) << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0);
+    EXPECT_EQ(rows(daemon, "KBGM").at(0).state, FileState::gone);
+}
+
+TEST(EndToEnd, ANameThatIsNoTextDoesNotEndTheService) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    RunningDaemon daemon;
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
+    fs::copy_file(volumes[0], daemon.drop() / "bad\xED\xA0\x80name");
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 1 && everything_is_done(s);
+    })) << daemon.log();
+    const std::string file = daemon.status()["volumes"][0]["file"];
+    EXPECT_TRUE(file.ends_with("/bad\\xed\\xa0\\x80name")) << file;
+    EXPECT_EQ(daemon.terminate(), 0);
+}
+
 TEST(EndToEnd, TellsTheServiceManagerWhatItDoes) {
     RunningDaemon daemon;
     NotifySocket socket(daemon.root() / "notify");

@@ -33,6 +33,8 @@ class FakeSink final : public Sink {
         return taken;
     }
 
+    Result<int> mark_missing() override { return 0; }
+
     // False when it takes too long.
     bool wait_for_calls(std::size_t count) {
         std::unique_lock lock(mutex_);

@@ -34,6 +34,7 @@ TEST(LogLine, OfAGriddedFileNamesStationVolumeAndLatency) {
 TEST(LogLine, OfAFileWhoseCloseNobodySawSaysHowLongItTook) {
     Finished made = finished(IngestResult::gridded);
     made.taken->ingest.reason = "ends\nearly";
+    made.taken->ingest.partial = true;
     EXPECT_EQ(describe(made),
               "gridded partial KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 80 ms, read 0 decode 0 grid 0 "
               "commit 0 ms (ends\\x0aearly)");

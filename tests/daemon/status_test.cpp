@@ -51,6 +51,7 @@ TEST(StatusBook, CountsEachEnd) {
     book.add(finished("/d/old", IngestResult::gridded, -1));
     Finished partial = finished("/d/p", IngestResult::gridded, -1);
     partial.taken->ingest.reason = "ends early";
+    partial.taken->ingest.partial = true;
     book.add(partial);
     book.add(finished("/d/r", IngestResult::rejected, 1));
     book.add(finished("/d/n", IngestResult::no_moment, 1));

@@ -144,7 +144,9 @@ TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
     begun.wait();
     EXPECT_TRUE(pool.drain(seconds{20}));
     EXPECT_EQ(pool.collect().size(), 1U);
-    EXPECT_FALSE(pool.has_free_worker());
+    EXPECT_FALSE(pool.has_free_worker()) << "so nobody submits another";
+    std::this_thread::sleep_for(milliseconds{50});
+    EXPECT_EQ(sink.calls().size(), 1U);
 }
 
 TEST(WorkerPool, DrainingGivesUpOnAJobThatHangs) {

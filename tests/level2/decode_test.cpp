@@ -201,5 +201,24 @@ TEST(DecodeReal, ThreadsDoNotMatter) {
     }
 }
 
+// What has just begun to arrive is truncated, so that the daemon waits for the rest.
+TEST(Decode, AHeaderAndTheFirstBytesOfARecordAreTruncated) {
+    const wire::Bytes volume = wire::ldm_volume(1, 4);
+    for (const std::size_t size : {24U, 25U, 30U, 37U, 38U, 45U}) {
+        const auto decoded = decode(std::span(volume).first(size));
+        ASSERT_FALSE(decoded) << size;
+        EXPECT_EQ(decoded.error().code, ErrorCode::truncated) << size;
+    }
+}
+
+TEST(Decode, AHeaderThatContradictsItsRadialsIsNamed) {
+    wire::Bytes volume = wire::ldm_volume(1, 4);
+    wire::overwrite_u32(volume, 12, wire::day + 32768);
+    const auto decoded = decode(volume).value();
+    const auto& problems = decoded.report.problems;
+    EXPECT_TRUE(std::any_of(problems.begin(), problems.end(),
+                            [](const Problem& problem) { return problem.code == "header_time"; }));
+}
+
 }  // namespace
 }  // namespace stormcellar::level2

@@ -248,6 +248,8 @@ TEST(Encode, RefusesWhatMessage31CannotHold) {
         {"spacing", [](Volume& v) { v.sweeps[1].azimuth_spacing_deg = 0.75F; }},
         {"Nyquist", [](Volume& v) { v.sweeps[1].radials[5].nyquist_mps = 700; }},
         {"NaN", [](Volume& v) { v.sweeps[1].radials[5].nyquist_mps = std::nanf(""); }},
+        {"radial of 2150",
+         [](Volume& v) { v.sweeps[1].radials[5].time = time_from_nexrad(65536, 0); }},
         {"word", [](Volume& v) { v.sweeps[1].moments[0].word_size_bits = 12; }},
         {"rows", [](Volume& v) { v.sweeps[1].moments[0].gate_counts.pop_back(); }},
         {"codes", [](Volume& v) { v.sweeps[1].moments[0].codes8.pop_back(); }},

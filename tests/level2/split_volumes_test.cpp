@@ -1,3 +1,5 @@
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "level2/decode.h"
@@ -52,6 +54,27 @@ TEST(SplitVolumes, VolumesUnderOneHeaderStartAtTheirFirstRadials) {
         EXPECT_GT(volumes[i].start_time(), volumes[i - 1].start_time());
     }
     EXPECT_EQ(sum, radials);
+}
+
+// The cuts of the first volume are not those of the second.
+TEST(SplitVolumes, EachHasThePatternThatCameWithIt) {
+    const std::array<float, 2> low = {0.5F, 1.5F};
+    const std::array<float, 3> high = {0.5F, 3.5F, 9.0F};
+    const auto record = [](unsigned pattern, std::span<const float> elevations_deg) {
+        return wire::ldm_record(wire::vcp_frame(pattern, elevations_deg));
+    };
+    const auto volumes = split_volumes(
+        decode(wire::join({wire::archive_header(), record(212, low),
+                           wire::ldm_record(wire::radial_messages(2, 4)), record(35, high),
+                           wire::ldm_record(wire::radial_messages(3, 4), true)}))
+            .value());
+    ASSERT_EQ(volumes.size(), 2);
+    ASSERT_TRUE(volumes[0].vcp_message && volumes[1].vcp_message);
+    EXPECT_EQ(volumes[0].vcp, 212);
+    EXPECT_EQ(volumes[0].vcp_message->cuts.size(), 2U);
+    EXPECT_EQ(volumes[1].vcp, 35);
+    EXPECT_EQ(volumes[1].vcp_source, VcpSource::message_5);
+    EXPECT_EQ(volumes[1].vcp_message->cuts.size(), 3U);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class SweepBuilderTest : public ::testing::Test {
         block.word_size_bits = spec.word_size_bits;
         block.codes = codes_;
         if (spec.has_ref && !message.add(block)) return false;
-        return builder_.add(message);
+        return builder_.add(message) == SweepBuilder::Added::added;
     }
     Volume finish() { return builder_.finish(report_); }
 
@@ -149,10 +149,40 @@ TEST(SweepBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
         block.gates = taken == 0 ? 65'535 : 4;
         block.codes = std::span{codes}.first(block.gates);
         ASSERT_TRUE(message.add(block));
-        if (!builder.add(message)) break;
+        if (builder.add(message) != SweepBuilder::Added::added) break;
     }
     EXPECT_GT(taken, 100);
     EXPECT_LT(taken, 160);
+}
+
+// Another scale in each radial makes another kind of row, padded to the end of the sweep.
+TEST(SweepBuilderLimit, KindsOfAMomentAreFew) {
+    SweepBuilder builder{ample};
+    const std::vector<std::byte> codes(1);
+    int refused = 0;
+    for (int i = 0; i < 1000; ++i) {
+        RadialMessage message;
+        message.elevation_number = 1;
+        MomentBlock block;
+        block.gates = 1;
+        block.scale = static_cast<float>(1 + i);
+        block.codes = codes;
+        ASSERT_TRUE(message.add(block));
+        if (builder.add(message) == SweepBuilder::Added::refused) ++refused;
+    }
+    EXPECT_EQ(refused, 1000 - 16);
+    DecodeReport report;
+    const Volume volume = builder.finish(report);
+    EXPECT_EQ(volume.sweeps.at(0).moments.size(), 16U);
+    EXPECT_EQ(volume.sweeps.at(0).radials.size(), 16U);
+}
+
+TEST_F(SweepBuilderTest, TheEndOfAVolumeIsKnownThoughItsRadialHasBadData) {
+    EXPECT_TRUE(add({1, 3}));
+    EXPECT_TRUE(add({1, 0x84}));
+    const Volume volume = finish();
+    EXPECT_TRUE(report_.complete);
+    EXPECT_TRUE(has_ended(volume));
 }
 
 }  // namespace

@@ -168,5 +168,25 @@ TEST_F(AntennaPositionTest, NoPositionOrNonsenseTakesTheTable) {
     EXPECT_FALSE(antenna_position(volume_));
 }
 
+TEST(StartTime, IsTheHeadersUnlessItCannotBe) {
+    const UtcTime first = time_from_nexrad(19069, 3'600'000);
+    Volume volume;
+    EXPECT_FALSE(volume.start_time());
+    volume.header = VolumeHeader{"AR2V0006.001", 19069, 3'595'000, "KTLX"};
+    EXPECT_EQ(volume.start_time(), first - std::chrono::seconds{5});
+    volume.sweeps.resize(1);
+    volume.sweeps[0].radials.resize(2);
+    volume.sweeps[0].radials[0].time = time_from_nexrad(0, 0);  // says nothing
+    volume.sweeps[0].radials[1].time = first;
+    EXPECT_EQ(volume.start_time(), first - std::chrono::seconds{5});
+    // One wrong bit in the day: 2112, and years before there were radars.
+    for (const std::uint32_t day : {19069U + 32768U, 0U, 2685U, 0xFFFFFFFFU}) {
+        volume.header->date = day;
+        EXPECT_EQ(volume.start_time(), first) << day;
+    }
+    volume.header.reset();
+    EXPECT_EQ(volume.start_time(), first);
+}
+
 }  // namespace
 }  // namespace stormcellar::level2

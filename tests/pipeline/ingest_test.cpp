@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "cache/grid_file.h"
+#include "tests/level2/wire.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -30,6 +33,16 @@ class IngestTest : public ::testing::Test {
         EXPECT_TRUE(entries);
         EXPECT_EQ(entries->size(), 1U);
         return entries->at(0);
+    }
+    fs::path put(const std::string& name, std::span<const std::byte> bytes) {
+        return write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    std::string source_of_only_grid(const std::string& domain) {
+        const auto entries = grids(domain);
+        EXPECT_EQ(entries.size(), 1U);
+        return cache::GridFile::open(entries.at(0).path)
+            ->description()
+            .provenance.source_files.at(0);
     }
     IngestOptions small_grid() {
         IngestOptions options;
@@ -123,6 +136,84 @@ TEST_F(IngestTest, OddThingsAreRejectedAndNeverFollowed) {
     const auto outcome = ingestor_.ingest(directory_ / "link", true);
     EXPECT_EQ(outcome->result, IngestResult::rejected);
     EXPECT_EQ(outcome->reason, "is not a regular file");
+}
+
+// A cut copy, or an older file of the same volume, must not take a whole grid's place.
+TEST_F(IngestTest, AWholeGridIsNotReplacedByAPartOfIt) {
+    const auto whole = level2::wire::ldm_volume(3, 360);
+    const auto cut = std::span(whole).first(whole.size() * 2 / 3);
+    ASSERT_EQ(ingestor_.ingest(put("KTLX_whole", whole), false)->result, IngestResult::gridded);
+    const auto of_cut = ingestor_.ingest(put("KTLX_cut", cut), true);
+    ASSERT_TRUE(of_cut);
+    EXPECT_TRUE(of_cut->partial);
+    EXPECT_EQ(of_cut->reason, "a grid of the whole volume stands in the cache");
+    ASSERT_EQ(grids("KTLX").size(), 1U);
+    EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_whole");
+}
+
+TEST_F(IngestTest, APartIsReplacedByTheWholeVolume) {
+    const auto whole = level2::wire::ldm_volume(3, 360);
+    const auto cut = std::span(whole).first(whole.size() * 2 / 3);
+    ASSERT_EQ(ingestor_.ingest(put("KTLX_cut", cut), true)->result, IngestResult::gridded);
+    EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_cut");
+    const fs::path path = put("KTLX_whole", whole);
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(1));
+    const auto of_whole = ingestor_.ingest(path, false);
+    EXPECT_FALSE(of_whole->partial);
+    EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_whole");
+}
+
+TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheNewerOneCounts) {
+    const auto bytes = level2::wire::ldm_volume(3, 360);
+    const fs::path older = put("KTLX_older", bytes);
+    fs::last_write_time(older, fs::file_time_type::clock::now() - std::chrono::hours(1));
+    ASSERT_TRUE(ingestor_.ingest(put("KTLX_newer", bytes), false));
+    const auto outcome = ingestor_.ingest(older, false);
+    EXPECT_EQ(outcome->reason, "a grid of a newer file of this volume stands in the cache");
+    EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_newer");
+}
+
+// Each volume of a file is judged by itself: here the first broke off.
+TEST_F(IngestTest, OfTwoVolumesOnlyTheOneThatBrokeOffIsPartial) {
+    const auto second = level2::wire::ldm_volume(2, 360);
+    auto messages = level2::wire::radial_messages(3, 360);
+    messages.resize(messages.size() / 2);
+    const auto first = level2::wire::ldm_record(messages);
+    auto header = level2::wire::archive_header();
+    level2::wire::overwrite_u32(header, 16, 1'800'000);
+    const auto outcome =
+        ingestor_.ingest(put("KTLX_two", level2::wire::join({header, first, second})), true);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_TRUE(outcome->partial);
+    ASSERT_EQ(outcome->grids.size(), 2U);
+    const auto partial = [](const fs::path& path) {
+        return cache::GridFile::open(path)->description().provenance.partial;
+    };
+    EXPECT_TRUE(partial(outcome->grids[0]));
+    EXPECT_FALSE(partial(outcome->grids[1]));
+}
+
+// A retry cannot help where the file itself is to blame.
+TEST_F(IngestTest, ImpossibleDatesAreNoReasonToTryForEver) {
+    auto header_only = level2::wire::ldm_volume(2, 360);
+    level2::wire::overwrite_u32(header_only, 12, 0x10000000);
+    const auto by_radials = ingestor_.ingest(put("KTLX_a", header_only), false);
+    ASSERT_TRUE(by_radials) << by_radials.error().message;
+    EXPECT_EQ(by_radials->result, IngestResult::gridded);
+    EXPECT_EQ(format_utc(*by_radials->volume_time).substr(0, 10), "2022-03-17");
+    EXPECT_NE(by_radials->reason, "") << "it is said";
+}
+
+TEST_F(IngestTest, AFileThatCouldNotBeReadIsReadWhenItCan) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+    const fs::path path = put("KTLX_a", level2::wire::ldm_volume(2, 360));
+    fs::permissions(path, fs::perms::none);
+    const auto refused = ingestor_.ingest(path, false);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->result, IngestResult::rejected);
+    EXPECT_NE(refused->reason.find("ermission"), std::string::npos);
+    fs::permissions(path, fs::perms::owner_read);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
 }
 
 TEST_F(IngestTest, FileThatIsGoneIsMarkedSo) {

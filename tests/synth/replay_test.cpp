@@ -1,6 +1,7 @@
 #include "synth/replay.h"
 
 #include <fstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -124,7 +125,28 @@ TEST_F(Replay, NothingIsWrittenOver) {
     EXPECT_EQ(nowhere.error().code, ErrorCode::not_found);
 }
 
-TEST_F(Replay, AGrowingFileEndsBetweenPiecesWhenItIsStopped) {
+TEST_F(Replay, StoppedInTheMiddleOfAFileItIsNamedAsUnfinished) {
+    put("a", volume_at(1000, 8));
+    put("b", volume_at(2000));
+    std::atomic<bool> stop{false};
+    ReplayOptions options = at_once(Delivery::growing);
+    options.interval_s = 3600;  // an hour over nine pieces
+    options.stop = &stop;
+    std::thread watcher([&] {
+        while (!fs::exists(drop() / "a"))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        stop = true;
+    });
+    const auto report = play(options);
+    watcher.join();
+    ASSERT_TRUE(report);
+    EXPECT_TRUE(report->stopped);
+    EXPECT_EQ(report->files, 0U);
+    EXPECT_EQ(report->unfinished, drop() / "a");
+    EXPECT_LT(fs::file_size(drop() / "a"), fs::file_size(directory_ / "in/a"));
+}
+
+TEST_F(Replay, StoppedBetweenFilesNothingIsUnfinished) {
     put("a", volume_at(1000, 3));
     put("b", volume_at(2000));
     std::atomic<bool> stop{false};
