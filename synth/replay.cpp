@@ -154,7 +154,10 @@ class Player {
                 return false;
             }
             const auto done = append(target, bytes.subspan(at, ends[i] - at));
-            if (!done) return pass_on(done);
+            if (!done) {
+                return fail(done.error().code, "{}; the file stays unfinished",
+                            done.error().message);
+            }
             at = ends[i];
         }
         return true;
