@@ -30,6 +30,8 @@ endfunction()
 function(stormcellar_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  # The rooms are tested as they are released; the tests themselves need not be fast, but built soon.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} stormcellar::testing GTest::gtest GTest::gmock
     GTest::gtest_main)
   set(properties TIMEOUT 300)
