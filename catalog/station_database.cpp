@@ -1,5 +1,7 @@
 #include "catalog/station_database.h"
 
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include <sqlite3.h>
@@ -70,6 +72,8 @@ tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception
 
 // Whether the database is ours and of a version that we know; empty ones are ours to fill.
 Status check_identity(SQLite::Database& database, const fs::path& path) {
+    // One snapshot: another process may be making the tables just now.
+    const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
     const int version = database.execAndGet("PRAGMA user_version").getInt();
     const int id = database.execAndGet("PRAGMA application_id").getInt();
     const int tables = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt();
@@ -83,6 +87,22 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
                     path.native(), version, schema_version);
     }
     return {};
+}
+
+// SQLite does not wait for others here, as it does everywhere else.
+void enter_wal(SQLite::Database& database) {
+    const auto limit =
+        std::chrono::steady_clock::now() + std::chrono::milliseconds(busy_timeout_ms);
+    for (;;) {
+        try {
+            database.exec("PRAGMA journal_mode = WAL");
+            return;
+        } catch (const SQLite::Exception& error) {
+            const bool busy = error.getErrorCode() == SQLITE_BUSY;
+            if (!busy || std::chrono::steady_clock::now() > limit) throw;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
 }
 
 void migrate(SQLite::Database& database) {
@@ -128,7 +148,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
             uri_of(path, ""), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, std::move(station)));
         SQLite::Database& database = opened->database_;
         if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
-        database.exec("PRAGMA journal_mode = WAL");
+        enter_wal(database);
         // A power cut may then lose the last rows, never the database; the files are still there.
         database.exec("PRAGMA synchronous = NORMAL");
         database.exec("PRAGMA foreign_keys = ON");

@@ -236,7 +236,8 @@ TEST_F(CatalogTest, ConcurrentWritersRegisterEachFileOnce) {
             FileFacts facts = file(fmt::format("/d/{}", i), {});
             VolumeFacts one = volume("2022-03-17T00:00", i);
             facts.volumes = {one};
-            EXPECT_TRUE(catalog.register_file(facts));
+            const auto registered = catalog.register_file(facts);
+            EXPECT_TRUE(registered) << registered.error().message;
         }
     };
     std::vector<std::thread> threads;
