@@ -1,5 +1,6 @@
 #include "tests/level2/wire.h"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
 
@@ -243,7 +244,7 @@ Bytes ldm_volume(unsigned sweeps, unsigned radials, unsigned gates) {
     const Bytes metadata = join({frame(0), vcp_frame(212, elevations_deg), frame(2)});
     Bytes all = join({archive_header(), ldm_record(metadata)});
     const Bytes messages = radial_messages(sweeps, radials, gates);
-    const std::size_t sweep_bytes = messages.size() / sweeps;
+    const std::size_t sweep_bytes = messages.size() / std::max(sweeps, 1U);
     for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
         const auto part = std::span{messages}.subspan(sweep * sweep_bytes, sweep_bytes);
         all = join({all, ldm_record(part, sweep + 1 == sweeps)});

@@ -74,13 +74,13 @@ TEST(TruthStorm, ItsRippleIsBoundedAndMovesWithIt) {
     storm.ripple = {6, 4000};
     const Weather rippled = only(storm);
     double most_db = 0;
-    for (double x_m = -5000; x_m <= 5000; x_m += 130) {
-        const double change_db =
-            truth_dbz(rippled, {x_m, 300, 4000}, 0) - truth_dbz(smooth, {x_m, 300, 4000}, 0);
+    for (int x_m = -5000; x_m <= 5000; x_m += 130) {
+        const double change_db = truth_dbz(rippled, {1.0 * x_m, 300, 4000}, 0) -
+                                 truth_dbz(smooth, {1.0 * x_m, 300, 4000}, 0);
         EXPECT_LE(std::abs(change_db), 6);
         most_db = std::max(most_db, std::abs(change_db));
-        EXPECT_NEAR(truth_dbz(rippled, {x_m + 1000, 300, 4000}, 100),
-                    truth_dbz(rippled, {x_m, 300, 4000}, 0), 1e-9);
+        EXPECT_NEAR(truth_dbz(rippled, {x_m + 1000.0, 300, 4000}, 100),
+                    truth_dbz(rippled, {1.0 * x_m, 300, 4000}, 0), 1e-9);
     }
     EXPECT_GT(most_db, 3);
 }
