@@ -79,6 +79,16 @@ void append_in_pieces(const fs::path& path, const std::string& text, std::size_t
 
 constexpr const char* quick = "[ingest]\nquiet_seconds = 2\n";
 
+// Starts the service with one volume of KBGM, named "a", in its drop directory.
+void take_in_one_volume(RunningDaemon& daemon) {
+    fs::copy_file(*testing::data_directory() / "sequence-kbgm/KBGM20050822_024414.gz",
+                  daemon.drop() / "a");
+    daemon.start(quick);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 1 && everything_is_done(s);
+    })) << daemon.log();
+}
+
 TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     STORMCELLAR_NEED_DATA();
     const std::vector<fs::path> volumes =
@@ -182,13 +192,8 @@ TEST(EndToEnd, ASecondStartDoesNothingAgainAndTakesWhatCameMeanwhile) {
 
 TEST(EndToEnd, ARawFileThatIsDeletedStaysInTheCatalogAsGone) {
     STORMCELLAR_NEED_DATA();
-    const std::vector<fs::path> volumes =
-        sorted_files(*testing::data_directory() / "sequence-kbgm");
     RunningDaemon daemon;
-    fs::copy_file(volumes[0], daemon.drop() / "a");
-    daemon.start(quick);
-    ASSERT_TRUE(
-        daemon.wait_for([](const json& s) { return s["ingested"] == 1 && everything_is_done(s); }));
+    take_in_one_volume(daemon);
     fs::remove(daemon.drop() / "a");
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["vanished"] == 1; }));
     EXPECT_EQ(daemon.terminate(), 0);
@@ -200,13 +205,8 @@ TEST(EndToEnd, ARawFileThatIsDeletedStaysInTheCatalogAsGone) {
 
 TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
     STORMCELLAR_NEED_DATA();
-    const std::vector<fs::path> volumes =
-        sorted_files(*testing::data_directory() / "sequence-kbgm");
     RunningDaemon daemon;
-    fs::copy_file(volumes[0], daemon.drop() / "a");
-    daemon.start(quick);
-    ASSERT_TRUE(
-        daemon.wait_for([](const json& s) { return s["ingested"] == 1 && everything_is_done(s); }));
+    take_in_one_volume(daemon);
     EXPECT_EQ(daemon.terminate(), 0);
     fs::remove(daemon.drop() / "a");
     daemon.start(quick);
