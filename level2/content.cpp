@@ -2,16 +2,13 @@
 
 #include "level2/archive_header.h"
 #include "level2/bzip2_stream.h"
+#include "level2/compress_stream.h"
 #include "level2/gzip_stream.h"
 #include "level2/ldm_framer.h"
 #include "level2/message_header.h"
 
 namespace stormcellar::level2 {
 namespace {
-
-bool is_compress(std::span<const std::byte> bytes) {
-    return bytes.size() >= 3 && bytes[0] == std::byte{0x1F} && bytes[1] == std::byte{0x9D};
-}
 
 bool plausible_at(std::span<const std::byte> bytes, std::size_t at) {
     if (bytes.size() < at + message_header_bytes) return false;

@@ -9,6 +9,7 @@
 #include "base/station_table.h"
 #include "level2/archive_header.h"
 #include "level2/bzip2_stream.h"
+#include "level2/compress_stream.h"
 #include "level2/content.h"
 #include "level2/gzip_stream.h"
 #include "level2/message_reader.h"
@@ -47,6 +48,7 @@ class Decoder {
     // Each gives an error only where nothing can be kept: limits, and content of another kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
     Status read_gzip(std::span<const std::byte> bytes, int depth);
+    Status read_compress(std::span<const std::byte> bytes, int depth);
     Status read_bzip2(std::span<const std::byte> bytes, int depth);
     Status read_ldm(std::span<const std::byte> bytes);
     Status read_record(const RecordQueue::Item& item);
@@ -114,7 +116,8 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
             report_data_.container += "bzip2-whole-file+";
             return read_bzip2(bytes, depth);
         case Content::compress:
-            return fail(ErrorCode::unsupported, "Unix compress (.Z) is not supported");
+            report_data_.container += "compress+";
+            return read_compress(bytes, depth);
         case Content::ldm:
             report_data_.container += "ldm-bzip2";
             return read_ldm(strip_header(bytes));
@@ -180,6 +183,27 @@ Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
         if (Status taken = take_output(output, piece); !taken) return taken;
     }
     report_gzip_end(gzip);
+    return end_output(output, depth);
+}
+
+Status Decoder::read_compress(std::span<const std::byte> bytes, int depth) {
+    CompressStream stream{bytes};
+    LayerOutput output{reader_};
+    for (;;) {
+        const double begin_s = thread_cpu_s();
+        const std::span<const std::byte> piece = stream.next();
+        report_data_.decompress_s += thread_cpu_s() - begin_s;
+        if (piece.empty()) break;
+        if (Status taken = take_output(output, piece); !taken) return taken;
+    }
+    if (stream.end() != CompressEnd::whole) {
+        cut_ = stream.end() == CompressEnd::truncated;
+        report_.add(Severity::error, "corrupt_compress", "the .Z file is damaged",
+                    stream.position());
+        if (!report_data_.corruption) {
+            report_data_.corruption = {reader_.offset(), report_data_.problems.back().message};
+        }
+    }
     return end_output(output, depth);
 }
 

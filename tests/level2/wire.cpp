@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include <bzlib.h>
@@ -191,6 +193,77 @@ Bytes ldm_record(std::span<const std::byte> messages, bool last, int level) {
     const Bytes stream = bzip2(messages, level);
     const auto length = static_cast<std::uint32_t>(stream.size());
     return Writer{}.u32(last ? ~length + 1 : length).raw(stream).bytes;
+}
+
+namespace {
+
+// Codes as compress writes them: low bits first, in groups of eight of one width.
+class CodeWriter {
+  public:
+    explicit CodeWriter(Bytes& out) : out_(out) {}
+
+    void put(std::uint32_t code, int width) {
+        for (int bit = 0; bit < width; ++bit) {
+            if (bits_ % 8 == 0) out_.push_back(std::byte{0});
+            out_.back() |= static_cast<std::byte>(((code >> bit) & 1U) << (bits_ % 8));
+            ++bits_;
+        }
+        codes_ = (codes_ + 1) % 8;
+    }
+    void end_group(int width) {
+        while (codes_ != 0)
+            put(0, width);
+    }
+
+  private:
+    Bytes& out_;
+    std::size_t bits_ = 0;
+    int codes_ = 0;
+};
+
+}  // namespace
+
+Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t clear_every) {
+    constexpr std::uint32_t clear_code = 256;
+    Bytes out = {std::byte{0x1F}, std::byte{0x9D}, static_cast<std::byte>(0x80 | most_width)};
+    CodeWriter writer(out);
+    std::map<std::pair<std::uint32_t, std::byte>, std::uint32_t> entries;
+    std::uint32_t next_entry = clear_code + 1;
+    int width = 9;
+    std::size_t cleared_at = 0;
+    const auto emit = [&](std::uint32_t code) {
+        writer.put(code, width);
+        // With 9 bits at most compress widens to 10 all the same.
+        if (width < std::max(most_width, 10) && next_entry >= (1U << width))
+            writer.end_group(width++);
+    };
+    std::optional<std::uint32_t> string;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const auto literal = std::to_integer<std::uint32_t>(plain[i]);
+        if (!string) {
+            string = literal;
+            continue;
+        }
+        if (const auto known = entries.find({*string, plain[i]}); known != entries.end()) {
+            string = known->second;
+            continue;
+        }
+        emit(*string);
+        if (next_entry < (1U << most_width)) entries[{*string, plain[i]}] = next_entry++;
+        string = literal;
+        if (clear_every != 0 && i - cleared_at >= clear_every) {
+            emit(*string);
+            string.reset();
+            writer.put(clear_code, width);
+            writer.end_group(width);
+            width = 9;
+            next_entry = clear_code + 1;
+            entries.clear();
+            cleared_at = i;
+        }
+    }
+    if (string) emit(*string);
+    return out;
 }
 
 Bytes gzip(std::span<const std::byte> bytes) {

@@ -65,6 +65,8 @@ Bytes bzip2(std::span<const std::byte> bytes, int level = 9);
 Bytes unpack_bzip2(std::span<const std::byte> bytes);  // one stream of at most 64 MiB
 Bytes ldm_record(std::span<const std::byte> messages, bool last = false, int level = 9);
 Bytes gzip(std::span<const std::byte> bytes);
+// Unix compress: codes of at most so many bits; the table is cleared after so many bytes, 0: never.
+Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t clear_every);
 
 Bytes join(std::initializer_list<Bytes> parts);
 
