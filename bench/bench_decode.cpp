@@ -14,6 +14,7 @@
 // Times are the least of the runs. Files without LDM records are left out.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -22,6 +23,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <bzlib.h>
@@ -111,11 +113,19 @@ level2::DecodeOptions with_threads(int threads) {
     return options;
 }
 
+// A whole number at the start of a text, behind spaces; -1 when there is none.
+long number_in(std::string_view text) {
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
+    long number = -1;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
 // What this process held at most, in KiB; the kernel's own count (proc(5)).
 long high_water_kib() {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);) {
-        if (line.starts_with("VmHWM:")) return std::atol(line.c_str() + 6);
+        if (line.starts_with("VmHWM:")) return number_in(std::string_view{line}.substr(6));
     }
     return -1;
 }
@@ -142,7 +152,7 @@ std::optional<double> peak_mib(const fs::path& file, int threads) {
     int status = 0;
     ::waitpid(child, &status, 0);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length <= 0) return {};
-    return std::atof(text.data()) / 1024;
+    return static_cast<double>(number_in(text.data())) / 1024;
 }
 
 void measure(const fs::path& file, int runs) {
@@ -180,7 +190,7 @@ void measure(const fs::path& file, int runs) {
 int decode_once(const char* file, const char* threads) {
     const auto raw = read_file(file);
     if (!raw) return 1;
-    if (!level2::decode(*raw, with_threads(std::atoi(threads)))) return 1;
+    if (!level2::decode(*raw, with_threads(static_cast<int>(number_in(threads))))) return 1;
     fmt::print("{}\n", high_water_kib());
     return 0;
 }
@@ -204,7 +214,7 @@ int run(int argc, char** argv) {
     std::vector<fs::path> files;
     for (int i = 1; i < argc; ++i) {
         if (std::string(argv[i]) == "--runs" && i + 1 < argc) {
-            runs = std::max(1, std::atoi(argv[++i]));
+            runs = std::max(1, static_cast<int>(number_in(argv[++i])));
         } else {
             files.emplace_back(argv[i]);
         }
