@@ -47,6 +47,9 @@ class Decoder {
     };
     // Each gives an error only where nothing can be kept: limits, and content of another kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
+    // Everything that a stream of pieces gives.
+    template <class Stream>
+    Status take_all(Stream& stream, LayerOutput& output);
     Status read_gzip(std::span<const std::byte> bytes, int depth);
     Status read_compress(std::span<const std::byte> bytes, int depth);
     Status read_bzip2(std::span<const std::byte> bytes, int depth);
@@ -172,16 +175,21 @@ Status Decoder::end_output(LayerOutput& output, int depth) {
     return read_layer(output.inner, depth + 1);
 }
 
+template <class Stream>
+Status Decoder::take_all(Stream& stream, LayerOutput& output) {
+    for (;;) {
+        const double begin_s = thread_cpu_s();
+        const std::span<const std::byte> piece = stream.next();
+        report_data_.decompress_s += thread_cpu_s() - begin_s;
+        if (piece.empty()) return {};
+        if (Status taken = take_output(output, piece); !taken) return taken;
+    }
+}
+
 Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
     GzipStream gzip{bytes};
     LayerOutput output{reader_};
-    for (;;) {
-        const double begin_s = thread_cpu_s();
-        const std::span<const std::byte> piece = gzip.next();
-        report_data_.decompress_s += thread_cpu_s() - begin_s;
-        if (piece.empty()) break;
-        if (Status taken = take_output(output, piece); !taken) return taken;
-    }
+    if (Status taken = take_all(gzip, output); !taken) return taken;
     report_gzip_end(gzip);
     return end_output(output, depth);
 }
@@ -189,13 +197,7 @@ Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
 Status Decoder::read_compress(std::span<const std::byte> bytes, int depth) {
     CompressStream stream{bytes};
     LayerOutput output{reader_};
-    for (;;) {
-        const double begin_s = thread_cpu_s();
-        const std::span<const std::byte> piece = stream.next();
-        report_data_.decompress_s += thread_cpu_s() - begin_s;
-        if (piece.empty()) break;
-        if (Status taken = take_output(output, piece); !taken) return taken;
-    }
+    if (Status taken = take_all(stream, output); !taken) return taken;
     if (stream.end() != CompressEnd::whole) {
         cut_ = stream.end() == CompressEnd::truncated;
         report_.add(Severity::error, "corrupt_compress", "the .Z file is damaged",
