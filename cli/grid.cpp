@@ -198,7 +198,7 @@ std::vector<std::string> notes_of(const level2::DecodeReport& report) {
                 fmt::format("and {} more problems", report.problems.size() - notes.size()));
             break;
         }
-        notes.push_back(problem.message);
+        notes.push_back(problem.text());
     }
     return notes;
 }

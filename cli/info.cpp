@@ -98,8 +98,8 @@ void print_problems(const level2::DecodeReport& report) {
     for (const level2::Problem& problem : report.problems) {
         const std::string place =
             problem.offset ? fmt::format(" (at {})", *problem.offset) : std::string{};
-        fmt::print("{}: {}{}\n", level2::severity_name(problem.severity),
-                   printable(problem.message), place);
+        fmt::print("{}: {}{}\n", level2::severity_name(problem.severity), printable(problem.text()),
+                   place);
     }
 }
 

@@ -27,22 +27,6 @@ std::uint64_t big_endian(std::span<const std::byte> bytes) {
     return number;
 }
 
-class Decompressor {
-  public:
-    Decompressor() : ready_(BZ2_bzDecompressInit(&stream_, 0, 0) == BZ_OK) {}
-    Decompressor(const Decompressor&) = delete;
-    Decompressor& operator=(const Decompressor&) = delete;
-    ~Decompressor() {
-        if (ready_) BZ2_bzDecompressEnd(&stream_);
-    }
-    [[nodiscard]] bool ready() const { return ready_; }
-    bz_stream& stream() { return stream_; }
-
-  private:
-    bz_stream stream_{};
-    bool ready_;
-};
-
 // Writes numbers of any width one behind the other.
 class BitWriter {
   public:
@@ -119,36 +103,79 @@ std::optional<std::size_t> find_bzip2(std::span<const std::byte> bytes, std::siz
     return std::nullopt;
 }
 
-BzipResult bunzip(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
-                  std::size_t limit) {
-    Decompressor decompressor;
-    if (!decompressor.ready()) return {BzipStatus::no_memory, 0, 0};
-    if (buffer.empty()) buffer.resize(std::min(limit, first_buffer_bytes));
-    bz_stream& bz = decompressor.stream();
+bool ends_as_bzip2(std::span<const std::byte> bytes) {
+    constexpr std::size_t tail_bytes = 11;  // 48 bits of mark, 32 of checksum, up to 7 of padding
+    if (bytes.size() < tail_bytes + 4) return false;
+    // The checksum's 32 bits but for the last 24, and what stands before it.
+    const std::uint64_t window = big_endian(bytes.last(tail_bytes).first(8));
+    for (int padding = 0; padding < 8; ++padding) {
+        if (((window >> (8 + padding)) & mark_mask) == end_mark) return true;
+    }
+    return false;
+}
+
+struct BzipReader::State {
+    bz_stream bz{};
+    bool ready = false;
+    std::size_t fed = 0;
+};
+
+BzipReader::BzipReader(std::span<const std::byte> stream)
+    : stream_(stream), state_(std::make_unique<State>()) {
+    bz_stream& bz = state_->bz;
+    state_->ready = BZ2_bzDecompressInit(&bz, 0, 0) == BZ_OK;
     // libbz2 does not write through next_in; its C interface merely lacks the const.
     bz.next_in = const_cast<char*>(reinterpret_cast<const char*>(stream.data()));
-    std::size_t fed = 0;
+    ended_ = !state_->ready;
+    if (ended_) status_ = BzipStatus::no_memory;
+}
+
+BzipReader::~BzipReader() {
+    if (state_->ready) BZ2_bzDecompressEnd(&state_->bz);
+}
+
+std::size_t BzipReader::input_bytes() const {
+    return state_->fed - state_->bz.avail_in;
+}
+
+std::size_t BzipReader::read(std::span<std::byte> out) {
+    bz_stream& bz = state_->bz;
     std::size_t made = 0;
-    for (;;) {
-        if (bz.avail_in == 0 && fed < stream.size()) {
-            bz.avail_in = static_cast<unsigned>(std::min(stream.size() - fed, largest_step));
-            fed += bz.avail_in;
+    while (!ended_ && made < out.size()) {
+        if (bz.avail_in == 0 && state_->fed < stream_.size()) {
+            bz.avail_in =
+                static_cast<unsigned>(std::min(stream_.size() - state_->fed, largest_step));
+            state_->fed += bz.avail_in;
         }
-        if (made == buffer.size()) {
-            if (made >= limit) return {BzipStatus::too_large, made, fed - bz.avail_in};
-            buffer.resize(std::min(limit, 2 * buffer.size()));
-        }
-        bz.next_out = reinterpret_cast<char*>(buffer.data() + made);
-        bz.avail_out = static_cast<unsigned>(std::min(buffer.size() - made, largest_step));
+        bz.next_out = reinterpret_cast<char*>(out.data() + made);
+        bz.avail_out = static_cast<unsigned>(std::min(out.size() - made, largest_step));
         const unsigned room = bz.avail_out;
         const int code = BZ2_bzDecompress(&bz);
         made += room - bz.avail_out;
-        const std::size_t used = fed - bz.avail_in;
-        if (code == BZ_STREAM_END) return {BzipStatus::whole, made, used};
-        if (code == BZ_MEM_ERROR) return {BzipStatus::no_memory, made, used};
-        if (code != BZ_OK) return {BzipStatus::corrupt, made, used};
-        const bool starved = bz.avail_in == 0 && fed == stream.size() && bz.avail_out != 0;
-        if (starved) return {BzipStatus::truncated, made, used};
+        const bool starved = bz.avail_in == 0 && state_->fed == stream_.size() && bz.avail_out != 0;
+        if (code == BZ_OK && !starved) continue;
+        ended_ = true;
+        if (code == BZ_MEM_ERROR) {
+            status_ = BzipStatus::no_memory;
+        } else if (code == BZ_OK) {
+            status_ = BzipStatus::truncated;
+        } else if (code != BZ_STREAM_END) {
+            status_ = BzipStatus::corrupt;
+        }
+    }
+    return made;
+}
+
+BzipResult bunzip(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
+                  std::size_t limit) {
+    BzipReader reader{stream};
+    if (buffer.empty()) buffer.resize(std::min(limit, first_buffer_bytes));
+    std::size_t made = 0;
+    for (;;) {
+        made += reader.read(std::span{buffer}.subspan(made));
+        if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
+        if (made >= limit) return {BzipStatus::too_large, made, reader.input_bytes()};
+        if (made == buffer.size()) buffer.resize(std::min(limit, 2 * buffer.size()));
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ inline constexpr std::size_t bzip2_mark_bytes = 10;
 // The first place at or after `from` where such a stream begins.
 [[nodiscard]] std::optional<std::size_t> find_bzip2(std::span<const std::byte> bytes,
                                                     std::size_t from);
+// Whether the last bytes are those of a bzip2 stream: the end mark, a checksum, less than a byte.
+[[nodiscard]] bool ends_as_bzip2(std::span<const std::byte> bytes);
 
 enum class BzipStatus : std::uint8_t { whole, truncated, corrupt, too_large, no_memory };
 
@@ -27,6 +30,30 @@ struct BzipResult {
     BzipStatus status = BzipStatus::whole;
     std::size_t output_bytes = 0;  // at the start of the buffer
     std::size_t input_bytes = 0;   // that the stream took
+};
+
+// One stream, decompressed as far as there is room. What it gives is checked only when the stream
+// has ended: see above.
+class BzipReader {
+  public:
+    explicit BzipReader(std::span<const std::byte> stream);
+    BzipReader(const BzipReader&) = delete;
+    BzipReader& operator=(const BzipReader&) = delete;
+    ~BzipReader();
+
+    // Fills `out` as far as the stream goes and says how many bytes; fewer only at its end.
+    [[nodiscard]] std::size_t read(std::span<std::byte> out);
+    [[nodiscard]] bool ended() const { return ended_; }
+    // What ended it: whole only where all checksums are right.
+    [[nodiscard]] BzipStatus status() const { return status_; }
+    [[nodiscard]] std::size_t input_bytes() const;  // that the stream took
+
+  private:
+    struct State;
+    std::span<const std::byte> stream_;
+    std::unique_ptr<State> state_;
+    bool ended_ = false;
+    BzipStatus status_ = BzipStatus::whole;
 };
 
 // Decompresses one stream into `buffer`, which grows as needed up to `limit` and never shrinks.

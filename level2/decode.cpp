@@ -1,5 +1,6 @@
 #include "level2/decode.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -14,8 +15,7 @@
 #include "level2/gzip_stream.h"
 #include "level2/message_reader.h"
 #include "level2/record_queue.h"
-#include "level2/report_writer.h"
-#include "level2/sweep_builder.h"
+#include "level2/volume_builder.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -25,6 +25,22 @@ constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
 constexpr std::size_t inner_limit_bytes = std::size_t{256} << 20;
 // A volume has some hundreds.
 constexpr std::uint64_t most_records = 100'000;
+// Messages are read, and their radials handed on, so many bytes at a time.
+constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
+constexpr std::size_t rows_of_a_stretch = 128;
+
+// What comes out of a compressed layer: messages, read at once, or something to peel further, which
+// is held until it is whole.
+struct LayerOutput {
+    explicit LayerOutput(const DecodeOptions& options)
+        : builder(options.output_limit_bytes, rows_of_a_stretch, options.selection) {}
+    FragmentBuilder builder;
+    MessageReader reader{builder};
+    MessageFeed feed{reader};
+    std::vector<std::byte> inner;
+    bool first = true;
+    bool messages = false;
+};
 
 // One decode, from the outermost layer inwards.
 class Decoder {
@@ -36,15 +52,6 @@ class Decoder {
     Result<Decoded> run(std::span<const std::byte> bytes);
 
   private:
-    // What comes out of a compressed layer: messages, read at once, or something to peel further,
-    // which is held until it is whole.
-    struct LayerOutput {
-        explicit LayerOutput(MessageReader& reader) : feed(reader) {}
-        MessageFeed feed;
-        std::vector<std::byte> inner;
-        bool first = true;
-        bool messages = false;
-    };
     // Each gives an error only where nothing can be kept: limits, and content of another kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
     // Everything that a stream of pieces gives.
@@ -54,36 +61,27 @@ class Decoder {
     Status read_compress(std::span<const std::byte> bytes, int depth);
     Status read_bzip2(std::span<const std::byte> bytes, int depth);
     Status read_ldm(std::span<const std::byte> bytes);
-    Status read_record(const RecordQueue::Item& item);
-    Status read_record_blocks(const RecordQueue::Item& item);
-    std::span<const std::byte> strip_header(std::span<const std::byte> bytes);
+    Status read_messages(std::span<const std::byte> bytes);
     Status take_output(LayerOutput& output, std::span<const std::byte> piece);
     Status end_output(LayerOutput& output, int depth);
-    Status next_block(BzipBlocks& blocks, std::optional<BzipBlocks::Block>& block);
-    void report_gzip_end(const GzipStream& gzip);
-    void report_part(const LdmPart& part);
-    Status count_output(std::size_t bytes);
-    Status check_arrays() const;
+    // Hands on what has been read.
+    Status flush(LayerOutput& output);
+    Status take_fragment(Fragment fragment);
+    std::span<const std::byte> strip_header(std::span<const std::byte> bytes);
+    void report_container(const LayerOutput& output, Severity severity, std::string_view code,
+                          std::string message, std::uint64_t position);
+    void report_gzip_end(const GzipStream& gzip, const LayerOutput& output);
+    Status count_output(std::uint64_t bytes);
     Result<Decoded> finish();
-    void report_position(const Volume& volume);
-    void report_time(const Volume& volume);
-    void report_end(const Volume& volume);
-    [[nodiscard]] std::size_t output_left() const {
-        return static_cast<std::size_t>(options_.output_limit_bytes - produced_bytes_);
-    }
 
     const DecodeOptions& options_;
-    DecodeReport report_data_;
-    ReportWriter report_{report_data_};
-    SweepBuilder builder_{options_.output_limit_bytes};
-    MessageReader reader_{builder_, report_};
-    std::optional<VolumeHeader> header_;
+    VolumeBuilder builder_{options_.output_limit_bytes};
     std::uint64_t produced_bytes_ = 0;
     bool cut_ = false;  // the input ends too early
 };
 
-Status Decoder::count_output(std::size_t bytes) {
-    if (bytes > output_left()) {
+Status Decoder::count_output(std::uint64_t bytes) {
+    if (bytes > options_.output_limit_bytes - produced_bytes_) {
         return fail(ErrorCode::unsupported, "decompresses to more than the limit of {} bytes",
                     options_.output_limit_bytes);
     }
@@ -91,19 +89,37 @@ Status Decoder::count_output(std::size_t bytes) {
     return {};
 }
 
-Status Decoder::check_arrays() const {
-    if (!reader_.full()) return {};
+Status Decoder::take_fragment(Fragment fragment) {
+    if (fragment.failure == Fragment::Failure::no_memory) throw std::bad_alloc{};
+    if (fragment.failure == Fragment::Failure::too_much_output) {
+        return count_output(options_.output_limit_bytes + 1);
+    }
+    if (Status counted = count_output(fragment.output_bytes); !counted) return counted;
+    cut_ = cut_ || fragment.cut;
+    const bool whole = fragment.failure == Fragment::Failure::none;
+    if (whole && builder_.append(std::move(fragment))) return {};
     return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
                 options_.output_limit_bytes);
+}
+
+Status Decoder::flush(LayerOutput& output) {
+    const bool full = output.reader.full();
+    std::optional<Fragment> fragment = output.reader.take_fragment();
+    if (!fragment) {
+        if (!full) return {};
+        fragment.emplace();
+    }
+    if (full) fragment->failure = Fragment::Failure::too_large_arrays;
+    return take_fragment(std::move(*fragment));
 }
 
 std::span<const std::byte> Decoder::strip_header(std::span<const std::byte> bytes) {
     auto header = read_archive_header(bytes);
     if (!header) {
-        report_.add(Severity::note, "no_volume_header", "no 24-byte volume header");
+        builder_.report().add(Severity::note, "no_volume_header", "no 24-byte volume header");
         return bytes;
     }
-    header_ = std::move(*header);
+    builder_.set_header(std::move(*header));
     return bytes.subspan(archive_header_bytes);
 }
 
@@ -111,23 +127,23 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
         return fail(ErrorCode::unsupported, "more than {} layers of compression", most_layers - 1);
     }
+    std::string& container = builder_.report_data().container;
     switch (content_anywhere(bytes)) {
         case Content::gzip:
-            report_data_.container += "gzip+";
+            container += "gzip+";
             return read_gzip(bytes, depth);
         case Content::bzip2:
-            report_data_.container += "bzip2-whole-file+";
+            container += "bzip2-whole-file+";
             return read_bzip2(bytes, depth);
         case Content::compress:
-            report_data_.container += "compress+";
+            container += "compress+";
             return read_compress(bytes, depth);
         case Content::ldm:
-            report_data_.container += "ldm-bzip2";
+            container += "ldm-bzip2";
             return read_ldm(strip_header(bytes));
         case Content::messages:
-            report_data_.container += "uncompressed";
-            reader_.read(strip_header(bytes), true);
-            return check_arrays();
+            container += "uncompressed";
+            return read_messages(strip_header(bytes));
         case Content::unknown:
             break;
     }
@@ -142,18 +158,28 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
                 depth == 0 ? "" : "what it holds, decompressed, is ");
 }
 
+Status Decoder::read_messages(std::span<const std::byte> bytes) {
+    LayerOutput output{options_};
+    for (std::size_t at = 0; at < bytes.size(); at += stretch_bytes) {
+        output.feed.append(bytes.subspan(at, std::min(stretch_bytes, bytes.size() - at)));
+        if (Status flushed = flush(output); !flushed) return flushed;
+    }
+    output.feed.end();
+    return flush(output);
+}
+
 Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
     if (Status counted = count_output(piece.size()); !counted) return counted;
     if (std::exchange(output.first, false)) {
         output.messages = content_at_start(piece) == Content::messages;
         if (output.messages) {
-            report_data_.container += "uncompressed";
+            builder_.report_data().container += "uncompressed";
             piece = strip_header(piece);
         }
     }
     if (output.messages) {
         output.feed.append(piece);
-        return check_arrays();
+        return flush(output);
     }
     if (output.inner.size() + piece.size() > inner_limit_bytes) {
         return fail(ErrorCode::not_level2, "holds more than {} bytes that are not messages",
@@ -166,7 +192,7 @@ Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piec
 Status Decoder::end_output(LayerOutput& output, int depth) {
     if (output.messages) {
         output.feed.end();
-        return check_arrays();
+        return flush(output);
     }
     if (output.inner.empty()) {
         return fail(cut_ ? ErrorCode::truncated : ErrorCode::corrupt,
@@ -180,36 +206,43 @@ Status Decoder::take_all(Stream& stream, LayerOutput& output) {
     for (;;) {
         const double begin_s = thread_cpu_s();
         const std::span<const std::byte> piece = stream.next();
-        report_data_.decompress_s += thread_cpu_s() - begin_s;
+        builder_.report_data().decompress_s += thread_cpu_s() - begin_s;
         if (piece.empty()) return {};
         if (Status taken = take_output(output, piece); !taken) return taken;
     }
 }
 
+// A damaged container: the stream of messages is wrong from where the reader is, or ends there.
+void Decoder::report_container(const LayerOutput& output, Severity severity, std::string_view code,
+                               std::string message, std::uint64_t position) {
+    DecodeReport& report = builder_.report_data();
+    if (severity == Severity::error && !report.corruption) {
+        report.corruption = {report.message_bytes + output.reader.offset(), message};
+    }
+    builder_.report().add(severity, code, std::move(message), position);
+}
+
 Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
     GzipStream gzip{bytes};
-    LayerOutput output{reader_};
+    LayerOutput output{options_};
     if (Status taken = take_all(gzip, output); !taken) return taken;
-    report_gzip_end(gzip);
+    report_gzip_end(gzip, output);
     return end_output(output, depth);
 }
 
 Status Decoder::read_compress(std::span<const std::byte> bytes, int depth) {
     CompressStream stream{bytes};
-    LayerOutput output{reader_};
+    LayerOutput output{options_};
     if (Status taken = take_all(stream, output); !taken) return taken;
     if (stream.end() != CompressEnd::whole) {
         cut_ = stream.end() == CompressEnd::truncated;
-        report_.add(Severity::error, "corrupt_compress", "the .Z file is damaged",
-                    stream.position());
-        if (!report_data_.corruption) {
-            report_data_.corruption = {reader_.offset(), report_data_.problems.back().message};
-        }
+        report_container(output, Severity::error, "corrupt_compress", "the .Z file is damaged",
+                         stream.position());
     }
     return end_output(output, depth);
 }
 
-void Decoder::report_gzip_end(const GzipStream& gzip) {
+void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output) {
     const std::uint64_t position = gzip.position();
     switch (gzip.end()) {
         case GzipEnd::none:
@@ -217,144 +250,67 @@ void Decoder::report_gzip_end(const GzipStream& gzip) {
             return;
         case GzipEnd::truncated:
             cut_ = true;
-            report_.add(Severity::error, "truncated_gzip", "the gzip file is cut", position);
-            break;
+            report_container(output, Severity::error, "truncated_gzip", "the gzip file is cut",
+                             position);
+            return;
         case GzipEnd::corrupt:
-            report_.add(Severity::error, "corrupt_gzip", "the gzip file is damaged", position);
-            break;
+            report_container(output, Severity::error, "corrupt_gzip", "the gzip file is damaged",
+                             position);
+            return;
         case GzipEnd::bad_checksum:
-            report_.add(Severity::error, "gzip_checksum", "the gzip file contradicts its checksum",
-                        position);
-            break;
+            report_container(output, Severity::error, "gzip_checksum",
+                             "the gzip file contradicts its checksum", position);
+            return;
         case GzipEnd::trailing_garbage:
-            report_.add(Severity::warning, "gzip_trailer",
-                        "something else follows the end of the gzip data", position);
+            report_container(output, Severity::warning, "gzip_trailer",
+                             "something else follows the end of the gzip data", position);
             return;
     }
-    if (!report_data_.corruption) {
-        report_data_.corruption = {reader_.offset(), report_data_.problems.back().message};
-    }
-}
-
-Status Decoder::next_block(BzipBlocks& blocks, std::optional<BzipBlocks::Block>& block) {
-    const double begin_s = thread_cpu_s();
-    block = blocks.next(output_left());
-    report_data_.decompress_s += thread_cpu_s() - begin_s;
-    if (block && block->status == BzipStatus::too_large) return count_output(output_left() + 1);
-    return {};
 }
 
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     BzipBlocks blocks{bytes};
-    LayerOutput output{reader_};
+    LayerOutput output{options_};
     for (;;) {
-        std::optional<BzipBlocks::Block> block;
-        if (Status read = next_block(blocks, block); !read) return read;
+        const double begin_s = thread_cpu_s();
+        const auto left = static_cast<std::size_t>(options_.output_limit_bytes - produced_bytes_);
+        const auto block = blocks.next(left);
+        builder_.report_data().decompress_s += thread_cpu_s() - begin_s;
         if (!block) break;
+        if (block->status == BzipStatus::too_large) {
+            return count_output(options_.output_limit_bytes + 1);
+        }
         if (block->status == BzipStatus::whole) {
             if (Status taken = take_output(output, block->data); !taken) return taken;
             continue;
         }
         output.feed.end();
-        report_.damage("corrupt_bzip2",
-                       fmt::format("a bzip2 block at byte {} is damaged", block->position),
-                       reader_.offset(), block->compressed_bytes);
-        reader_.lose_sync();
+        output.builder.report().damage(
+            "corrupt_bzip2", fmt::format("a bzip2 block at byte {} is damaged", block->position),
+            output.reader.offset(), block->compressed_bytes);
+        output.reader.lose_sync();
     }
+    if (Status flushed = flush(output); !flushed) return flushed;
     if (!blocks.ended()) {
         cut_ = true;
-        report_.add(Severity::error, "truncated_bzip2", "the bzip2 file is cut", bytes.size());
+        report_container(output, Severity::error, "truncated_bzip2", "the bzip2 file is cut",
+                         bytes.size());
     }
     return end_output(output, depth);
 }
 
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {
-    report_data_.ldm_records = 0;
-    report_data_.negative_control_words = 0;
-    RecordQueue queue{bytes, options_.threads};
-    while (const auto item = queue.next()) {
-        report_data_.decompress_s += item->cpu_s;
-        if (item->part.kind != LdmPart::Kind::record) {
-            report_part(item->part);
-            continue;
-        }
-        if (++*report_data_.ldm_records > most_records) {
+    DecodeReport& report = builder_.report_data();
+    report.ldm_records = 0;
+    report.negative_control_words = 0;
+    RecordQueue queue{bytes, options_.threads, options_.output_limit_bytes, options_.selection};
+    while (auto fragment = queue.next()) {
+        if (Status taken = take_fragment(std::move(*fragment)); !taken) return taken;
+        if (report.ldm_records > most_records) {
             return fail(ErrorCode::unsupported, "more than {} LDM records", most_records);
         }
-        if (item->part.negative) ++*report_data_.negative_control_words;
-        if (Status read = read_record(*item); !read) return read;
     }
     return {};
-}
-
-void Decoder::report_part(const LdmPart& part) {
-    if (part.kind == LdmPart::Kind::header) {
-        builder_.further_header(part.header);
-        report_.add(Severity::note, "further_volume_header",
-                    fmt::format("a further volume header, {}", part.header.filename),
-                    reader_.offset());
-    } else if (part.kind == LdmPart::Kind::garbage) {
-        report_.damage("not_a_record",
-                       fmt::format("no LDM record at byte {} behind the header", part.position),
-                       reader_.offset(), part.bytes.size());
-    }
-}
-
-Status Decoder::read_record(const RecordQueue::Item& item) {
-    const LdmPart& part = item.part;
-    if (item.result.status == BzipStatus::no_memory) throw std::bad_alloc{};
-    if (item.result.status != BzipStatus::whole) return read_record_blocks(item);
-    if (Status counted = count_output(item.output.size()); !counted) return counted;
-    reader_.read(item.output, true);
-    const auto behind = part.bytes.subspan(item.result.input_bytes);
-    if (part.bad_length || part.cut) {
-        report_.add(Severity::warning, "bad_control_word",
-                    fmt::format("the length of LDM record {} at byte {} is wrong",
-                                *report_data_.ldm_records, part.position),
-                    reader_.offset());
-    }
-    if (!all_zero(behind)) {
-        report_.damage("not_a_record",
-                       fmt::format("something that is no record follows LDM record {}",
-                                   *report_data_.ldm_records),
-                       reader_.offset(), behind.size());
-    }
-    return check_arrays();
-}
-
-// A record that is damaged, or larger than what is held at once.
-Status Decoder::read_record_blocks(const RecordQueue::Item& item) {
-    const LdmPart& part = item.part;
-    const bool is_cut = part.cut || item.result.status == BzipStatus::truncated;
-    const std::uint64_t number = *report_data_.ldm_records;
-    BzipBlocks blocks{part.bytes};
-    MessageFeed feed{reader_};
-    bool all_good = true;
-    for (;;) {
-        std::optional<BzipBlocks::Block> block;
-        if (Status read = next_block(blocks, block); !read) return read;
-        if (!block) break;
-        if (block->status == BzipStatus::whole) {
-            if (Status counted = count_output(block->data.size()); !counted) return counted;
-            feed.append(block->data);
-            if (Status fits = check_arrays(); !fits) return fits;
-            continue;
-        }
-        all_good = false;
-        feed.end();
-        report_.damage(is_cut ? "truncated_record" : "corrupt_record",
-                       fmt::format("LDM record {} is {} at byte {} behind the header", number,
-                                   is_cut ? "cut" : "damaged", part.position + block->position),
-                       reader_.offset(), block->compressed_bytes);
-        reader_.lose_sync();
-    }
-    feed.end();
-    cut_ = cut_ || is_cut;
-    if (all_good && !blocks.ended()) {
-        report_.damage("truncated_record", fmt::format("LDM record {} is cut", number),
-                       reader_.offset(), 0);
-    }
-    return check_arrays();
 }
 
 Result<Decoded> Decoder::run(std::span<const std::byte> bytes) {
@@ -364,56 +320,16 @@ Result<Decoded> Decoder::run(std::span<const std::byte> bytes) {
 }
 
 Result<Decoded> Decoder::finish() {
-    Decoded decoded;
-    decoded.volume = builder_.finish(report_data_);
-    Volume& volume = decoded.volume;
-    volume.header = std::move(header_);
-    if (volume.station.empty() && volume.header) volume.station = volume.header->icao;
-    if (volume.station.empty()) volume.station = options_.fallback_station;
-    report_position(volume);
-    report_time(volume);
-    report_end(volume);
-    report_.finish();
-    decoded.report = std::move(report_data_);
-    bool anything = false;
-    for (const auto& [type, count] : decoded.report.message_counts)
-        anything = anything || type != 0;
+    Decoded decoded = builder_.finish(options_.fallback_station);
+    const auto& counts = decoded.report.message_counts;
+    const bool anything = std::any_of(counts.begin(), counts.end(),
+                                      [](const auto& count) { return count.first != 0; });
     if (!anything) {
         return fail(cut_ ? ErrorCode::truncated : ErrorCode::corrupt, "nothing in it is whole: {}",
                     decoded.report.corruption ? decoded.report.corruption->reason
                                               : "neither radials nor metadata");
     }
     return decoded;
-}
-
-void Decoder::report_end(const Volume& volume) {
-    if (volume.sweeps.empty()) {
-        report_.add(Severity::warning, "no_radials", "metadata without radials");
-    } else if (!has_ended(volume)) {
-        report_.add(Severity::warning, "no_end_of_volume",
-                    "the volume stops before its end: its last radial is not marked as the last");
-    }
-}
-
-void Decoder::report_time(const Volume& volume) {
-    const auto start = volume.start_time();
-    if (volume.header && start != volume.header->time()) {
-        report_.add(Severity::warning, "header_time",
-                    fmt::format("the volume header's date, day {} of the radar's calendar, is {}",
-                                volume.header->date,
-                                start ? "not that of the radials: theirs is taken"
-                                      : "impossible, and no radial has a better one"));
-    }
-}
-
-void Decoder::report_position(const Volume& volume) {
-    const auto antenna = antenna_position(volume);
-    if (!antenna) {
-        report_.add(Severity::warning, "no_position",
-                    "neither the file nor the station table says where the radar stands");
-    } else if (antenna->disagreement) {
-        report_.add(Severity::warning, "position_disagrees", *antenna->disagreement);
-    }
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ Json describe_problems(const DecodeReport& report) {
     for (const Problem& problem : report.problems) {
         problems.push_back({{"severity", severity_name(problem.severity)},
                             {"code", problem.code},
-                            {"message", problem.message},
+                            {"message", problem.text()},
                             {"offset", or_null(problem.offset)}});
     }
     return problems;
@@ -265,7 +265,7 @@ Json describe(const Decoded& decoded, const FileFacts& file) {
                  {"n_sweeps", volume.sweeps.size()},
                  {"n_radials", volume.radial_count()}};
     for (const Problem& problem : report.problems)
-        json["oddities"].push_back(problem.message);
+        json["oddities"].push_back(problem.text());
     describe_times(json, volume);
     json["complete"] = report.complete;
     json["bytes_dropped"] = report.bytes_dropped;

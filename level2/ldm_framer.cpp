@@ -12,24 +12,34 @@ namespace {
 
 constexpr std::size_t control_word_bytes = 4;
 
+// What stands behind a record when its length is right; undecided while too little is there.
+std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
+    if (rest.size() < archive_header_bytes && !last) return std::nullopt;
+    if (rest.size() < control_word_bytes + bzip2_mark_bytes) return true;  // a tail, or the end
+    return is_ldm_record(rest) || read_archive_header(rest) ||
+           all_zero(rest.first(control_word_bytes + bzip2_mark_bytes));
+}
+
 }  // namespace
 
 bool is_ldm_record(std::span<const std::byte> bytes) {
     return bytes.size() > control_word_bytes && is_bzip2(bytes.subspan(control_word_bytes));
 }
 
-LdmFramer::LdmFramer(std::span<const std::byte> bytes) : bytes_(bytes), zeros_from_(bytes.size()) {
-    while (zeros_from_ > 0 && bytes_[zeros_from_ - 1] == std::byte{0})
-        --zeros_from_;
+void LdmStreamFramer::end_part(std::size_t bytes) {
+    at_ += bytes;
+    searched_ = 0;
 }
 
-bool LdmFramer::may_begin_at(std::size_t position) const {
-    const auto rest = bytes_.subspan(position);
-    if (rest.size() < control_word_bytes + bzip2_mark_bytes) return true;  // a tail, or the end
-    return is_ldm_record(rest) || read_archive_header(rest) || position >= zeros_from_;
+// find_bzip2, which goes on where it stopped when there are more bytes.
+std::optional<std::size_t> LdmStreamFramer::find_stream(std::span<const std::byte> rest,
+                                                        std::size_t from) {
+    const auto found = find_bzip2(rest, std::max(from, searched_));
+    if (!found) searched_ = rest.size() - std::min(rest.size(), bzip2_mark_bytes);
+    return found;
 }
 
-LdmPart LdmFramer::record(std::span<const std::byte> rest) {
+std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, bool last) {
     ByteReader reader{rest};
     const std::int64_t control = reader.i32();
     LdmPart part;
@@ -38,36 +48,44 @@ LdmPart LdmFramer::record(std::span<const std::byte> rest) {
     part.negative = control < 0;
     const auto length = static_cast<std::size_t>(control < 0 ? -control : control);
     const auto stream = rest.subspan(control_word_bytes);
-    if (length <= stream.size() && may_begin_at(at_ + control_word_bytes + length)) {
-        part.bytes = stream.first(length);
-        at_ += control_word_bytes + length;
-        return part;
+    if (length <= stream.size()) {
+        std::optional<bool> right = ends_as_bzip2(stream.first(length));
+        if (!*right) right = may_begin(stream.subspan(length), last);
+        if (!right) return std::nullopt;
+        if (*right) {
+            part.bytes = stream.first(length);
+            end_part(control_word_bytes + length);
+            return part;
+        }
     }
     // The length lies, or the file is cut: the record reaches to the next one or to the end.
-    const auto next = find_bzip2(stream, bzip2_mark_bytes + control_word_bytes);
-    part.bytes = next ? stream.first(*next - control_word_bytes) : stream;
+    const auto next = find_stream(rest, 2 * control_word_bytes + bzip2_mark_bytes);
+    if (!next && !last) return std::nullopt;
+    part.bytes = next ? rest.subspan(control_word_bytes, *next - 2 * control_word_bytes) : stream;
     part.cut = !next && length > stream.size();
     part.bad_length = !part.cut;
-    at_ += control_word_bytes + part.bytes.size();
+    end_part(control_word_bytes + part.bytes.size());
     return part;
 }
 
-std::optional<LdmPart> LdmFramer::next() {
-    if (at_ >= bytes_.size()) return std::nullopt;
-    const auto rest = bytes_.subspan(at_);
+std::optional<LdmPart> LdmStreamFramer::next(std::span<const std::byte> rest, bool last) {
+    if (rest.empty() || (rest.size() < archive_header_bytes && !last && !is_ldm_record(rest))) {
+        return std::nullopt;
+    }
     LdmPart part;
     part.position = at_;
     if (auto header = read_archive_header(rest)) {
         part.kind = LdmPart::Kind::header;
         part.header = std::move(*header);
-        at_ += archive_header_bytes;
+        end_part(archive_header_bytes);
         return part;
     }
-    if (is_ldm_record(rest)) return record(rest);
-    const auto stream = find_bzip2(rest, control_word_bytes + 1);
+    if (is_ldm_record(rest)) return record(rest, last);
+    const auto stream = find_stream(rest, control_word_bytes + 1);
+    if (!stream && !last) return std::nullopt;
     part.bytes = stream ? rest.first(*stream - control_word_bytes) : rest;
     part.kind = all_zero(part.bytes) ? LdmPart::Kind::padding : LdmPart::Kind::garbage;
-    at_ += part.bytes.size();
+    end_part(part.bytes.size());
     return part;
 }
 

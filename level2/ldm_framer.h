@@ -30,18 +30,36 @@ struct LdmPart {
     bool bad_length = false;  // the control word contradicts the bytes
 };
 
-class LdmFramer {
+// Cuts what grows. Decides nothing that later bytes could change, except that a record whose
+// length ends at the end mark of a bzip2 stream is taken at once.
+class LdmStreamFramer {
   public:
-    explicit LdmFramer(std::span<const std::byte> bytes);
-    [[nodiscard]] std::optional<LdmPart> next();
+    // `rest`: the bytes from position() on, as far as there are any yet; `last`: there will be no
+    // more. None when more are needed, or at the end. The part's bytes lie in `rest`.
+    [[nodiscard]] std::optional<LdmPart> next(std::span<const std::byte> rest, bool last);
+    [[nodiscard]] std::size_t position() const { return at_; }
 
   private:
-    [[nodiscard]] LdmPart record(std::span<const std::byte> rest);
-    [[nodiscard]] bool may_begin_at(std::size_t position) const;
+    [[nodiscard]] std::optional<LdmPart> record(std::span<const std::byte> rest, bool last);
+    [[nodiscard]] std::optional<std::size_t> find_stream(std::span<const std::byte> rest,
+                                                         std::size_t from);
+    void end_part(std::size_t bytes);
 
-    std::span<const std::byte> bytes_;
-    std::size_t zeros_from_;  // nothing but zeros from here to the end
     std::size_t at_ = 0;
+    std::size_t searched_ = 0;  // no stream begins in so many bytes of the part that is due
+};
+
+// Cuts what is there as a whole.
+class LdmFramer {
+  public:
+    explicit LdmFramer(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    [[nodiscard]] std::optional<LdmPart> next() {
+        return framer_.next(bytes_.subspan(framer_.position()), true);
+    }
+
+  private:
+    std::span<const std::byte> bytes_;
+    LdmStreamFramer framer_;
 };
 
 // Whether an LDM record begins with these bytes.

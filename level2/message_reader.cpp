@@ -53,14 +53,15 @@ std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (const auto header = read_archive_header(rest)) {
         close_damage();
         builder_.further_header(*header);
-        report_.add(Severity::note, "further_volume_header",
-                    fmt::format("a further volume header, {}", header->filename), offset_);
-        report_.report().message_bytes += archive_header_bytes;
+        builder_.report().add(Severity::note, "further_volume_header",
+                              fmt::format("a further volume header, {}", header->filename),
+                              offset_);
+        builder_.report_data().message_bytes += archive_header_bytes;
         return archive_header_bytes;
     }
     if (rest.size() < message_header_bytes) {
         if (all_zero(rest)) {
-            report_.report().message_bytes += rest.size();
+            builder_.report_data().message_bytes += rest.size();
             return rest.size();
         }
         return resynchronise(rest, rest.size(), last, "message header cut by the end of the data");
@@ -80,8 +81,8 @@ std::size_t MessageReader::read_fill(std::span<const std::byte> rest, bool last)
         return resynchronise(rest, 1, last, "type 0 frame with non-zero content");
     }
     close_damage();
-    if (frame.size() == frame_bytes) ++report_.report().message_counts[0];
-    report_.report().message_bytes += frame.size();
+    if (frame.size() == frame_bytes) ++builder_.report_data().message_counts[0];
+    builder_.report_data().message_bytes += frame.size();
     return frame.size();
 }
 
@@ -110,7 +111,7 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
     }
     close_damage();
     take(header, rest.first(length));
-    report_.report().message_bytes += length;
+    builder_.report_data().message_bytes += length;
     return length;
 }
 
@@ -128,9 +129,15 @@ std::size_t MessageReader::resynchronise(std::span<const std::byte> rest, std::s
         if (!last) dropped -= std::min(rest.size(), sure_message_bytes);
     }
     open_damage_->bytes += dropped;
-    report_.report().message_bytes += dropped;
+    builder_.report_data().message_bytes += dropped;
     if (dropped == 0 && in_sync_) return step(rest, last);
     return dropped;
+}
+
+std::optional<Fragment> MessageReader::take_fragment() {
+    if (open_damage_) return std::nullopt;
+    offset_ = 0;
+    return builder_.take();
 }
 
 void MessageReader::close_damage() {
@@ -139,8 +146,8 @@ void MessageReader::close_damage() {
         open_damage_.reset();
         return;
     }
-    report_.damage("damaged_messages", std::move(open_damage_->reason), open_damage_->offset,
-                   open_damage_->bytes, open_damage_->found_at);
+    builder_.report().damage("damaged_messages", std::move(open_damage_->reason),
+                             open_damage_->offset, open_damage_->bytes, open_damage_->found_at);
     open_damage_.reset();
 }
 
@@ -150,14 +157,15 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         return;
     }
     if (!is_known_message_type(header.type)) {
-        report_.add(Severity::note, "unknown_message",
-                    fmt::format("message of unknown type {} skipped", header.type), offset_);
+        builder_.report().add(Severity::note, "unknown_message",
+                              fmt::format("message of unknown type {} skipped", header.type),
+                              offset_);
         return;
     }
-    ++report_.report().message_counts[header.type];
+    ++builder_.report_data().message_counts[header.type];
     if (header.type == 5 || header.type == 7) {
         auto vcp = read_vcp(header.type, message.subspan(message_header_bytes));
-        if (vcp) builder_.set_vcp(std::move(*vcp));
+        if (vcp) builder_.add_pattern(std::move(*vcp));
     }
 }
 
@@ -165,28 +173,29 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     const auto body = message.subspan(message_header_bytes);
     if (header.type == 31) {
         const int compression = message_31_compression(body);
-        ++report_.report().radial_compression[compression];
+        ++builder_.report_data().radial_compression[compression];
         if (compression != 0) {
-            report_.report().bytes_dropped += message.size();
-            report_.add(Severity::error, "compressed_radial",
-                        fmt::format("radial with compression {} is not supported", compression),
-                        offset_);
+            builder_.report_data().bytes_dropped += message.size();
+            builder_.report().add(
+                Severity::error, "compressed_radial",
+                fmt::format("radial with compression {} is not supported", compression), offset_);
             return;
         }
     }
     const RadialResult radial = header.type == 31 ? read_message_31(body) : read_message_1(body);
     if (!radial) {
-        report_.damage("bad_radial", std::string{radial.error()}, offset_, message.size());
+        builder_.report().damage("bad_radial", std::string{radial.error()}, offset_,
+                                 message.size());
         return;
     }
-    const SweepBuilder::Added added = builder_.add(*radial);
-    if (added == SweepBuilder::Added::refused) {
-        report_.damage("bad_radial", "no sweep holds so many kinds of a moment", offset_,
-                       message.size());
+    const FragmentBuilder::Added added = builder_.add(*radial);
+    if (added == FragmentBuilder::Added::refused) {
+        builder_.report().damage("bad_radial", "no sweep holds so many kinds of a moment", offset_,
+                                 message.size());
         return;
     }
-    ++report_.report().message_counts[header.type];
-    full_ = added == SweepBuilder::Added::full;
+    ++builder_.report_data().message_counts[header.type];
+    full_ = added == FragmentBuilder::Added::full;
 }
 
 void MessageFeed::append(std::span<const std::byte> bytes) {

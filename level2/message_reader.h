@@ -12,16 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "level2/fragment_builder.h"
 #include "level2/message_header.h"
-#include "level2/report_writer.h"
-#include "level2/sweep_builder.h"
 
 namespace stormcellar::level2 {
 
 class MessageReader {
   public:
-    MessageReader(SweepBuilder& builder, ReportWriter& report)
-        : builder_(builder), report_(report) {}
+    explicit MessageReader(FragmentBuilder& builder) : builder_(builder) {}
 
     // Reads messages from the start of `data`, which goes on from where the last call stopped, and
     // says how many bytes are done with. With `last`, `data` are a block's last bytes (messages do
@@ -31,8 +29,12 @@ class MessageReader {
     // Bytes of the stream are missing here: search before anything else is believed.
     void lose_sync() { in_sync_ = false; }
 
-    // Where the next byte stands in the message stream (24-byte headers inside it included).
+    // Where the next byte stands in the message stream (24-byte headers inside it included),
+    // counted from where the builder's fragment begins.
     [[nodiscard]] std::uint64_t offset() const { return offset_; }
+    // The fragment up to here, which no damage reaches beyond: none while damage is open. Offsets
+    // count from here afterwards.
+    [[nodiscard]] std::optional<Fragment> take_fragment();
     // The arrays would exceed their limit: no more is read.
     [[nodiscard]] bool full() const { return full_; }
 
@@ -48,8 +50,7 @@ class MessageReader {
     void take_radial(const MessageHeader& header, std::span<const std::byte> message);
     void close_damage();
 
-    SweepBuilder& builder_;
-    ReportWriter& report_;
+    FragmentBuilder& builder_;
     std::uint64_t offset_ = 0;
     bool in_sync_ = true;
     bool full_ = false;

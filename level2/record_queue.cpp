@@ -1,20 +1,18 @@
 #include "level2/record_queue.h"
 
 #include <algorithm>
-#include <ctime>
-#include <new>
 #include <system_error>
+#include <utility>
 
 namespace stormcellar::level2 {
 
-double thread_cpu_s() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-RecordQueue::RecordQueue(std::span<const std::byte> bytes, int threads)
-    : framer_(bytes), slots_(threads > 1 ? 2 * static_cast<std::size_t>(threads) : 1) {
+RecordQueue::RecordQueue(std::span<const std::byte> bytes, int threads,
+                         std::uint64_t output_limit_bytes, const Selection& selection)
+    : limit_bytes_(output_limit_bytes),
+      selection_(selection),
+      own_decoder_(output_limit_bytes, selection),
+      framer_(bytes),
+      slots_(threads > 1 ? 2 * static_cast<std::size_t>(threads) : 1) {
     {
         const std::lock_guard lock{mutex_};
         fill();
@@ -47,9 +45,7 @@ void RecordQueue::fill() {
         }
         Slot& slot = slots_[(head_ + used_) % slots_.size()];
         slot.part = std::move(*part);
-        slot.result = {};
-        slot.cpu_s = 0;
-        slot.state = slot.part.kind == LdmPart::Kind::record ? State::waiting : State::ready;
+        slot.state = State::waiting;
         ++used_;
     }
 }
@@ -62,62 +58,46 @@ RecordQueue::Slot* RecordQueue::first_waiting() {
     return nullptr;
 }
 
-void RecordQueue::work(Slot& slot, std::unique_lock<std::mutex>& lock) {
+void RecordQueue::work(Slot& slot, PartDecoder& decoder, std::unique_lock<std::mutex>& lock) {
     slot.state = State::working;
     lock.unlock();
-    const double begin_s = thread_cpu_s();
-    BzipResult result{BzipStatus::too_large, 0, 0};
-    if (slot.part.bytes.size() <= tried_record_bytes) {
-        try {
-            result = bunzip(slot.part.bytes, slot.buffer, held_record_bytes);
-        } catch (const std::bad_alloc&) {
-            result.status = BzipStatus::no_memory;
-        }
-    }
-    const double cpu_s = thread_cpu_s() - begin_s;
+    Fragment fragment = decoder.decode(slot.part);
     lock.lock();
-    slot.result = result;
-    slot.cpu_s = cpu_s;
+    slot.fragment = std::move(fragment);
     slot.state = State::ready;
     changed_.notify_all();
 }
 
 void RecordQueue::run() {
+    PartDecoder decoder{limit_bytes_, selection_};
     std::unique_lock lock{mutex_};
     while (!stopping_) {
         if (Slot* slot = first_waiting()) {
-            work(*slot, lock);
+            work(*slot, decoder, lock);
         } else {
             changed_.wait(lock);
         }
     }
 }
 
-std::optional<RecordQueue::Item> RecordQueue::next() {
+std::optional<Fragment> RecordQueue::next() {
     std::unique_lock lock{mutex_};
-    if (handed_out_) {
-        slots_[head_].state = State::empty;
-        head_ = (head_ + 1) % slots_.size();
-        --used_;
-        handed_out_ = false;
-        fill();
-        changed_.notify_all();
-    }
     if (used_ == 0) return std::nullopt;
     Slot& head = slots_[head_];
     while (head.state != State::ready) {
         if (Slot* slot = first_waiting()) {
-            work(*slot, lock);
+            work(*slot, own_decoder_, lock);
         } else {
             changed_.wait(lock);
         }
     }
-    handed_out_ = true;
-    Item item{head.part, head.result, {}, head.cpu_s};
-    if (head.result.status == BzipStatus::whole) {
-        item.output = std::span{head.buffer}.first(head.result.output_bytes);
-    }
-    return item;
+    Fragment fragment = std::exchange(head.fragment, {});
+    head.state = State::empty;
+    head_ = (head_ + 1) % slots_.size();
+    --used_;
+    fill();
+    changed_.notify_all();
+    return fragment;
 }
 
 }  // namespace stormcellar::level2

@@ -1,8 +1,17 @@
 #include "level2/report_writer.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace stormcellar::level2 {
+namespace {
+
+void add_count(std::optional<std::uint64_t>& total, std::optional<std::uint64_t> more) {
+    if (more) total = total.value_or(0) + *more;
+}
+
+}  // namespace
 
 std::string_view severity_name(Severity severity) {
     switch (severity) {
@@ -16,13 +25,21 @@ std::string_view severity_name(Severity severity) {
     return "error";
 }
 
-void ReportWriter::add(Severity severity, std::string_view code, std::string message,
-                       std::optional<std::uint64_t> offset) {
-    if (report_.problems.size() >= max_problems) {
-        ++left_out_;
+std::string Problem::text() const {
+    return ldm_record ? fmt::format("LDM record {}: {}", *ldm_record, message) : message;
+}
+
+void ReportWriter::add(Problem problem) {
+    if (report_.problems.size() >= DecodeReport::max_problems) {
+        ++report_.problems_left_out;
         return;
     }
-    report_.problems.push_back({severity, std::string{code}, std::move(message), offset});
+    report_.problems.push_back(std::move(problem));
+}
+
+void ReportWriter::add(Severity severity, std::string_view code, std::string message,
+                       std::optional<std::uint64_t> offset) {
+    add(Problem{severity, std::string{code}, std::move(message), offset, std::nullopt});
 }
 
 void ReportWriter::damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
@@ -32,12 +49,34 @@ void ReportWriter::damage(std::string_view code, std::string reason, std::uint64
     add(Severity::error, code, fmt::format("{}; {} bytes dropped", reason, dropped), stream_offset);
 }
 
+void ReportWriter::append(DecodeReport next) {
+    const std::uint64_t offset = report_.message_bytes;
+    for (Problem& problem : next.problems) {
+        if (problem.offset) *problem.offset += offset;
+        if (problem.ldm_record) *problem.ldm_record += report_.ldm_records.value_or(0);
+        add(std::move(problem));
+    }
+    report_.problems_left_out += next.problems_left_out;
+    if (!report_.corruption && next.corruption) {
+        report_.corruption = {next.corruption->offset + offset, std::move(next.corruption->reason)};
+    }
+    add_count(report_.ldm_records, next.ldm_records);
+    add_count(report_.negative_control_words, next.negative_control_words);
+    report_.message_bytes += next.message_bytes;
+    report_.bytes_dropped += next.bytes_dropped;
+    report_.decompress_s += next.decompress_s;
+    for (const auto& [type, count] : next.message_counts)
+        report_.message_counts[type] += count;
+    for (const auto& [compression, count] : next.radial_compression)
+        report_.radial_compression[compression] += count;
+}
+
 void ReportWriter::finish() {
-    if (left_out_ == 0) return;
-    report_.problems.push_back({Severity::note, "more_problems",
-                                fmt::format("{} further problems are not listed", left_out_),
-                                std::nullopt});
-    left_out_ = 0;
+    if (report_.problems_left_out == 0) return;
+    report_.problems.push_back(
+        {Severity::note, "more_problems",
+         fmt::format("{} further problems are not listed", report_.problems_left_out), std::nullopt,
+         std::nullopt});
 }
 
 }  // namespace stormcellar::level2

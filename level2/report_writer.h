@@ -6,17 +6,16 @@
 #include <string>
 #include <string_view>
 
-#include "level2/decode.h"
+#include "level2/decode_report.h"
 
 namespace stormcellar::level2 {
 
 class ReportWriter {
   public:
-    static constexpr std::size_t max_problems = 100;
-
     explicit ReportWriter(DecodeReport& report) : report_(report) {}
 
-    // Beyond max_problems they are counted only; finish() says how many.
+    // Beyond DecodeReport::max_problems they are counted only.
+    void add(Problem problem);
     void add(Severity severity, std::string_view code, std::string message,
              std::optional<std::uint64_t> offset = std::nullopt);
     // Bytes that hold nothing usable: an error, and the stream's corruption if it is the first.
@@ -24,13 +23,13 @@ class ReportWriter {
     // the damage showed.
     void damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
                 std::uint64_t dropped, std::optional<std::uint64_t> found_at = std::nullopt);
+    // The report of what follows in the stream: counts are added, offsets and record numbers go on.
+    void append(DecodeReport next);
+    // Says how many problems are not listed.
     void finish();
-
-    [[nodiscard]] DecodeReport& report() { return report_; }
 
   private:
     DecodeReport& report_;
-    std::uint64_t left_out_ = 0;
 };
 
 }  // namespace stormcellar::level2

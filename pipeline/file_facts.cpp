@@ -50,8 +50,8 @@ std::string reason_of(const level2::DecodeReport& report) {
     const auto gravest =
         std::max_element(report.problems.begin(), report.problems.end(),
                          [](const auto& a, const auto& b) { return a.severity < b.severity; });
-    if (number == 1) return gravest->message;
-    return fmt::format("{} (and {} more)", gravest->message, number - 1);
+    if (number == 1) return gravest->text();
+    return fmt::format("{} (and {} more)", gravest->text(), number - 1);
 }
 
 std::string station_of_name(const std::filesystem::path& path) {

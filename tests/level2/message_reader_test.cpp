@@ -2,40 +2,47 @@
 
 #include <gtest/gtest.h>
 
+#include "level2/volume_builder.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {
 namespace {
 
 constexpr std::uint64_t ample = std::uint64_t{1} << 30;
+const Selection everything;
 
 struct Outcome {
     Volume volume;
     DecodeReport report;
 };
 
-Outcome read_whole(std::span<const std::byte> bytes) {
+Outcome outcome_of(MessageReader& reader) {
+    std::optional<Fragment> fragment = reader.take_fragment();
+    EXPECT_TRUE(fragment);
     Outcome outcome;
-    ReportWriter writer{outcome.report};
-    SweepBuilder builder{ample};
-    MessageReader reader{builder, writer};
-    EXPECT_EQ(reader.read(bytes, true), bytes.size());
-    EXPECT_EQ(reader.offset(), bytes.size());
-    outcome.volume = builder.finish(outcome.report);
+    outcome.report = fragment->report;
+    VolumeBuilder volume{ample};
+    EXPECT_TRUE(volume.append(std::move(*fragment)));
+    outcome.volume = volume.finish("").volume;
     return outcome;
 }
 
+Outcome read_whole(std::span<const std::byte> bytes) {
+    FragmentBuilder builder{ample, 8, everything};
+    MessageReader reader{builder};
+    EXPECT_EQ(reader.read(bytes, true), bytes.size());
+    EXPECT_EQ(reader.offset(), bytes.size());
+    return outcome_of(reader);
+}
+
 Outcome read_in_pieces(std::span<const std::byte> bytes, std::size_t piece) {
-    Outcome outcome;
-    ReportWriter writer{outcome.report};
-    SweepBuilder builder{ample};
-    MessageReader reader{builder, writer};
+    FragmentBuilder builder{ample, 8, everything};
+    MessageReader reader{builder};
     MessageFeed feed{reader};
     for (std::size_t at = 0; at < bytes.size(); at += piece)
         feed.append(bytes.subspan(at, std::min(piece, bytes.size() - at)));
     feed.end();
-    outcome.volume = builder.finish(outcome.report);
-    return outcome;
+    return outcome_of(reader);
 }
 
 std::vector<int> azimuth_numbers(const Volume& volume) {
@@ -170,13 +177,12 @@ TEST(MessageReader, ProblemsStayFewWhateverTheInput) {
     const wire::Bytes bad = wire::join({ray_1(1), wire::Writer{}.text("xxxxxxx").bytes});
     for (int i = 0; i < 1000; ++i)
         bytes.insert(bytes.end(), bad.begin(), bad.end());
-    Outcome outcome;
-    ReportWriter writer{outcome.report};
-    SweepBuilder builder{ample};
-    MessageReader reader{builder, writer};
+    FragmentBuilder builder{ample, 8, everything};
+    MessageReader reader{builder};
     reader.read(bytes, true);
-    writer.finish();
-    EXPECT_EQ(outcome.report.problems.size(), ReportWriter::max_problems + 1);
+    const Outcome outcome = outcome_of(reader);
+    EXPECT_EQ(outcome.report.problems.size(), DecodeReport::max_problems);
+    EXPECT_EQ(outcome.report.problems_left_out, 900);
     EXPECT_EQ(outcome.report.bytes_dropped, 7000);
 }
 

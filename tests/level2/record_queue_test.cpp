@@ -16,37 +16,39 @@ wire::Bytes many_records(unsigned count) {
     return all;
 }
 
+constexpr std::uint64_t ample = std::uint64_t{1} << 30;
+const Selection everything;
+
 TEST(RecordQueue, OrderAndContentsDoNotDependOnTheThreads) {
     const wire::Bytes bytes = many_records(60);
     for (const int threads : {1, 2, 3, 8}) {
-        RecordQueue queue{bytes, threads};
+        RecordQueue queue{bytes, threads, ample, everything};
         unsigned i = 0;
-        for (; const auto item = queue.next(); ++i) {
-            const wire::Bytes expected = wire::radial_messages(1, 1 + i % 7, 50 + i);
-            ASSERT_TRUE(std::equal(item->output.begin(), item->output.end(), expected.begin(),
-                                   expected.end()))
-                << i << " with " << threads;
+        for (; const auto fragment = queue.next(); ++i) {
+            ASSERT_EQ(fragment->pieces.size(), 1U);
+            EXPECT_EQ(fragment->pieces[0].sweep.radials.size(), 1 + i % 7);
+            EXPECT_EQ(fragment->pieces[0].sweep.moments.at(0).gate_stride, 50 + i);
+            EXPECT_EQ(fragment->report.ldm_records, 1U);
         }
-        EXPECT_EQ(i, 60);
+        EXPECT_EQ(i, 60) << threads;
     }
 }
 
 TEST(RecordQueue, CanBeLeftEarly) {
     const wire::Bytes bytes = many_records(60);
     for (int taken = 0; taken < 3; ++taken) {
-        RecordQueue queue{bytes, 4};
+        RecordQueue queue{bytes, 4, ample, everything};
         for (int i = 0; i < taken; ++i)
             EXPECT_TRUE(queue.next());
     }
 }
 
-TEST(RecordQueue, LargeRecordsAreLeftToTheCaller) {
-    const wire::Bytes bytes = wire::ldm_record(wire::Bytes(RecordQueue::held_record_bytes + 1));
-    RecordQueue queue{bytes, 2};
-    const auto item = queue.next();
-    ASSERT_TRUE(item);
-    EXPECT_EQ(item->result.status, BzipStatus::too_large);
-    EXPECT_TRUE(item->output.empty());
+TEST(RecordQueue, ARecordBeyondTheLimitSaysSo) {
+    const wire::Bytes bytes = wire::ldm_record(wire::Bytes(2'000'000));
+    RecordQueue queue{bytes, 2, 1'000'000, everything};
+    const auto fragment = queue.next();
+    ASSERT_TRUE(fragment);
+    EXPECT_EQ(fragment->failure, Fragment::Failure::too_much_output);
     EXPECT_FALSE(queue.next());
 }
 

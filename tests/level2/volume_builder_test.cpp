@@ -1,11 +1,16 @@
-#include "level2/sweep_builder.h"
+#include "level2/volume_builder.h"
 
 #include <gtest/gtest.h>
+
+#include "level2/fragment_builder.h"
+#include "tests/level2/same_volume.h"
 
 namespace stormcellar::level2 {
 namespace {
 
 constexpr std::uint64_t ample = std::uint64_t{1} << 30;
+constexpr std::size_t rows = 8;
+const Selection everything;
 
 struct Spec {
     int elevation_number = 1;
@@ -16,7 +21,7 @@ struct Spec {
     bool has_ref = true;
 };
 
-class SweepBuilderTest : public ::testing::Test {
+class VolumeBuilderTest : public ::testing::Test {
   protected:
     // Codes 10, 11, 12 ... in each radial.
     bool add(const Spec& spec) {
@@ -35,11 +40,20 @@ class SweepBuilderTest : public ::testing::Test {
         block.word_size_bits = spec.word_size_bits;
         block.codes = codes_;
         if (spec.has_ref && !message.add(block)) return false;
-        return builder_.add(message) == SweepBuilder::Added::added;
+        return builder_.add(message) == FragmentBuilder::Added::added;
     }
-    Volume finish() { return builder_.finish(report_); }
+    // Ends the fragment: what follows comes in another one.
+    void end_fragment() { EXPECT_TRUE(volume_.append(builder_.take())); }
+    Volume finish() {
+        end_fragment();
+        Decoded decoded = volume_.finish("");
+        report_ = std::move(decoded.report);
+        return std::move(decoded.volume);
+    }
 
-    SweepBuilder builder_{ample};
+    Selection selection_;
+    FragmentBuilder builder_{ample, rows, selection_};
+    VolumeBuilder volume_{ample};
     DecodeReport report_;
     std::vector<std::byte> codes_;
 };
@@ -51,7 +65,7 @@ std::vector<std::size_t> radials_of(const Volume& volume) {
     return counts;
 }
 
-TEST_F(SweepBuilderTest, SweepsBeginAtStatus0And3And5AndAtANewElevationNumber) {
+TEST_F(VolumeBuilderTest, SweepsBeginAtStatus0And3And5AndAtANewElevationNumber) {
     for (const Spec& spec : {Spec{1, 3}, Spec{1, 1}, Spec{1, 2}, Spec{2, 0}, Spec{2, 0}, Spec{3, 1},
                              Spec{3, 1}, Spec{4, 5}, Spec{4, 4}}) {
         EXPECT_TRUE(add(spec));
@@ -61,7 +75,7 @@ TEST_F(SweepBuilderTest, SweepsBeginAtStatus0And3And5AndAtANewElevationNumber) {
     EXPECT_TRUE(report_.further_volume_starts.empty());
 }
 
-TEST_F(SweepBuilderTest, RowsHaveTheLengthOfTheLongestRadial) {
+TEST_F(VolumeBuilderTest, RowsHaveTheLengthOfTheLongestRadial) {
     for (const std::uint16_t gates : std::vector<std::uint16_t>{4, 6, 7, 2})
         EXPECT_TRUE(add({1, 1, gates}));
     const Volume volume = finish();
@@ -77,7 +91,7 @@ TEST_F(SweepBuilderTest, RowsHaveTheLengthOfTheLongestRadial) {
     }
 }
 
-TEST_F(SweepBuilderTest, CodesOf16BitsAreBigEndian) {
+TEST_F(VolumeBuilderTest, CodesOf16BitsAreBigEndian) {
     Spec spec;
     spec.word_size_bits = 16;
     EXPECT_TRUE(add(spec));
@@ -86,7 +100,7 @@ TEST_F(SweepBuilderTest, CodesOf16BitsAreBigEndian) {
     EXPECT_TRUE(volume.sweeps[0].moments[0].codes8.empty());
 }
 
-TEST_F(SweepBuilderTest, ADifferentGeometryIsAnotherKindOfTheMoment) {
+TEST_F(VolumeBuilderTest, ADifferentGeometryIsAnotherKindOfTheMoment) {
     EXPECT_TRUE(add({1, 3, 4, 0}));
     EXPECT_TRUE(add({1, 1, 4, 1000}));
     EXPECT_TRUE(add({1, 1, 4, 0}));
@@ -99,7 +113,7 @@ TEST_F(SweepBuilderTest, ADifferentGeometryIsAnotherKindOfTheMoment) {
     EXPECT_EQ(moments[1].code(1, 2), 12);
 }
 
-TEST_F(SweepBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
+TEST_F(VolumeBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
     Spec without;
     without.has_ref = false;
     EXPECT_TRUE(add({}));
@@ -110,14 +124,14 @@ TEST_F(SweepBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
 }
 
 // KBBX20060113: four volumes in one file, the radials at their ends lost.
-TEST_F(SweepBuilderTest, AFallingElevationNumberBeginsAnotherVolume) {
+TEST_F(VolumeBuilderTest, AFallingElevationNumberBeginsAnotherVolume) {
     for (const int number : {1, 2, 3, 1, 2})
         EXPECT_TRUE(add({number}));
     (void)finish();
     EXPECT_EQ(report_.further_volume_starts, (std::vector<std::size_t>{3}));
 }
 
-TEST_F(SweepBuilderTest, ARestartedCutIsNotAnotherVolumeButAStartOfVolumeIs) {
+TEST_F(VolumeBuilderTest, ARestartedCutIsNotAnotherVolumeButAStartOfVolumeIs) {
     EXPECT_TRUE(add({1, 3}));
     EXPECT_TRUE(add({2, 0}));
     EXPECT_TRUE(add({2, 0}));
@@ -126,7 +140,7 @@ TEST_F(SweepBuilderTest, ARestartedCutIsNotAnotherVolumeButAStartOfVolumeIs) {
     EXPECT_EQ(report_.further_volume_starts, (std::vector<std::size_t>{3}));
 }
 
-TEST_F(SweepBuilderTest, AHeaderBeforeAnyRadialIsTheSameVolumes) {
+TEST_F(VolumeBuilderTest, AHeaderBeforeAnyRadialIsTheSameVolumes) {
     builder_.further_header({"AR2V0006.842", 1, 2, "KCCX"});
     EXPECT_TRUE(add({1, 3}));
     builder_.further_header({"AR2V0006.843", 3, 4, "KCCX"});
@@ -137,9 +151,62 @@ TEST_F(SweepBuilderTest, AHeaderBeforeAnyRadialIsTheSameVolumes) {
     EXPECT_EQ(report_.further_headers[0].header.filename, "AR2V0006.843");
 }
 
+// A sweep does not care where the fragments end: between any two radials.
+TEST_F(VolumeBuilderTest, FragmentsMayEndAnywhere) {
+    const std::vector<Spec> specs = {{1, 3, 4}, {1, 1, 6}, {1, 1, 3, 1000},  {1, 2, 9},
+                                     {2, 0, 5}, {2, 1, 5}, {2, 1, 5, 0, 16}, {2, 4, 7}};
+    for (const Spec& spec : specs)
+        EXPECT_TRUE(add(spec));
+    const Volume whole = finish();
+    ASSERT_EQ(radials_of(whole), (std::vector<std::size_t>{4, 4}));
+    for (unsigned ends = 0; ends < 256; ++ends) {
+        volume_ = VolumeBuilder{ample};
+        for (std::size_t i = 0; i < specs.size(); ++i) {
+            EXPECT_TRUE(add(specs[i]));
+            if (((ends >> i) & 1U) != 0) end_fragment();
+        }
+        EXPECT_EQ(difference(finish(), whole), "") << ends;
+        EXPECT_TRUE(report_.complete);
+    }
+}
+
+TEST_F(VolumeBuilderTest, ManyKindsInManyFragmentsAreRefusedToo) {
+    for (int i = 0; i < 40; ++i) {
+        EXPECT_TRUE(add({1, 1, 4, i * 250}));
+        end_fragment();
+    }
+    const Volume volume = finish();
+    EXPECT_EQ(volume.sweeps.at(0).moments.size(), 16U);
+    EXPECT_EQ(volume.sweeps.at(0).radials.size(), 16U);
+    EXPECT_EQ(report_.problems.at(0).code, "bad_radial");
+    EXPECT_GT(report_.bytes_dropped, 0U);
+    EXPECT_FALSE(report_.complete);
+}
+
+TEST_F(VolumeBuilderTest, ACutThatIsNotAskedForGivesNoSweep) {
+    selection_.elevation_numbers = {2, 4};
+    for (const Spec& spec :
+         {Spec{1, 3}, Spec{1, 1}, Spec{1, 2}, Spec{2, 0}, Spec{2, 2}, Spec{3, 0}, Spec{3, 4}}) {
+        EXPECT_TRUE(add(spec));
+        end_fragment();
+    }
+    const Volume volume = finish();
+    EXPECT_EQ(radials_of(volume), (std::vector<std::size_t>{2}));
+    EXPECT_EQ(report_.sweeps_left_out, 2U);
+    EXPECT_TRUE(report_.complete) << "the end was seen, though not kept";
+}
+
+TEST_F(VolumeBuilderTest, AMomentThatIsNotAskedForIsLeftOut) {
+    selection_.moments = {Moment::vel};
+    EXPECT_TRUE(add({1, 3}));
+    const Volume volume = finish();
+    EXPECT_EQ(volume.radial_count(), 1U);
+    EXPECT_TRUE(volume.sweeps.at(0).moments.empty());
+}
+
 // One radial with very many gates makes every row long: 65,535 codes for each of 4.
-TEST(SweepBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
-    SweepBuilder builder{10'000'000};
+TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
+    FragmentBuilder builder{10'000'000, rows, everything};
     const std::vector<std::byte> codes(65'535);
     int taken = 0;
     for (; taken < 100'000; ++taken) {
@@ -149,15 +216,15 @@ TEST(SweepBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
         block.gates = taken == 0 ? 65'535 : 4;
         block.codes = std::span{codes}.first(block.gates);
         ASSERT_TRUE(message.add(block));
-        if (builder.add(message) != SweepBuilder::Added::added) break;
+        if (builder.add(message) != FragmentBuilder::Added::added) break;
     }
     EXPECT_GT(taken, 100);
     EXPECT_LT(taken, 160);
 }
 
 // Another scale in each radial makes another kind of row, padded to the end of the sweep.
-TEST(SweepBuilderLimit, KindsOfAMomentAreFew) {
-    SweepBuilder builder{ample};
+TEST(FragmentBuilderLimit, KindsOfAMomentAreFew) {
+    FragmentBuilder builder{ample, rows, everything};
     const std::vector<std::byte> codes(1);
     int refused = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -168,16 +235,16 @@ TEST(SweepBuilderLimit, KindsOfAMomentAreFew) {
         block.scale = static_cast<float>(1 + i);
         block.codes = codes;
         ASSERT_TRUE(message.add(block));
-        if (builder.add(message) == SweepBuilder::Added::refused) ++refused;
+        if (builder.add(message) == FragmentBuilder::Added::refused) ++refused;
     }
     EXPECT_EQ(refused, 1000 - 16);
-    DecodeReport report;
-    const Volume volume = builder.finish(report);
-    EXPECT_EQ(volume.sweeps.at(0).moments.size(), 16U);
-    EXPECT_EQ(volume.sweeps.at(0).radials.size(), 16U);
+    const Fragment fragment = builder.take();
+    ASSERT_EQ(fragment.pieces.size(), 1U);
+    EXPECT_EQ(fragment.pieces[0].sweep.moments.size(), 16U);
+    EXPECT_EQ(fragment.pieces[0].sweep.radials.size(), 16U);
 }
 
-TEST_F(SweepBuilderTest, TheEndOfAVolumeIsKnownThoughItsRadialHasBadData) {
+TEST_F(VolumeBuilderTest, TheEndOfAVolumeIsKnownThoughItsRadialHasBadData) {
     EXPECT_TRUE(add({1, 3}));
     EXPECT_TRUE(add({1, 0x84}));
     const Volume volume = finish();

@@ -1,0 +1,164 @@
+#include "level2/part_decoder.h"
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "level2/bzip2_stream.h"
+#include "level2/fragment_builder.h"
+#include "level2/message_reader.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+constexpr std::size_t piece_bytes = std::size_t{256} << 10;
+// A record of a live volume holds 120 radials; one that holds far more is a file of its own.
+constexpr std::size_t rows_of_a_record = 120;
+constexpr std::size_t rows_of_a_sweep = 720;
+constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
+// Arrays of one record; those of a whole busy volume take 70 MB.
+constexpr std::uint64_t most_array_bytes = std::uint64_t{256} << 20;
+
+void add_record_problem(FragmentBuilder& builder, Severity severity, std::string_view code,
+                        std::string message, std::optional<std::uint64_t> offset) {
+    builder.report().add(Problem{severity, std::string{code}, std::move(message), offset, 1});
+}
+
+void add_record_damage(FragmentBuilder& builder, std::string_view code, const std::string& reason,
+                       std::uint64_t offset, std::uint64_t dropped) {
+    DecodeReport& report = builder.report_data();
+    report.bytes_dropped += dropped;
+    if (!report.corruption) report.corruption = {offset, "a LDM record is damaged: " + reason};
+    add_record_problem(builder, Severity::error, code,
+                       fmt::format("{}; {} bytes dropped", reason, dropped), offset);
+}
+
+}  // namespace
+
+double thread_cpu_s() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Fragment PartDecoder::read_record(const LdmPart& part) {
+    const bool large = part.bytes.size() > large_record_bytes;
+    FragmentBuilder builder{std::min(limit_bytes_, most_array_bytes),
+                            large ? rows_of_a_sweep : rows_of_a_record, selection_};
+    MessageReader reader{builder};
+    BzipReader stream{part.bytes};
+    auto failure = Fragment::Failure::none;
+    std::uint64_t output_bytes = 0;
+    double cpu_s = 0;
+    buffer_.resize(std::max(buffer_.size(), piece_bytes));
+    std::size_t held = 0;
+    while (failure == Fragment::Failure::none) {
+        if (held == buffer_.size()) buffer_.resize(2 * buffer_.size());
+        const double begin_s = thread_cpu_s();
+        const std::size_t made = stream.read(std::span{buffer_}.subspan(held));
+        cpu_s += thread_cpu_s() - begin_s;
+        if (stream.status() == BzipStatus::no_memory) throw std::bad_alloc{};
+        if (stream.status() != BzipStatus::whole) {
+            return read_blocks(part, part.cut || stream.status() == BzipStatus::truncated);
+        }
+        output_bytes += made;
+        if (output_bytes > limit_bytes_) failure = Fragment::Failure::too_much_output;
+        const std::size_t there = held + made;
+        const std::size_t done = reader.read(std::span{buffer_}.first(there), stream.ended());
+        if (reader.full()) failure = Fragment::Failure::too_large_arrays;
+        held = there - done;
+        std::memmove(buffer_.data(), buffer_.data() + done, held);
+        if (stream.ended()) break;
+    }
+    const auto behind = part.bytes.subspan(stream.input_bytes());
+    if (part.bad_length || part.cut) {
+        add_record_problem(builder, Severity::warning, "bad_control_word", "its length is wrong",
+                           reader.offset());
+    }
+    if (failure == Fragment::Failure::none && !all_zero(behind)) {
+        add_record_damage(builder, "not_a_record", "something that is no record follows it",
+                          reader.offset(), behind.size());
+    }
+    Fragment fragment = builder.take();
+    fragment.failure = failure;
+    fragment.output_bytes = output_bytes;
+    fragment.report.decompress_s = cpu_s;
+    return fragment;
+}
+
+// A record that is damaged: its blocks have checksums of their own.
+Fragment PartDecoder::read_blocks(const LdmPart& part, bool is_cut) {
+    FragmentBuilder builder{std::min(limit_bytes_, most_array_bytes), rows_of_a_record, selection_};
+    MessageReader reader{builder};
+    MessageFeed feed{reader};
+    BzipBlocks blocks{part.bytes};
+    auto failure = Fragment::Failure::none;
+    std::uint64_t output_bytes = 0;
+    bool all_good = true;
+    const double begin_s = thread_cpu_s();
+    while (failure == Fragment::Failure::none) {
+        const auto block = blocks.next(static_cast<std::size_t>(limit_bytes_ - output_bytes));
+        if (!block) break;
+        if (block->status == BzipStatus::too_large) {
+            failure = Fragment::Failure::too_much_output;
+        } else if (block->status == BzipStatus::whole) {
+            output_bytes += block->data.size();
+            feed.append(block->data);
+            if (reader.full()) failure = Fragment::Failure::too_large_arrays;
+        } else {
+            all_good = false;
+            feed.end();
+            add_record_damage(
+                builder, is_cut ? "truncated_record" : "corrupt_record",
+                fmt::format("{} at its byte {}", is_cut ? "cut" : "damaged", block->position),
+                reader.offset(), block->compressed_bytes);
+            reader.lose_sync();
+        }
+    }
+    feed.end();
+    if (all_good && !blocks.ended()) {
+        add_record_damage(builder, "truncated_record", "cut", reader.offset(), 0);
+    }
+    Fragment fragment = builder.take();
+    fragment.failure = failure;
+    fragment.output_bytes = output_bytes;
+    fragment.cut = is_cut;
+    fragment.report.decompress_s = thread_cpu_s() - begin_s;
+    return fragment;
+}
+
+Fragment PartDecoder::decode_kind(const LdmPart& part) {
+    if (part.kind == LdmPart::Kind::record) {
+        Fragment fragment = read_record(part);
+        fragment.report.ldm_records = 1;
+        fragment.report.negative_control_words = part.negative ? 1 : 0;
+        return fragment;
+    }
+    FragmentBuilder builder{limit_bytes_, 0, selection_};
+    if (part.kind == LdmPart::Kind::header) {
+        builder.further_header(part.header);
+        builder.report().add(Severity::note, "further_volume_header",
+                             fmt::format("a further volume header, {}", part.header.filename), 0);
+    } else if (part.kind == LdmPart::Kind::garbage) {
+        builder.report().damage("not_a_record", "no LDM record where one is due", 0,
+                                part.bytes.size());
+    }
+    return builder.take();
+}
+
+Fragment PartDecoder::decode(const LdmPart& part) {
+    try {
+        return decode_kind(part);
+    } catch (const std::bad_alloc&) {
+        Fragment fragment;
+        fragment.failure = Fragment::Failure::no_memory;
+        return fragment;
+    }
+}
+
+}  // namespace stormcellar::level2

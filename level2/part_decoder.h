@@ -1,0 +1,41 @@
+// level2/part_decoder.h -- an LDM record, or what stands between two, -> Fragment.
+//
+// A record is decompressed and read in small pieces, so its messages are never held whole. Where
+// its checksum then proves wrong, all of that is thrown away and the record is read again block by
+// block, keeping the blocks that are whole.
+// Thread contract: one thread at a time; a decoder for each thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "level2/fragment.h"
+#include "level2/ldm_framer.h"
+#include "level2/selection.h"
+
+namespace stormcellar::level2 {
+
+class PartDecoder {
+  public:
+    // The selection must outlive the decoder.
+    PartDecoder(std::uint64_t output_limit_bytes, const Selection& selection)
+        : limit_bytes_(output_limit_bytes), selection_(selection) {}
+
+    // Never throws for want of memory: the fragment says so.
+    [[nodiscard]] Fragment decode(const LdmPart& part);
+
+  private:
+    [[nodiscard]] Fragment decode_kind(const LdmPart& part);
+    [[nodiscard]] Fragment read_record(const LdmPart& part);
+    [[nodiscard]] Fragment read_blocks(const LdmPart& part, bool is_cut);
+
+    std::uint64_t limit_bytes_;
+    const Selection& selection_;
+    std::vector<std::byte> buffer_;
+};
+
+// CPU time of the calling thread.
+[[nodiscard]] double thread_cpu_s();
+
+}  // namespace stormcellar::level2

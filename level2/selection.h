@@ -1,0 +1,28 @@
+// level2/selection.h -- which moments and cuts of a volume are asked for.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "level2/volume.h"
+
+namespace stormcellar::level2 {
+
+struct Selection {
+    std::vector<Moment> moments;         // empty: all
+    std::vector<int> elevation_numbers;  // the VCP's cuts, from 1; empty: all
+
+    [[nodiscard]] bool wants(Moment moment) const {
+        return moments.empty() ||
+               std::find(moments.begin(), moments.end(), moment) != moments.end();
+    }
+    [[nodiscard]] bool wants_cut(int elevation_number) const {
+        return elevation_numbers.empty() ||
+               std::find(elevation_numbers.begin(), elevation_numbers.end(), elevation_number) !=
+                   elevation_numbers.end();
+    }
+    [[nodiscard]] bool all_cuts() const { return elevation_numbers.empty(); }
+};
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,174 @@
+#include "level2/sweep_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace stormcellar::level2::rows {
+namespace {
+
+constexpr std::size_t reserve_limit_bytes = std::size_t{4} << 20;
+
+// Calls the function with the array of codes that is in use.
+template <class Function>
+void with_codes(SweepMoment& moment, Function function) {
+    if (moment.word_size_bits == 8) {
+        function(moment.codes8);
+    } else {
+        function(moment.codes16);
+    }
+}
+
+template <class Code>
+void append_rows(std::vector<Code>& codes, std::size_t stride, const std::vector<Code>& from,
+                 std::size_t from_stride) {
+    if (stride == from_stride) {
+        codes.insert(codes.end(), from.begin(), from.end());
+        return;
+    }
+    for (std::size_t at = 0; at < from.size(); at += from_stride) {
+        const auto row = from.begin() + static_cast<std::ptrdiff_t>(at);
+        codes.insert(codes.end(), row, row + static_cast<std::ptrdiff_t>(from_stride));
+        codes.resize(codes.size() + stride - from_stride);
+    }
+}
+
+std::uint16_t native_from_big_endian(std::uint16_t number) {
+    static_assert(std::endian::native == std::endian::little);
+    return static_cast<std::uint16_t>((number >> 8) | (number << 8));
+}
+
+}  // namespace
+
+bool same_kind(const SweepMoment& moment, const MomentBlock& block) {
+    return moment.moment == block.moment && moment.first_gate_m == block.first_gate_m &&
+           moment.gate_spacing_m == block.gate_spacing_m &&
+           moment.word_size_bits == block.word_size_bits && moment.scale == block.scale &&
+           moment.offset == block.offset;
+}
+
+bool same_kind(const SweepMoment& a, const SweepMoment& b) {
+    return a.moment == b.moment && a.first_gate_m == b.first_gate_m &&
+           a.gate_spacing_m == b.gate_spacing_m && a.word_size_bits == b.word_size_bits &&
+           a.scale == b.scale && a.offset == b.offset;
+}
+
+SweepMoment empty_like(const MomentBlock& block) {
+    SweepMoment moment;
+    moment.moment = block.moment;
+    moment.first_gate_m = block.first_gate_m;
+    moment.gate_spacing_m = block.gate_spacing_m;
+    moment.gate_stride = block.gates;
+    moment.word_size_bits = block.word_size_bits;
+    moment.scale = block.scale;
+    moment.offset = block.offset;
+    moment.control_flags = block.control_flags;
+    moment.snr_threshold_db = block.snr_threshold_db;
+    moment.folding_threshold_db = block.folding_threshold_db;
+    return moment;
+}
+
+SweepMoment empty_like(const SweepMoment& from) {
+    SweepMoment moment;
+    moment.moment = from.moment;
+    moment.first_gate_m = from.first_gate_m;
+    moment.gate_spacing_m = from.gate_spacing_m;
+    moment.gate_stride = from.gate_stride;
+    moment.word_size_bits = from.word_size_bits;
+    moment.scale = from.scale;
+    moment.offset = from.offset;
+    moment.control_flags = from.control_flags;
+    moment.snr_threshold_db = from.snr_threshold_db;
+    moment.folding_threshold_db = from.folding_threshold_db;
+    return moment;
+}
+
+std::uint64_t bytes_per_code(const SweepMoment& moment) {
+    return moment.word_size_bits == 8 ? 1 : 2;
+}
+
+std::uint64_t bytes_per_row(const SweepMoment& moment) {
+    return sizeof(std::uint16_t) +
+           static_cast<std::uint64_t>(moment.gate_stride) * bytes_per_code(moment);
+}
+
+std::uint64_t bytes_per_row(const Sweep& sweep) {
+    std::uint64_t bytes = 0;
+    for (const SweepMoment& moment : sweep.moments)
+        bytes += bytes_per_row(moment);
+    return bytes;
+}
+
+void reserve(SweepMoment& moment, std::size_t rows) {
+    const std::size_t most = reserve_limit_bytes / bytes_per_code(moment);
+    moment.gate_counts.reserve(rows);
+    const std::size_t codes_wanted = rows * static_cast<std::size_t>(moment.gate_stride);
+    with_codes(moment, [&](auto& codes) { codes.reserve(std::min(codes_wanted, most)); });
+}
+
+void set_stride(SweepMoment& moment, std::int32_t stride) {
+    const auto from = static_cast<std::size_t>(moment.gate_stride);
+    const auto to = static_cast<std::size_t>(stride);
+    with_codes(moment, [&](auto& codes) {
+        std::remove_reference_t<decltype(codes)> moved(moment.gate_counts.size() * to);
+        for (std::size_t row = 0; row < moment.gate_counts.size(); ++row) {
+            const auto begin = codes.begin() + static_cast<std::ptrdiff_t>(row * from);
+            std::copy(begin, begin + static_cast<std::ptrdiff_t>(std::min(from, to)),
+                      moved.begin() + static_cast<std::ptrdiff_t>(row * to));
+        }
+        codes = std::move(moved);
+    });
+    moment.gate_stride = stride;
+}
+
+std::int32_t grown_stride(const SweepMoment& moment, std::int32_t gates) {
+    if (moment.gate_counts.empty()) return gates;
+    return std::max(gates, moment.gate_stride + moment.gate_stride / 4);
+}
+
+void pad(SweepMoment& moment, std::size_t rows) {
+    if (moment.gate_counts.size() >= rows) return;
+    moment.gate_counts.resize(rows);
+    with_codes(moment, [&](auto& codes) {
+        codes.resize(rows * static_cast<std::size_t>(moment.gate_stride));
+    });
+}
+
+void append(SweepMoment& moment, const MomentBlock& block) {
+    const auto stride = static_cast<std::size_t>(moment.gate_stride);
+    const std::size_t row = moment.gate_counts.size() * stride;
+    moment.gate_counts.push_back(block.gates);
+    if (moment.word_size_bits == 8) {
+        const auto* codes = reinterpret_cast<const std::uint8_t*>(block.codes.data());
+        moment.codes8.insert(moment.codes8.end(), codes, codes + block.gates);
+        moment.codes8.resize(row + stride);
+        return;
+    }
+    moment.codes16.resize(row + stride);
+    std::uint16_t* codes = moment.codes16.data() + row;
+    std::memcpy(codes, block.codes.data(), sizeof(std::uint16_t) * block.gates);
+    for (std::size_t gate = 0; gate < block.gates; ++gate)
+        codes[gate] = native_from_big_endian(codes[gate]);
+}
+
+void append(SweepMoment& moment, const SweepMoment& from) {
+    const auto stride = static_cast<std::size_t>(moment.gate_stride);
+    const auto from_stride = static_cast<std::size_t>(from.gate_stride);
+    moment.gate_counts.insert(moment.gate_counts.end(), from.gate_counts.begin(),
+                              from.gate_counts.end());
+    if (moment.word_size_bits == 8) {
+        append_rows(moment.codes8, stride, from.codes8, from_stride);
+    } else {
+        append_rows(moment.codes16, stride, from.codes16, from_stride);
+    }
+}
+
+void release_unused(SweepMoment& moment) {
+    const auto largest = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
+    if (largest < moment.gate_stride) set_stride(moment, largest);
+    with_codes(moment, [](auto& codes) {
+        if (codes.capacity() - codes.size() > codes.size() / 8) codes.shrink_to_fit();
+    });
+}
+
+}  // namespace stormcellar::level2::rows

@@ -1,0 +1,15 @@
+// level2/volume_checks.h -- what a whole volume lacks, and where it contradicts itself.
+#pragma once
+
+#include "level2/report_writer.h"
+#include "level2/volume.h"
+
+namespace stormcellar::level2 {
+
+// Reports a missing position or one that disagrees with the station table, a header's time that
+// the radials contradict, radials that are missing or come twice, and a volume without its end.
+// True when radials are missing.
+[[nodiscard]] bool check_volume(const Volume& volume, bool has_radials, bool has_ended,
+                                ReportWriter report);
+
+}  // namespace stormcellar::level2

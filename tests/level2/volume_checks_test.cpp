@@ -1,0 +1,71 @@
+#include "level2/volume_checks.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::level2 {
+namespace {
+
+Volume volume_of(const std::vector<std::vector<int>>& azimuth_numbers) {
+    Volume volume;
+    volume.station = "KTLX";
+    for (const auto& numbers : azimuth_numbers) {
+        Sweep& sweep = volume.sweeps.emplace_back();
+        sweep.elevation_number = static_cast<int>(volume.sweeps.size());
+        for (const int number : numbers) {
+            Radial& radial = sweep.radials.emplace_back();
+            radial.azimuth_number = static_cast<std::uint16_t>(number);
+        }
+    }
+    return volume;
+}
+
+struct Outcome {
+    bool missing = false;
+    std::vector<std::string> messages;
+};
+
+Outcome check(const Volume& volume, std::string_view code) {
+    DecodeReport report;
+    Outcome outcome;
+    outcome.missing = check_volume(volume, true, true, ReportWriter{report});
+    for (const Problem& problem : report.problems) {
+        if (problem.code == code) outcome.messages.push_back(problem.message);
+    }
+    return outcome;
+}
+
+TEST(VolumeChecks, ASoundVolumeHasNoProblem) {
+    DecodeReport report;
+    EXPECT_FALSE(check_volume(volume_of({{1, 2, 3}, {1, 2}}), true, true, ReportWriter{report}));
+    EXPECT_TRUE(report.problems.empty());
+}
+
+TEST(VolumeChecks, LostRadialsAreCountedAndTheFirstIsNamed) {
+    const Outcome outcome = check(volume_of({{1, 2, 3}, {3, 4, 9}}), "missing_radials");
+    EXPECT_TRUE(outcome.missing);
+    EXPECT_EQ(outcome.messages, std::vector<std::string>{
+                                    "sweep 1 (elevation number 2) lacks 6 radials, from number 1 "
+                                    "on"});
+}
+
+TEST(VolumeChecks, RadialsWithoutANumberAreNotMissed) {
+    EXPECT_FALSE(check(volume_of({{0, 0, 0}}), "missing_radials").missing);
+}
+
+TEST(VolumeChecks, ARepeatedRecordIsNamed) {
+    const Outcome outcome = check(volume_of({{1, 2, 3, 2, 3, 4}}), "repeated_radials");
+    EXPECT_FALSE(outcome.missing);
+    EXPECT_EQ(outcome.messages.size(), 1U);
+}
+
+TEST(VolumeChecks, ManySweepsWithGapsAreSummedUp) {
+    const Outcome outcome =
+        check(volume_of(std::vector<std::vector<int>>(50, {1, 3})), "missing_radials");
+    EXPECT_EQ(outcome.messages.size(), 9U);
+    EXPECT_EQ(outcome.messages.back(), "42 further sweeps lack 42 radials");
+}
+
+}  // namespace
+}  // namespace stormcellar::level2
