@@ -23,8 +23,6 @@ namespace {
 constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
 // Something compressed inside something compressed is held whole; no volume comes near this.
 constexpr std::size_t inner_limit_bytes = std::size_t{256} << 20;
-// A volume has some hundreds.
-constexpr std::uint64_t most_records = 100'000;
 // Messages are read, and their radials handed on, so many bytes at a time.
 constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
 constexpr std::size_t rows_of_a_stretch = 128;
@@ -66,41 +64,13 @@ class Decoder {
     Status end_output(LayerOutput& output, int depth);
     // Hands on what has been read.
     Status flush(LayerOutput& output);
-    Status take_fragment(Fragment fragment);
-    std::span<const std::byte> strip_header(std::span<const std::byte> bytes);
     void report_container(const LayerOutput& output, Severity severity, std::string_view code,
                           std::string message, std::uint64_t position);
     void report_gzip_end(const GzipStream& gzip, const LayerOutput& output);
-    Status count_output(std::uint64_t bytes);
-    Result<Decoded> finish();
 
     const DecodeOptions& options_;
     VolumeBuilder builder_{options_.output_limit_bytes};
-    std::uint64_t produced_bytes_ = 0;
-    bool cut_ = false;  // the input ends too early
 };
-
-Status Decoder::count_output(std::uint64_t bytes) {
-    if (bytes > options_.output_limit_bytes - produced_bytes_) {
-        return fail(ErrorCode::unsupported, "decompresses to more than the limit of {} bytes",
-                    options_.output_limit_bytes);
-    }
-    produced_bytes_ += bytes;
-    return {};
-}
-
-Status Decoder::take_fragment(Fragment fragment) {
-    if (fragment.failure == Fragment::Failure::no_memory) throw std::bad_alloc{};
-    if (fragment.failure == Fragment::Failure::too_much_output) {
-        return count_output(options_.output_limit_bytes + 1);
-    }
-    if (Status counted = count_output(fragment.output_bytes); !counted) return counted;
-    cut_ = cut_ || fragment.cut;
-    const bool whole = fragment.failure == Fragment::Failure::none;
-    if (whole && builder_.append(std::move(fragment))) return {};
-    return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
-                options_.output_limit_bytes);
-}
 
 Status Decoder::flush(LayerOutput& output) {
     const bool full = output.reader.full();
@@ -110,17 +80,7 @@ Status Decoder::flush(LayerOutput& output) {
         fragment.emplace();
     }
     if (full) fragment->failure = Fragment::Failure::too_large_arrays;
-    return take_fragment(std::move(*fragment));
-}
-
-std::span<const std::byte> Decoder::strip_header(std::span<const std::byte> bytes) {
-    auto header = read_archive_header(bytes);
-    if (!header) {
-        builder_.report().add(Severity::note, "no_volume_header", "no 24-byte volume header");
-        return bytes;
-    }
-    builder_.set_header(std::move(*header));
-    return bytes.subspan(archive_header_bytes);
+    return builder_.append(std::move(*fragment));
 }
 
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
@@ -140,10 +100,10 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
             return read_compress(bytes, depth);
         case Content::ldm:
             container += "ldm-bzip2";
-            return read_ldm(strip_header(bytes));
+            return read_ldm(builder_.begin_stream(bytes));
         case Content::messages:
             container += "uncompressed";
-            return read_messages(strip_header(bytes));
+            return read_messages(builder_.begin_stream(bytes));
         case Content::unknown:
             break;
     }
@@ -169,12 +129,12 @@ Status Decoder::read_messages(std::span<const std::byte> bytes) {
 }
 
 Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
-    if (Status counted = count_output(piece.size()); !counted) return counted;
+    if (Status counted = builder_.count_output(piece.size()); !counted) return counted;
     if (std::exchange(output.first, false)) {
         output.messages = content_at_start(piece) == Content::messages;
         if (output.messages) {
             builder_.report_data().container += "uncompressed";
-            piece = strip_header(piece);
+            piece = builder_.begin_stream(piece);
         }
     }
     if (output.messages) {
@@ -195,7 +155,7 @@ Status Decoder::end_output(LayerOutput& output, int depth) {
         return flush(output);
     }
     if (output.inner.empty()) {
-        return fail(cut_ ? ErrorCode::truncated : ErrorCode::corrupt,
+        return fail(builder_.is_cut() ? ErrorCode::truncated : ErrorCode::corrupt,
                     "a compressed file of which nothing is whole");
     }
     return read_layer(output.inner, depth + 1);
@@ -235,7 +195,7 @@ Status Decoder::read_compress(std::span<const std::byte> bytes, int depth) {
     LayerOutput output{options_};
     if (Status taken = take_all(stream, output); !taken) return taken;
     if (stream.end() != CompressEnd::whole) {
-        cut_ = stream.end() == CompressEnd::truncated;
+        if (stream.end() == CompressEnd::truncated) builder_.set_cut();
         report_container(output, Severity::error, "corrupt_compress", "the .Z file is damaged",
                          stream.position());
     }
@@ -249,7 +209,7 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
         case GzipEnd::whole:
             return;
         case GzipEnd::truncated:
-            cut_ = true;
+            builder_.set_cut();
             report_container(output, Severity::error, "truncated_gzip", "the gzip file is cut",
                              position);
             return;
@@ -273,12 +233,11 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     LayerOutput output{options_};
     for (;;) {
         const double begin_s = thread_cpu_s();
-        const auto left = static_cast<std::size_t>(options_.output_limit_bytes - produced_bytes_);
-        const auto block = blocks.next(left);
+        const auto block = blocks.next(static_cast<std::size_t>(builder_.output_left()));
         builder_.report_data().decompress_s += thread_cpu_s() - begin_s;
         if (!block) break;
         if (block->status == BzipStatus::too_large) {
-            return count_output(options_.output_limit_bytes + 1);
+            return builder_.too_much_output();
         }
         if (block->status == BzipStatus::whole) {
             if (Status taken = take_output(output, block->data); !taken) return taken;
@@ -292,7 +251,7 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     }
     if (Status flushed = flush(output); !flushed) return flushed;
     if (!blocks.ended()) {
-        cut_ = true;
+        builder_.set_cut();
         report_container(output, Severity::error, "truncated_bzip2", "the bzip2 file is cut",
                          bytes.size());
     }
@@ -305,10 +264,7 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
     report.negative_control_words = 0;
     RecordQueue queue{bytes, options_.threads, options_.output_limit_bytes, options_.selection};
     while (auto fragment = queue.next()) {
-        if (Status taken = take_fragment(std::move(*fragment)); !taken) return taken;
-        if (report.ldm_records > most_records) {
-            return fail(ErrorCode::unsupported, "more than {} LDM records", most_records);
-        }
+        if (Status taken = builder_.append(std::move(*fragment)); !taken) return taken;
     }
     return {};
 }
@@ -316,20 +272,7 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
 Result<Decoded> Decoder::run(std::span<const std::byte> bytes) {
     if (bytes.empty()) return fail(ErrorCode::empty, "the file is empty");
     if (Status read = read_layer(bytes, 0); !read) return pass_on(read);
-    return finish();
-}
-
-Result<Decoded> Decoder::finish() {
-    Decoded decoded = builder_.finish(options_.fallback_station);
-    const auto& counts = decoded.report.message_counts;
-    const bool anything = std::any_of(counts.begin(), counts.end(),
-                                      [](const auto& count) { return count.first != 0; });
-    if (!anything) {
-        return fail(cut_ ? ErrorCode::truncated : ErrorCode::corrupt, "nothing in it is whole: {}",
-                    decoded.report.corruption ? decoded.report.corruption->reason
-                                              : "neither radials nor metadata");
-    }
-    return decoded;
+    return builder_.finish(options_.fallback_station);
 }
 
 }  // namespace

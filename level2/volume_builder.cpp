@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "level2/archive_header.h"
 #include "level2/fragment_builder.h"
 #include "level2/sweep_rows.h"
 #include "level2/volume_checks.h"
@@ -13,6 +16,8 @@ namespace {
 // Rows to make room for, so that arrays of an ordinary sweep are never moved or too large.
 constexpr std::size_t radials_half_degree = 720;
 constexpr std::size_t radials_one_degree = 368;
+// A volume has some hundreds.
+constexpr std::uint64_t most_records = 100'000;
 
 VcpSource source_of(const Vcp& vcp) {
     return vcp.message_type == 7 ? VcpSource::message_7 : VcpSource::message_5;
@@ -52,7 +57,16 @@ void drop_radials(Sweep& sweep, const std::vector<bool>& drop) {
     sweep = std::move(kept);
 }
 
+bool continues(int elevation_number, int message_type, const Sweep& next) {
+    return !begins_sweep(next.radials.front()) && elevation_number == next.elevation_number &&
+           message_type == next.message_type;
+}
+
 }  // namespace
+
+bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece) {
+    return continues(previous.sweep.elevation_number, previous.sweep.message_type, piece.sweep);
+}
 
 bool VolumeBuilder::take_room(std::uint64_t bytes) {
     if (bytes > limit_bytes_ - taken_bytes_) return false;
@@ -76,9 +90,16 @@ void VolumeBuilder::note_marks(FragmentMarks marks) {
     if (marks.header) pending_header_ = std::move(marks.header);
 }
 
-void VolumeBuilder::note_volume_facts(Fragment& fragment) {
+void VolumeBuilder::note_facts(const Fragment& fragment) {
+    for (const Fragment::Piece& piece : fragment.pieces)
+        note_marks(piece.before);
+    note_marks(fragment.behind);
+    note_volume_facts(fragment);
+}
+
+void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
     if (report_.message_station.empty()) report_.message_station = fragment.station;
-    if (!volume_.block) volume_.block = std::move(fragment.block);
+    if (!volume_.block) volume_.block = fragment.block;
     if (!volume_.vcp && fragment.vcp != 0) {
         volume_.vcp = fragment.vcp;
         volume_.vcp_source = VcpSource::radial;
@@ -104,9 +125,8 @@ DecodeReport::FurtherPattern VolumeBuilder::pattern_of(const Fragment::Piece& pi
 }
 
 bool VolumeBuilder::begins_sweep_here(const Fragment::Piece& piece) const {
-    return !previous_ || pending_header_ || begins_sweep(piece.sweep.radials.front()) ||
-           previous_->elevation_number != piece.sweep.elevation_number ||
-           previous_->message_type != piece.sweep.message_type;
+    return !previous_ || pending_header_ ||
+           !continues(previous_->elevation_number, previous_->message_type, piece.sweep);
 }
 
 bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
@@ -140,14 +160,19 @@ Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
     return sweep;
 }
 
-void VolumeBuilder::end_sweep() {
-    if (!std::exchange(sweep_is_open_, false)) return;
+void VolumeBuilder::tidy_last_sweep() {
+    if (!sweep_is_open_) return;
     Sweep& sweep = volume_.sweeps.back();
     for (SweepMoment& moment : sweep.moments) {
         rows::pad(moment, sweep.radials.size());
         rows::release_unused(moment);
     }
     if (sweep.radials.capacity() > 2 * sweep.radials.size()) sweep.radials.shrink_to_fit();
+}
+
+void VolumeBuilder::end_sweep() {
+    tidy_last_sweep();
+    sweep_is_open_ = false;
 }
 
 // Each fragment holds few enough kinds of a moment, but together they can be too many.
@@ -218,8 +243,10 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
         end_sweep();
     }
     Sweep& from = piece.sweep;
+    const RadialStatus last = status_of(from.radials.back());
+    const bool ended_volume = last == RadialStatus::end_of_volume;
     previous_ = Previous{from.elevation_number, from.message_type,
-                         status_of(from.radials.back()) == RadialStatus::end_of_volume};
+                         ended_volume || last == RadialStatus::end_of_elevation, ended_volume};
     if (piece.left_out) {
         if (begins) ++report_.sweeps_left_out;
         return true;
@@ -240,27 +267,98 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     return take_room(sizeof(Sweep) + count * (sizeof(Radial) + rows::bytes_per_row(sweep)));
 }
 
-bool VolumeBuilder::append(Fragment fragment) {
+std::string VolumeBuilder::station(const std::string& fallback) const {
+    if (!report_.message_station.empty()) return report_.message_station;
+    if (volume_.header && !volume_.header->icao.empty()) return volume_.header->icao;
+    return fallback;
+}
+
+Volume VolumeBuilder::facts(const std::string& fallback_station) const {
+    Volume facts;
+    facts.header = volume_.header;
+    facts.station = station(fallback_station);
+    facts.block = volume_.block;
+    facts.vcp_message = volume_.vcp_message;
+    facts.vcp = volume_.vcp;
+    facts.vcp_source = volume_.vcp_source;
+    return facts;
+}
+
+std::size_t VolumeBuilder::close_sweeps() {
+    if (!sweep_is_open_ || previous_->ended_sweep) {
+        tidy_last_sweep();
+        return volume_.sweeps.size();
+    }
+    return volume_.sweeps.size() - 1;
+}
+
+std::span<const std::byte> VolumeBuilder::begin_stream(std::span<const std::byte> bytes) {
+    auto header = read_archive_header(bytes);
+    if (!header) {
+        report().add(Severity::note, "no_volume_header", "no 24-byte volume header");
+        return bytes;
+    }
+    set_header(std::move(*header));
+    return bytes.subspan(archive_header_bytes);
+}
+
+Status VolumeBuilder::too_much_output() const {
+    return fail(ErrorCode::unsupported, "decompresses to more than the limit of {} bytes",
+                limit_bytes_);
+}
+
+Status VolumeBuilder::count_output(std::uint64_t bytes) {
+    if (bytes > limit_bytes_ - output_bytes_) return too_much_output();
+    output_bytes_ += bytes;
+    return {};
+}
+
+Status VolumeBuilder::append(Fragment fragment) {
+    const auto too_large_arrays = [&]() -> Status {
+        return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
+                    limit_bytes_);
+    };
+    switch (fragment.failure) {
+        case Fragment::Failure::none:
+            break;
+        case Fragment::Failure::no_memory:
+            return fail(ErrorCode::unsupported, "it takes more memory than there is");
+        case Fragment::Failure::too_much_output:
+            return too_much_output();
+        case Fragment::Failure::too_large_arrays:
+            return too_large_arrays();
+    }
+    if (Status counted = count_output(fragment.output_bytes); !counted) return counted;
+    if (report_.ldm_records.value_or(0) + fragment.report.ldm_records.value_or(0) > most_records) {
+        return fail(ErrorCode::unsupported, "more than {} LDM records", most_records);
+    }
+    cut_ = cut_ || fragment.cut;
     note_volume_facts(fragment);
     for (Fragment::Piece& piece : fragment.pieces) {
-        if (!append_piece(std::move(piece))) return false;
+        if (!append_piece(std::move(piece))) return too_large_arrays();
         piece = {};
     }
     note_marks(std::move(fragment.behind));
     report().append(std::move(fragment.report));
-    return true;
+    return {};
 }
 
-Decoded VolumeBuilder::finish(const std::string& fallback_station) {
+Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     end_sweep();
-    volume_.station = report_.message_station;
-    if (volume_.station.empty() && volume_.header) volume_.station = volume_.header->icao;
-    if (volume_.station.empty()) volume_.station = fallback_station;
-    const bool ended = previous_ && previous_->ended_volume;
+    const auto& counts = report_.message_counts;
+    const bool anything = std::any_of(counts.begin(), counts.end(),
+                                      [](const auto& count) { return count.first != 0; });
+    if (!anything) {
+        return fail(
+            cut_ ? ErrorCode::truncated : ErrorCode::corrupt, "nothing in it is whole: {}",
+            report_.corruption ? report_.corruption->reason : "neither radials nor metadata");
+    }
+    volume_.station = station(fallback_station);
+    const bool ended = volume_has_ended();
     const bool gaps = check_volume(volume_, previous_.has_value(), ended, report());
     report_.complete = ended && !gaps && report_.bytes_dropped == 0;
     report().finish();
-    return {std::move(volume_), std::move(report_)};
+    return Decoded{std::move(volume_), std::move(report_)};
 }
 
 }  // namespace stormcellar::level2

@@ -1,13 +1,15 @@
 // level2/volume_builder.h -- joins fragments, in the order of the stream, into a volume.
 //
 // A sweep goes on in the next fragment unless the elevation number or the message type changes, a
-// radial has status 0, 3 or 5, or a 24-byte header lies between. Memory: the arrays stay under the
-// limit given; append() then says so and the builder takes no more.
+// radial has status 0, 3 or 5, or a 24-byte header lies between.
+// Limits: neither the decompressed bytes nor the arrays come to more than the limit given: append()
+// gives unsupported then, and the builder is not to be used any more.
 // Thread contract: one thread at a time.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,33 +19,56 @@
 
 namespace stormcellar::level2 {
 
+// Whether a piece goes on with the sweep of the one before it, where no header lies between.
+[[nodiscard]] bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece);
+
 class VolumeBuilder {
   public:
     explicit VolumeBuilder(std::uint64_t limit_bytes) : limit_bytes_(limit_bytes) {}
 
-    // False when the arrays would exceed the limit.
-    [[nodiscard]] bool append(Fragment fragment);
+    [[nodiscard]] Status append(Fragment fragment);
+    // Takes station, position and pattern, and no radials.
+    void note_facts(const Fragment& fragment);
+    // For bytes that are decompressed before they become a fragment.
+    [[nodiscard]] Status count_output(std::uint64_t bytes);
+    [[nodiscard]] Status too_much_output() const;
+    [[nodiscard]] std::uint64_t output_left() const { return limit_bytes_ - output_bytes_; }
+    // Of the bytes that a stream of messages or LDM records begins with: what follows the 24-byte
+    // header, if there is one.
+    [[nodiscard]] std::span<const std::byte> begin_stream(std::span<const std::byte> bytes);
     void set_header(VolumeHeader header) { volume_.header = std::move(header); }
 
     [[nodiscard]] ReportWriter report() { return ReportWriter{report_}; }
     [[nodiscard]] DecodeReport& report_data() { return report_; }
-    // What there is up to now; the last sweep may go on.
+    void set_cut() { cut_ = true; }  // the input ends too early
+    [[nodiscard]] bool is_cut() const { return cut_; }
+    // What there is up to now. The last sweep may go on, and its rows may be too few or too long.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
+    // So many of its sweeps are closed, by what follows or by their last radial's status; their
+    // rows are made whole. A sweep can go on after its last radial all the same.
+    [[nodiscard]] std::size_t close_sweeps();
+    [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
+    // All but the sweeps.
+    [[nodiscard]] Volume facts(const std::string& fallback_station) const;
+    [[nodiscard]] bool volume_has_ended() const { return previous_ && previous_->ended_volume; }
 
     // Gives up the volume, checked: what it lacks and where it contradicts itself is in the report.
-    // The station is the fallback where the file does not say.
-    [[nodiscard]] Decoded finish(const std::string& fallback_station);
+    // The station is the fallback where the file does not say. Errors: truncated or corrupt where
+    // nothing is whole, neither a radial nor metadata.
+    [[nodiscard]] Result<Decoded> finish(const std::string& fallback_station);
 
   private:
     // Of the newest piece, also of one that is left out.
     struct Previous {
         int elevation_number = 0;
         int message_type = 0;
-        bool ended_volume = false;  // its last radial had status 4
+        bool ended_sweep = false;   // its last radial had status 2 or 4
+        bool ended_volume = false;  // 4
     };
+    [[nodiscard]] std::string station(const std::string& fallback) const;
     void note_marks(FragmentMarks marks);
     void set_pattern(Vcp vcp);
-    void note_volume_facts(Fragment& fragment);
+    void note_volume_facts(const Fragment& fragment);
     [[nodiscard]] bool append_piece(Fragment::Piece piece);
     [[nodiscard]] bool begins_sweep_here(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begins_volume(const Fragment::Piece& piece) const;
@@ -51,6 +76,7 @@ class VolumeBuilder {
     [[nodiscard]] DecodeReport::FurtherPattern pattern_of(const Fragment::Piece& piece);
     [[nodiscard]] Sweep& begin_sweep(const Sweep& from);
     void end_sweep();
+    void tidy_last_sweep();
     void refuse_surplus_kinds(const Sweep& sweep, Sweep& from);
     [[nodiscard]] bool append_rows(Sweep& sweep, const Sweep& from);
     [[nodiscard]] bool append_moment(Sweep& sweep, std::size_t radials_before,
@@ -59,6 +85,8 @@ class VolumeBuilder {
 
     std::uint64_t limit_bytes_;
     std::uint64_t taken_bytes_ = 0;
+    std::uint64_t output_bytes_ = 0;
+    bool cut_ = false;
     Volume volume_;
     DecodeReport report_;
     std::optional<Previous> previous_;

@@ -27,35 +27,11 @@ void check_time(const Volume& volume, ReportWriter& report) {
                                  : "impossible, and no radial has a better one"));
 }
 
-// Radials of a sweep are numbered from 1; 0 stands for no number.
-struct Gaps {
-    int missing = 0;
-    int first_missing = 0;
-    int repeated = 0;
-};
-
-Gaps gaps_of(const Sweep& sweep) {
-    Gaps gaps;
-    int due = 1;
-    for (const Radial& radial : sweep.radials) {
-        const int number = radial.azimuth_number;
-        if (number == 0) continue;
-        if (number > due) {
-            if (gaps.missing == 0) gaps.first_missing = due;
-            gaps.missing += number - due;
-        } else if (number < due) {
-            ++gaps.repeated;
-        }
-        due = number + 1;
-    }
-    return gaps;
-}
-
 // Sweeps that lack radials are named one by one as far as a person reads on.
 constexpr int most_named_sweeps = 8;
 
 // How many radials are missing.
-int check_missing(const Volume& volume, const std::vector<Gaps>& gaps, ReportWriter& report) {
+int check_missing(const Volume& volume, const std::vector<RadialGaps>& gaps, ReportWriter& report) {
     int missing = 0;
     int sweeps = 0;
     int missing_elsewhere = 0;
@@ -80,7 +56,7 @@ int check_missing(const Volume& volume, const std::vector<Gaps>& gaps, ReportWri
 }
 
 bool check_radials(const Volume& volume, ReportWriter& report) {
-    std::vector<Gaps> gaps;
+    std::vector<RadialGaps> gaps;
     for (const Sweep& sweep : volume.sweeps)
         gaps.push_back(gaps_of(sweep));
     const int missing = check_missing(volume, gaps, report);
@@ -94,6 +70,23 @@ bool check_radials(const Volume& volume, ReportWriter& report) {
 }
 
 }  // namespace
+
+RadialGaps gaps_of(const Sweep& sweep) {
+    RadialGaps gaps;
+    int due = 1;
+    for (const Radial& radial : sweep.radials) {
+        const int number = radial.azimuth_number;
+        if (number == 0) continue;
+        if (number > due) {
+            if (gaps.missing == 0) gaps.first_missing = due;
+            gaps.missing += number - due;
+        } else if (number < due) {
+            ++gaps.repeated;
+        }
+        due = number + 1;
+    }
+    return gaps;
+}
 
 bool check_volume(const Volume& volume, bool has_radials, bool has_ended, ReportWriter report) {
     const bool missing = check_radials(volume, report);

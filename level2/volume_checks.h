@@ -12,4 +12,12 @@ namespace stormcellar::level2 {
 [[nodiscard]] bool check_volume(const Volume& volume, bool has_radials, bool has_ended,
                                 ReportWriter report);
 
+// Radials of a sweep are numbered from 1; 0 stands for no number.
+struct RadialGaps {
+    int missing = 0;
+    int first_missing = 0;
+    int repeated = 0;
+};
+[[nodiscard]] RadialGaps gaps_of(const Sweep& sweep);
+
 }  // namespace stormcellar::level2

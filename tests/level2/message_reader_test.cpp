@@ -23,7 +23,8 @@ Outcome outcome_of(MessageReader& reader) {
     outcome.report = fragment->report;
     VolumeBuilder volume{ample};
     EXPECT_TRUE(volume.append(std::move(*fragment)));
-    outcome.volume = volume.finish("").volume;
+    auto decoded = volume.finish("");
+    if (decoded) outcome.volume = std::move(decoded->volume);
     return outcome;
 }
 

@@ -1,0 +1,47 @@
+// level2/growing_volume.h -- decodes a file as it grows.
+//
+// Bytes are appended as they come, cut anywhere. Each LDM record, or each message of an
+// uncompressed file, is decoded as soon as it is whole, and the sweeps come out as they close.
+// What cannot be read before it is whole (gzip, bzip2, .Z around it) is held until the end.
+// finish() gives what decode() gives for the same bytes, bit for bit, also for damaged files.
+// After a restart of the program the file is appended again from its start.
+// Errors: those of decode(). Thread contract: one thread at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "level2/decode.h"
+#include "level2/live_sweep.h"
+
+namespace stormcellar::level2 {
+
+class GrowingVolume {
+  public:
+    explicit GrowingVolume(DecodeOptions options = {});
+    GrowingVolume(GrowingVolume&&) noexcept;
+    GrowingVolume& operator=(GrowingVolume&&) noexcept;
+    ~GrowingVolume();
+
+    // An error is final: no more is taken, and finish() gives it again.
+    [[nodiscard]] Status append(std::span<const std::byte> bytes);
+    // The sweeps that have closed since the last call, in the order of the file. A sweep is closed
+    // by its last radial's status or by the sweep that follows.
+    [[nodiscard]] std::vector<LiveSweep> take_sweeps();
+    // Station, position and pattern as far as they are known; without sweeps.
+    [[nodiscard]] Volume facts() const;
+    // The newest radial is marked as the volume's last, or the newest record's control word is
+    // negative and there are radials. More may follow all the same.
+    [[nodiscard]] bool has_ended() const;
+
+    [[nodiscard]] Result<Decoded> finish();
+
+  private:
+    class Reader;
+    std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace stormcellar::level2

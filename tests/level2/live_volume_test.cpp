@@ -1,0 +1,285 @@
+// A volume that arrives in chunks: whatever the order, the outcome is that of their numbers.
+#include "level2/live_volume.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "base/file_system.h"
+#include "tests/level2/same_volume.h"
+#include "tests/level2/wire.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+using wire::Bytes;
+using Added = LiveVolume::Added;
+using std::chrono::seconds;
+
+struct ChunkFile {
+    ChunkName name;
+    Bytes bytes;
+};
+
+std::vector<ChunkFile> real_chunks(const char* set) {
+    std::vector<ChunkFile> chunks;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(*testing::data_directory() / "chunks" / set)) {
+        const auto name = parse_chunk_name(entry.path().filename().string());
+        EXPECT_TRUE(name) << entry.path();
+        if (name) chunks.push_back({*name, read_file(entry.path()).value()});
+    }
+    std::sort(chunks.begin(), chunks.end(),
+              [](const ChunkFile& a, const ChunkFile& b) { return a.name.number < b.name.number; });
+    return chunks;
+}
+
+// A volume of sweeps of two records each, behind a start chunk.
+std::vector<ChunkFile> simple_chunks(unsigned sweeps, unsigned ms = 1000) {
+    std::vector<ChunkFile> chunks;
+    const auto add = [&](ChunkKind kind, Bytes bytes) {
+        const int number = static_cast<int>(chunks.size()) + 1;
+        chunks.push_back({{"20220317-000842", number, kind}, std::move(bytes)});
+    };
+    Bytes start = wire::archive_header();
+    wire::overwrite_u32(start, 16, ms);
+    add(ChunkKind::start, wire::join({start, wire::ldm_record(wire::frame(2))}));
+    const unsigned radials = 10;
+    const Bytes all = wire::radial_messages(sweeps, radials);
+    const std::size_t length = all.size() / (sweeps * radials);
+    for (unsigned half = 0; half < 2 * sweeps; ++half) {
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(half * 5 * length);
+        const Bytes part(from, from + static_cast<std::ptrdiff_t>(5 * length));
+        const bool last = half + 1 == 2 * sweeps;
+        add(last ? ChunkKind::end : ChunkKind::intermediate, wire::ldm_record(part, last));
+    }
+    return chunks;
+}
+
+Bytes joined(const std::vector<ChunkFile>& chunks) {
+    Bytes all;
+    for (const ChunkFile& chunk : chunks)
+        all.insert(all.end(), chunk.bytes.begin(), chunk.bytes.end());
+    return all;
+}
+
+Result<Added> add(LiveVolume& volume, const ChunkFile& chunk, seconds at = {}) {
+    return volume.add(chunk.name.number, chunk.name.kind, chunk.bytes,
+                      LiveVolume::Clock::time_point{at});
+}
+
+// Some chunks are lost, some come twice, all in another order. What came, by number, is returned.
+std::vector<ChunkFile> arrive(LiveVolume& volume, const std::vector<ChunkFile>& chunks,
+                              std::mt19937& random, double lost, double repeated) {
+    std::uniform_real_distribution<double> chance;
+    std::vector<ChunkFile> arrived;
+    std::vector<const ChunkFile*> order;
+    for (const ChunkFile& chunk : chunks) {
+        if (chance(random) < lost) continue;
+        arrived.push_back(chunk);
+    }
+    for (const ChunkFile& chunk : arrived) {
+        order.push_back(&chunk);
+        if (chance(random) < repeated) order.push_back(&chunk);
+    }
+    std::shuffle(order.begin(), order.end(), random);
+    for (const ChunkFile* chunk : order)
+        EXPECT_TRUE(add(volume, *chunk));
+    return arrived;
+}
+
+void expect_any_order_gives_the_same(const std::vector<ChunkFile>& chunks, unsigned rounds) {
+    std::mt19937 random{20'260'811};
+    for (unsigned round = 0; round < rounds; ++round) {
+        LiveVolume volume;
+        const double lost = round % 3 == 0 ? 0 : 0.15;
+        const auto arrived = arrive(volume, chunks, random, lost, 0.2);
+        if (arrived.empty()) continue;
+        const auto live = volume.finish();
+        const auto whole = decode(joined(arrived));
+        ASSERT_EQ(live.has_value(), whole.has_value()) << round;
+        if (whole) {
+            EXPECT_EQ(difference(*live, *whole), "") << "round " << round;
+        }
+    }
+}
+
+TEST(LiveVolume, AnyOrderGivesTheSame) {
+    expect_any_order_gives_the_same(simple_chunks(5), 200);
+}
+
+TEST(LiveVolumeReal, AnyOrderGivesTheSameForATdwr) {
+    STORMCELLAR_NEED_DATA();
+    expect_any_order_gives_the_same(real_chunks("L2D_185"), 6);
+}
+
+TEST(LiveVolumeReal, AnyOrderGivesTheSameForAVolumeThatStops) {
+    STORMCELLAR_NEED_DATA();
+    expect_any_order_gives_the_same(real_chunks("KLOT_34"), 4);
+}
+
+TEST(LiveVolumeReal, AnyOrderGivesTheSameForAKlotOf2026) {
+    STORMCELLAR_NEED_DATA();
+    expect_any_order_gives_the_same(real_chunks("OPENRADAR_KLOT"), 2);
+}
+
+TEST(LiveVolumeReal, AnyOrderGivesTheSameForALargeVolume) {
+    STORMCELLAR_NEED_DATA();
+    expect_any_order_gives_the_same(real_chunks("L2D_230"), 2);
+}
+
+// The last form in which each sweep came out is the one that stands in the volume.
+void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled) {
+    std::mt19937 random{5};
+    std::vector<const ChunkFile*> order;
+    for (const ChunkFile& chunk : chunks)
+        order.push_back(&chunk);
+    if (shuffled) std::shuffle(order.begin(), order.end(), random);
+    LiveVolume volume;
+    std::map<std::pair<int, std::int64_t>, Sweep> newest;  // by cut and first radial's time
+    std::size_t handed_out = 0;
+    for (const ChunkFile* chunk : order) {
+        ASSERT_TRUE(add(volume, *chunk));
+        for (LiveSweep& live : volume.take_sweeps()) {
+            ++handed_out;
+            const auto time = live.sweep.radials.front().time.time_since_epoch().count();
+            newest[{live.sweep.elevation_number, time}] = std::move(live.sweep);
+        }
+    }
+    const Volume whole = volume.finish().value().volume;
+    std::size_t found = 0;
+    for (const Sweep& sweep : whole.sweeps) {
+        const auto time = sweep.radials.front().time.time_since_epoch().count();
+        const auto live = newest.find({sweep.elevation_number, time});
+        if (live == newest.end()) continue;
+        ++found;
+        Volume a, b;
+        a.sweeps = {sweep};
+        b.sweeps = {live->second};
+        EXPECT_EQ(difference(a, b), "") << sweep.elevation_number;
+    }
+    EXPECT_GE(found + 1, whole.sweeps.size()) << "only a last one that has not ended may be open";
+    if (!shuffled) {
+        EXPECT_EQ(handed_out, found) << "in order each comes once";
+    }
+}
+
+TEST(LiveVolume, SweepsComeOutAsTheyClose) {
+    expect_sweeps_come_out(simple_chunks(5), false);
+    expect_sweeps_come_out(simple_chunks(5), true);
+}
+
+TEST(LiveVolumeReal, SweepsComeOutAsTheyClose) {
+    STORMCELLAR_NEED_DATA();
+    expect_sweeps_come_out(real_chunks("KLOT_34"), false);
+    expect_sweeps_come_out(real_chunks("L2D_185"), true);
+}
+
+TEST(LiveVolume, TheEndIsKnownByTheChunkTheRadialOrTheControlWord) {
+    auto chunks = simple_chunks(2);
+    LiveVolume volume;
+    for (std::size_t i = 0; i + 1 < chunks.size(); ++i) {
+        EXPECT_EQ(add(volume, chunks[i]), Added::added);
+        EXPECT_FALSE(volume.has_ended()) << i;
+    }
+    chunks.back().name.kind = ChunkKind::intermediate;  // a name that lies
+    EXPECT_EQ(add(volume, chunks.back()), Added::added);
+    EXPECT_TRUE(volume.has_ended());
+    EXPECT_TRUE(volume.is_whole());
+    EXPECT_TRUE(volume.is_due(LiveVolume::Clock::time_point{}));
+}
+
+TEST(LiveVolume, LateChunksAreWaitedForThenGivenUp) {
+    const auto chunks = simple_chunks(3);
+    LiveVolume volume;
+    for (const ChunkFile& chunk : chunks) {
+        if (chunk.name.number == 3) continue;
+        EXPECT_TRUE(add(volume, chunk, seconds{100}));
+    }
+    const auto at = [](int s) { return LiveVolume::Clock::time_point{seconds{s}}; };
+    EXPECT_TRUE(volume.has_ended());
+    EXPECT_EQ(volume.missing_numbers(), std::vector<int>{3});
+    EXPECT_FALSE(volume.is_due(at(129)));
+    EXPECT_TRUE(volume.is_due(at(130)));
+    EXPECT_TRUE(add(volume, chunks[2], seconds{120}));
+    EXPECT_TRUE(volume.is_due(at(120)));
+}
+
+TEST(LiveVolume, AVolumeThatStopsTimesOut) {
+    LiveOptions options;
+    options.timeout = seconds{50};
+    LiveVolume volume{options};
+    EXPECT_FALSE(volume.is_due(LiveVolume::Clock::time_point{seconds{1'000'000}}));
+    const auto chunks = simple_chunks(3);
+    EXPECT_TRUE(add(volume, chunks[0], seconds{10}));
+    EXPECT_TRUE(add(volume, chunks[1], seconds{20}));
+    EXPECT_FALSE(volume.is_due(LiveVolume::Clock::time_point{seconds{69}}));
+    EXPECT_TRUE(volume.is_due(LiveVolume::Clock::time_point{seconds{70}}));
+    const auto decoded = volume.finish();
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->volume.radial_count(), 5U);
+    EXPECT_FALSE(decoded->report.complete);
+    EXPECT_TRUE(volume.is_empty());
+}
+
+TEST(LiveVolume, AChunkThatWasReadTooEarlyIsReplaced) {
+    const auto chunks = simple_chunks(2);
+    for (const bool cut_first : {true, false}) {
+        LiveVolume volume;
+        ChunkFile cut = chunks[0];
+        cut.bytes.resize(30);
+        EXPECT_EQ(add(volume, cut_first ? cut : chunks[0]), Added::added);
+        EXPECT_EQ(add(volume, cut_first ? chunks[0] : cut),
+                  cut_first ? Added::replaced : Added::worse);
+        EXPECT_EQ(add(volume, chunks[0]), Added::repeated);
+        EXPECT_TRUE(add(volume, chunks[1]));
+        EXPECT_EQ(volume.finish()->report.message_counts.at(2), 1U);
+    }
+}
+
+TEST(LiveVolume, ARadarThatBeginsAgainIsAnotherVolume) {
+    const auto old_volume = simple_chunks(3, 1000);
+    const auto new_volume = simple_chunks(3, 61'000);
+    LiveVolume volume;
+    EXPECT_TRUE(add(volume, old_volume[0]));
+    EXPECT_TRUE(add(volume, old_volume[1]));
+    EXPECT_EQ(add(volume, new_volume[0]), Added::another_volume);
+    const auto kept = volume.finish();
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->volume.header->ms, 1000U);
+    EXPECT_EQ(kept->volume.radial_count(), 5U);
+    EXPECT_EQ(add(volume, new_volume[0]), Added::added);
+}
+
+TEST(LiveVolume, WhatIsNoChunkIsRefusedAndChangesNothing) {
+    LiveVolume volume;
+    const auto refuse = [&](const Bytes& bytes) {
+        const auto added = volume.add(2, ChunkKind::intermediate, bytes, {});
+        EXPECT_FALSE(added);
+        return added ? ErrorCode::internal : added.error().code;
+    };
+    EXPECT_EQ(refuse({}), ErrorCode::empty);
+    EXPECT_EQ(refuse(Bytes(1000, std::byte{0x41})), ErrorCode::not_level2);
+    Bytes cut = simple_chunks(1)[1].bytes;
+    cut.resize(cut.size() / 2);
+    EXPECT_EQ(refuse(cut), ErrorCode::truncated);
+    EXPECT_TRUE(volume.is_empty());
+    EXPECT_EQ(volume.finish().error().code, ErrorCode::empty);
+}
+
+TEST(LiveVolume, FactsAreKnownFromTheFirstChunksOn) {
+    const auto chunks = simple_chunks(1);
+    LiveVolume volume;
+    EXPECT_TRUE(add(volume, chunks[0]));
+    EXPECT_EQ(volume.facts().header->icao, "KTLX");
+    EXPECT_TRUE(add(volume, chunks[1]));
+    EXPECT_EQ(volume.facts().station, "KTLX");
+    EXPECT_TRUE(volume.facts().sweeps.empty());
+}
+
+}  // namespace
+}  // namespace stormcellar::level2
