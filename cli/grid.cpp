@@ -204,12 +204,13 @@ std::vector<std::string> notes_of(const level2::DecodeReport& report) {
 }
 
 Result<level2::Decoded> read_and_decode(const std::filesystem::path& path, int threads,
-                                        Stopwatch& watch, Timings& timings) {
+                                        level2::Moment moment, Stopwatch& watch, Timings& timings) {
     const auto bytes = read_file(path);
     timings.read_s = watch.lap_s();
     if (!bytes) return pass_on(bytes);
     level2::DecodeOptions options;
     options.threads = threads;
+    options.selection.moments = {moment};
     const std::string name = path.filename().string().substr(0, 4);
     if (find_station(name)) options.fallback_station = name;
     auto decoded = level2::decode(*bytes, options);
@@ -238,7 +239,7 @@ level2::Volume take_volume(level2::Decoded decoded, level2::Moment moment,
 Result<grid::Grid> grid_file(const std::filesystem::path& path, const GridRequest& request,
                              Timings& timings) {
     Stopwatch watch;
-    auto decoded = read_and_decode(path, request.threads, watch, timings);
+    auto decoded = read_and_decode(path, request.threads, request.moment, watch, timings);
     if (!decoded) return pass_on(decoded);
     const bool partial = !decoded->report.complete;
     std::vector<std::string> notes = notes_of(decoded->report);

@@ -9,7 +9,7 @@
 
 #include "base/station_table.h"
 #include "cli/commands.h"
-#include "level2/decode.h"
+#include "level2/chunk_directory.h"
 #include "level2/describe.h"
 
 namespace stormcellar::cli {
@@ -124,17 +124,31 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
     print_problems(report);
 }
 
+// Of a directory: of the files in it.
+std::uintmax_t size_of(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) {
+        const auto size = std::filesystem::file_size(path, error);
+        return error ? 0 : size;
+    }
+    std::uintmax_t sum = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+        const auto size = entry.file_size(error);
+        if (!error) sum += size;
+    }
+    return sum;
+}
+
 int run_info(const InfoOptions& options) {
     level2::DecodeOptions decode_options;
     decode_options.threads =
         options.threads > 0 ? options.threads
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const std::filesystem::path path{options.file};
-    const auto decoded = level2::decode_file(path, decode_options);
+    const auto decoded = level2::decode_path(path, decode_options);
     if (!decoded) return report_error(decoded.error());
-    std::error_code unknown_size;
-    const auto size = std::filesystem::file_size(path, unknown_size);
-    const level2::FileFacts file{path.filename().string(), unknown_size ? 0 : size};
+    const auto size = size_of(path);
+    const level2::FileFacts file{path.filename().string(), size};
     if (options.json) {
         const auto json = level2::describe(*decoded, file);
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
@@ -150,7 +164,8 @@ int run_info(const InfoOptions& options) {
 Command add_info(CLI::App& app) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* info = app.add_subcommand("info", "Decode a Level II file and describe it");
-    info->add_option("FILE", options->file, "The file; what it is, is found by content")
+    info->add_option("FILE", options->file,
+                     "The file, or a directory of chunks; what it is, is found by content")
         ->required();
     info->add_flag("--json", options->json, "One JSON document");
     info->add_option("--threads", options->threads, "Threads to decompress with")

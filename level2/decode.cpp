@@ -1,6 +1,7 @@
 #include "level2/decode.h"
 
 #include <algorithm>
+#include <functional>
 #include <new>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "level2/content.h"
 #include "level2/gzip_stream.h"
 #include "level2/message_reader.h"
+#include "level2/record_plan.h"
 #include "level2/record_queue.h"
 #include "level2/volume_builder.h"
 
@@ -59,6 +61,8 @@ class Decoder {
     Status read_compress(std::span<const std::byte> bytes, int depth);
     Status read_bzip2(std::span<const std::byte> bytes, int depth);
     Status read_ldm(std::span<const std::byte> bytes);
+    Result<bool> read_parts(const RecordQueue::Source& source,
+                            const std::function<bool(const Fragment&)>& check);
     Status read_messages(std::span<const std::byte> bytes);
     Status take_output(LayerOutput& output, std::span<const std::byte> piece);
     Status end_output(LayerOutput& output, int depth);
@@ -258,14 +262,38 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     return end_output(output, depth);
 }
 
-Status Decoder::read_ldm(std::span<const std::byte> bytes) {
-    DecodeReport& report = builder_.report_data();
-    report.ldm_records = 0;
-    report.negative_control_words = 0;
-    RecordQueue queue{bytes, options_.threads, options_.output_limit_bytes, options_.selection};
+// Decodes the parts that the source gives, in their order. False when `check` says no to one; the
+// builder is then useless.
+Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
+                                 const std::function<bool(const Fragment&)>& check) {
+    RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
     while (auto fragment = queue.next()) {
-        if (Status taken = builder_.append(std::move(*fragment)); !taken) return taken;
+        if (!check(*fragment)) return false;
+        if (Status taken = builder_.append(std::move(*fragment)); !taken) return pass_on(taken);
     }
+    return true;
+}
+
+Status Decoder::read_ldm(std::span<const std::byte> bytes) {
+    builder_.report_data().ldm_records = 0;
+    builder_.report_data().negative_control_words = 0;
+    if (!options_.selection.all_cuts()) {
+        if (auto plan = RecordPlan::make(bytes, options_.selection)) {
+            const VolumeBuilder before = builder_;
+            const auto done = read_parts([&] { return plan->next(); },
+                                         [&](const Fragment& f) { return plan->agrees(f); });
+            if (!done) return pass_on(done);
+            if (*done) {
+                plan->report(builder_.report_data());
+                return {};
+            }
+            builder_ = before;  // the file is not as its pattern says: nothing is skipped
+        }
+    }
+    LdmFramer framer{bytes};
+    const auto done =
+        read_parts([&] { return framer.next(); }, [](const Fragment&) { return true; });
+    if (!done) return pass_on(done);
     return {};
 }
 

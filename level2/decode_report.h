@@ -48,7 +48,9 @@ struct DecodeReport {
     std::optional<Corruption> corruption;
     // The last radial ended its volume (status 4), none is missing and nothing was dropped.
     bool complete = false;
-    std::uint64_t sweeps_left_out = 0;  // whose cuts were not asked for, as far as they were read
+    std::uint64_t sweeps_left_out = 0;  // whose cuts were not asked for
+    std::uint64_t records_skipped =
+        0;  // of these, not even decompressed; offsets do not count them
     // Sweep indices at which a further volume begins: at a start-of-volume radial, after a second
     // header, where the elevation number falls, and where it does not rise after an end of volume.
     // Volume 0 begins at sweep 0.

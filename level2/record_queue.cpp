@@ -6,12 +6,12 @@
 
 namespace stormcellar::level2 {
 
-RecordQueue::RecordQueue(std::span<const std::byte> bytes, int threads,
-                         std::uint64_t output_limit_bytes, const Selection& selection)
+RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_bytes,
+                         const Selection& selection)
     : limit_bytes_(output_limit_bytes),
       selection_(selection),
       own_decoder_(output_limit_bytes, selection),
-      framer_(bytes),
+      source_(std::move(source)),
       slots_(threads > 1 ? 2 * static_cast<std::size_t>(threads) : 1) {
     {
         const std::lock_guard lock{mutex_};
@@ -37,10 +37,10 @@ RecordQueue::~RecordQueue() {
 }
 
 void RecordQueue::fill() {
-    while (used_ < slots_.size() && !all_framed_) {
-        std::optional<LdmPart> part = framer_.next();
+    while (used_ < slots_.size() && !source_ended_) {
+        std::optional<LdmPart> part = source_();
         if (!part) {
-            all_framed_ = true;
+            source_ended_ = true;
             break;
         }
         Slot& slot = slots_[(head_ + used_) % slots_.size()];

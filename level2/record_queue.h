@@ -8,9 +8,9 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <thread>
 #include <vector>
 
@@ -22,8 +22,11 @@ namespace stormcellar::level2 {
 
 class RecordQueue {
   public:
-    // The bytes and the selection must outlive the queue.
-    RecordQueue(std::span<const std::byte> bytes, int threads, std::uint64_t output_limit_bytes,
+    // Gives the parts, in their order, none after the last. Called by one thread at a time.
+    using Source = std::function<std::optional<LdmPart>()>;
+
+    // What the parts point to and the selection must outlive the queue.
+    RecordQueue(Source source, int threads, std::uint64_t output_limit_bytes,
                 const Selection& selection);
     RecordQueue(const RecordQueue&) = delete;
     RecordQueue& operator=(const RecordQueue&) = delete;
@@ -49,11 +52,11 @@ class RecordQueue {
     PartDecoder own_decoder_;
     std::mutex mutex_;  // guards all below
     std::condition_variable changed_;
-    LdmFramer framer_;
+    Source source_;
     std::vector<Slot> slots_;  // a ring
     std::size_t head_ = 0;     // the slot that is handed out next
     std::size_t used_ = 0;
-    bool all_framed_ = false;
+    bool source_ended_ = false;
     bool stopping_ = false;
     std::vector<std::thread> workers_;
 };

@@ -19,10 +19,14 @@ wire::Bytes many_records(unsigned count) {
 constexpr std::uint64_t ample = std::uint64_t{1} << 30;
 const Selection everything;
 
+RecordQueue::Source parts_of(std::span<const std::byte> bytes) {
+    return [framer = LdmFramer{bytes}]() mutable { return framer.next(); };
+}
+
 TEST(RecordQueue, OrderAndContentsDoNotDependOnTheThreads) {
     const wire::Bytes bytes = many_records(60);
     for (const int threads : {1, 2, 3, 8}) {
-        RecordQueue queue{bytes, threads, ample, everything};
+        RecordQueue queue{parts_of(bytes), threads, ample, everything};
         unsigned i = 0;
         for (; const auto fragment = queue.next(); ++i) {
             ASSERT_EQ(fragment->pieces.size(), 1U);
@@ -37,7 +41,7 @@ TEST(RecordQueue, OrderAndContentsDoNotDependOnTheThreads) {
 TEST(RecordQueue, CanBeLeftEarly) {
     const wire::Bytes bytes = many_records(60);
     for (int taken = 0; taken < 3; ++taken) {
-        RecordQueue queue{bytes, 4, ample, everything};
+        RecordQueue queue{parts_of(bytes), 4, ample, everything};
         for (int i = 0; i < taken; ++i)
             EXPECT_TRUE(queue.next());
     }
@@ -45,7 +49,7 @@ TEST(RecordQueue, CanBeLeftEarly) {
 
 TEST(RecordQueue, ARecordBeyondTheLimitSaysSo) {
     const wire::Bytes bytes = wire::ldm_record(wire::Bytes(2'000'000));
-    RecordQueue queue{bytes, 2, 1'000'000, everything};
+    RecordQueue queue{parts_of(bytes), 2, 1'000'000, everything};
     const auto fragment = queue.next();
     ASSERT_TRUE(fragment);
     EXPECT_EQ(fragment->failure, Fragment::Failure::too_much_output);

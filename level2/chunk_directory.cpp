@@ -1,0 +1,108 @@
+#include "level2/chunk_directory.h"
+
+#include <map>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/file_system.h"
+#include "base/station_table.h"
+#include "level2/live_volume.h"
+#include "level2/report_writer.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Found {
+    std::map<int, std::pair<ChunkName, fs::path>> chunks;
+    std::set<std::string> volumes;
+};
+
+Result<Found> find_chunks(const fs::path& directory) {
+    std::error_code error;
+    fs::directory_iterator entry{directory, error};
+    if (error) {
+        return fail(
+            error == std::errc::permission_denied ? ErrorCode::permission : ErrorCode::not_found,
+            "{}: {}", directory.string(), error.message());
+    }
+    Found found;
+    for (; entry != fs::directory_iterator{}; entry.increment(error)) {
+        if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
+        const auto name = parse_chunk_name(entry->path().filename().string());
+        if (!name || !entry->is_regular_file(error)) continue;
+        found.volumes.insert(name->volume);
+        found.chunks.try_emplace(name->number, *name, entry->path());
+    }
+    if (found.chunks.empty()) {
+        return fail(ErrorCode::not_found,
+                    "{}: holds no chunks (files named like 20220317-000842-001-S)",
+                    directory.string());
+    }
+    if (found.volumes.size() > 1) {
+        return fail(ErrorCode::bad_argument, "{}: holds chunks of {} volumes ({})",
+                    directory.string(), found.volumes.size(), fmt::join(found.volumes, ", "));
+    }
+    return found;
+}
+
+std::string station_of(const fs::path& directory) {
+    const fs::path path = directory.lexically_normal();
+    for (const fs::path& part : {path.filename(), path.parent_path().filename()}) {
+        const std::string name = part.string().substr(0, 4);
+        if (find_station(name)) return name;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOptions& options) {
+    const auto found = find_chunks(directory);
+    if (!found) return pass_on(found);
+    LiveOptions live;
+    live.decode = options;
+    if (live.decode.fallback_station.empty()) live.decode.fallback_station = station_of(directory);
+    LiveVolume volume{live};
+    std::vector<Problem> problems;
+    for (const auto& [number, chunk] : found->chunks) {
+        const auto& [name, path] = chunk;
+        const auto bytes = read_file(path);
+        if (!bytes) return pass_on(bytes);
+        const auto added = volume.add(number, name.kind, *bytes, {});
+        if (added) continue;
+        problems.push_back({Severity::error, "bad_chunk",
+                            fmt::format("chunk {}: {}", to_string(name), added.error().message),
+                            std::nullopt, std::nullopt});
+    }
+    if (volume.is_empty()) {
+        return fail(ErrorCode::corrupt, "{}: {}", directory.string(), problems.front().message);
+    }
+    const std::vector<int> missing = volume.missing_numbers();
+    auto decoded = volume.finish();
+    if (!decoded) {
+        return fail(decoded.error().code, "{}: {}", directory.string(), decoded.error().message);
+    }
+    if (!missing.empty()) {
+        problems.push_back({Severity::warning, "missing_chunks",
+                            fmt::format("missing chunks: {}", fmt::join(missing, ", ")),
+                            std::nullopt, std::nullopt});
+    }
+    for (Problem& problem : problems)
+        ReportWriter{decoded->report}.add(std::move(problem));
+    decoded->report.complete = decoded->report.complete && problems.empty();
+    return decoded;
+}
+
+Result<Decoded> decode_path(const fs::path& path, const DecodeOptions& options) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return decode_chunk_directory(path, options);
+    return decode_file(path, options);
+}
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,52 @@
+// level2/record_plan.h -- which LDM records hold the cuts that are asked for, told from the VCP.
+//
+// The volume's pattern (message 5 in the first record) gives the cuts and how many radials each
+// has, and a record holds up to 120 radials of one cut. So the place of each cut's records is known
+// before they are decompressed, and those of other cuts are skipped. What is decoded must agree
+// with the plan, the first and the last record of each cut by their radials' status: cuts only
+// count upwards, so what lies between two that agree can hold no others. Where something does not
+// agree (lost, repeated or longer records, restarted cuts, several volumes), the plan is void.
+// Thread contract: next() and agrees() from different threads, each from one at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "level2/decode_report.h"
+#include "level2/fragment.h"
+#include "level2/ldm_framer.h"
+#include "level2/selection.h"
+
+namespace stormcellar::level2 {
+
+class RecordPlan {
+  public:
+    // None where the pattern is not known or there is more than records. `bytes` (behind the
+    // 24-byte header) must outlive the plan.
+    [[nodiscard]] static std::optional<RecordPlan> make(std::span<const std::byte> bytes,
+                                                        const Selection& selection);
+
+    // The records to be decoded, in their order.
+    [[nodiscard]] std::optional<LdmPart> next();
+    // Whether the fragment of the next record, in the same order, is what the plan expects.
+    [[nodiscard]] bool agrees(const Fragment& fragment);
+    // Adds what was skipped.
+    void report(DecodeReport& report) const;
+
+  private:
+    struct Record {
+        LdmPart part;
+        int cut = 0;  // 0: metadata
+        bool first_of_cut = false;
+        bool last_of_cut = false;
+        bool wanted = true;
+    };
+    std::vector<Record> records_;
+    std::size_t next_ = 0;
+    std::size_t checked_ = 0;
+};
+
+}  // namespace stormcellar::level2
