@@ -7,7 +7,6 @@
 namespace stormcellar::level2 {
 namespace {
 
-constexpr std::size_t compression_at = 16;
 constexpr std::size_t volume_block_bytes = 44;        // of the first version
 constexpr std::size_t radial_block_short_bytes = 20;  // without calibration
 constexpr std::size_t radial_block_full_bytes = 28;
@@ -95,10 +94,6 @@ Reason read_block(RadialMessage& message, std::span<const std::byte> block) {
 }
 
 }  // namespace
-
-int message_31_compression(std::span<const std::byte> body) {
-    return body.size() > compression_at ? std::to_integer<int>(body[compression_at]) : 0;
-}
 
 RadialResult read_message_31(std::span<const std::byte> body) {
     ByteReader reader{body};

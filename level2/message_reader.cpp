@@ -6,6 +6,7 @@
 
 #include "level2/archive_header.h"
 #include "level2/message_5.h"
+#include "level2/radial_compression.h"
 #include "level2/radial_message.h"
 
 namespace stormcellar::level2 {
@@ -170,16 +171,20 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
 }
 
 void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message) {
-    const auto body = message.subspan(message_header_bytes);
+    auto body = message.subspan(message_header_bytes);
+    std::vector<std::byte> expanded;
     if (header.type == 31) {
         const int compression = message_31_compression(body);
         ++builder_.report_data().radial_compression[compression];
         if (compression != 0) {
-            builder_.report_data().bytes_dropped += message.size();
-            builder_.report().add(
-                Severity::error, "compressed_radial",
-                fmt::format("radial with compression {} is not supported", compression), offset_);
-            return;
+            auto whole = expand_message_31(body);
+            if (!whole) {
+                builder_.report().damage("bad_radial", std::string{whole.error()}, offset_,
+                                         message.size());
+                return;
+            }
+            expanded = std::move(*whole);
+            body = expanded;
         }
     }
     const RadialResult radial = header.type == 31 ? read_message_31(body) : read_message_1(body);

@@ -60,9 +60,6 @@ using RadialResult = tl::expected<RadialMessage, std::string_view>;
 [[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body);
 [[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body);
 
-// The "compression indicator" of a message 31: 0 for none.
-[[nodiscard]] int message_31_compression(std::span<const std::byte> body);
-
 // The volume data block, from its "RVOL" on; none when it is too short.
 [[nodiscard]] std::optional<VolumeBlock> read_volume_block(std::span<const std::byte> block);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "level2/volume_builder.h"
+#include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {
@@ -156,13 +157,22 @@ TEST(MessageReader, ALengthThatLiesCostsThatRadialOnly) {
     }
 }
 
-TEST(MessageReader, ACompressedRadialIsNamedAndNotGuessed) {
-    wire::Bytes compressed = ray_31(2);
-    compressed[28 + 16] = std::byte{1};
-    const Outcome outcome = read_whole(wire::join({ray_31(1), compressed}));
-    EXPECT_EQ(azimuth_numbers(outcome.volume), (std::vector<int>{1}));
-    EXPECT_EQ(outcome.report.radial_compression.at(1), 1);
-    EXPECT_EQ(outcome.report.problems.at(0).code, "compressed_radial");
+TEST(MessageReader, ACompressedRadialIsReadAndADamagedOneIsDroppedAndNamed) {
+    const Outcome plain = read_whole(wire::join({ray_31(1), ray_31(2)}));
+    for (const int indicator : {1, 2}) {
+        const wire::Bytes packed = wire::compressed_message_31(ray_31(2), indicator);
+        const Outcome outcome = read_whole(wire::join({ray_31(1), packed}));
+        EXPECT_EQ(difference(outcome.volume, plain.volume), "") << indicator;
+        EXPECT_EQ(outcome.report.radial_compression.at(indicator), 1);
+        EXPECT_EQ(outcome.report.bytes_dropped, 0);
+
+        wire::Bytes damaged = packed;
+        damaged[damaged.size() - 12] ^= std::byte{0x10};
+        const Outcome rest = read_whole(wire::join({ray_31(1), damaged, ray_31(3)}));
+        EXPECT_EQ(azimuth_numbers(rest.volume), (std::vector<int>{1, 3})) << indicator;
+        EXPECT_EQ(rest.report.problems.at(0).code, "bad_radial");
+        EXPECT_EQ(rest.report.bytes_dropped, damaged.size());
+    }
 }
 
 TEST(MessageReader, AHeaderInTheMiddleIsSkipped) {

@@ -284,6 +284,30 @@ Bytes gzip(std::span<const std::byte> bytes) {
     return out;
 }
 
+Bytes compressed_message_31(const Bytes& message, int indicator) {
+    constexpr std::size_t head = 28, first_pointer_at = 32;
+    Bytes body(message.begin() + head, message.end());
+    const auto low = [&](std::size_t at) { return std::to_integer<std::size_t>(body[at]); };
+    const std::size_t plain = (low(first_pointer_at + 2) << 8) | low(first_pointer_at + 3);
+    overwrite_u16(body, 18, static_cast<unsigned>(body.size()));
+    body[16] = static_cast<std::byte>(indicator);
+    const Bytes data(body.begin() + static_cast<std::ptrdiff_t>(plain), body.end());
+    Bytes packed = bzip2(data);
+    if (indicator == 2) {
+        packed.resize(compressBound(data.size()));
+        uLongf size = packed.size();
+        const auto* from = reinterpret_cast<const Bytef*>(data.data());
+        if (::compress(reinterpret_cast<Bytef*>(packed.data()), &size, from, data.size()) != Z_OK) {
+            throw std::runtime_error("zlib failed");
+        }
+        packed.resize(size);
+    }
+    body.resize(plain);
+    body.insert(body.end(), packed.begin(), packed.end());
+    if (body.size() % 2 != 0) body.push_back(std::byte{0});
+    return with_length(body);
+}
+
 Bytes join(std::initializer_list<Bytes> parts) {
     Bytes all;
     for (const Bytes& part : parts)

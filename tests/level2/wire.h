@@ -56,6 +56,8 @@ Bytes frame(unsigned type, std::span<const std::byte> body = {});
 Bytes message_31(const Ray& ray);
 // A message whose only block is this one, to be broken.
 Bytes message_31_with_block(std::span<const std::byte> block);
+// The same radial with all behind its header compressed: 1 bzip2, 2 zlib (table XVII-A).
+Bytes compressed_message_31(const Bytes& message, int indicator);
 // REF, and VEL and SW at twice the gates, in a frame.
 Bytes message_1(const Ray& ray);
 // Message 5, a pattern of these elevations.
