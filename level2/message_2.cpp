@@ -89,7 +89,8 @@ void read_open_fields(RdaStatus& status, const Halfwords& halfword) {
         status.clutter_decision_segments = static_cast<std::uint8_t>((halfword[13] >> 1) & 0x1F);
     }
     if (build >= 11) status.avset = halfword.bit(14, 1);
-    if (build >= 12)
+    // Spare in the ICD of build 13, which sends it all the same.
+    if (build >= 13)
         status.vertical_correction_db = static_cast<float>(halfword.as_signed(23)) / 100;
     if (build >= 14) status.performance_check = halfword[26];
     if (build >= 18) status.elevation_correction = halfword.bit(14, 3);

@@ -71,7 +71,7 @@ struct RdaStatus {
     std::uint16_t power = 0;                      // rda_power
     std::uint16_t transmitter_w = 0;              // average power, W
     float horizontal_correction_db = 0;           // dBZ0 as measured minus as adapted
-    std::optional<float> vertical_correction_db;  // from build 12 on
+    std::optional<float> vertical_correction_db;  // from build 13 on
     std::uint16_t data_enabled = 0;               // rda_data
     int vcp = 0;                                  // 0: none
     bool vcp_is_local = false;                    // chosen at the RDA, not by the RPG
