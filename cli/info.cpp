@@ -115,6 +115,9 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
     if (volume.vcp) {
         fmt::print("  VCP       {} (from {})\n", *volume.vcp, vcp_source_text(volume.vcp_source));
     }
+    if (report.rda_status && report.rda_status->build) {
+        fmt::print("  RDA       build {:.2f}\n", *report.rda_status->build);
+    }
     const std::size_t volumes = report.further_volume_starts.size() + 1;
     fmt::print("  holds     {} sweeps, {} radials{}; {}\n", volume.sweeps.size(),
                volume.radial_count(),

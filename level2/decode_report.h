@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "level2/message_2.h"
 #include "level2/volume.h"
 
 namespace stormcellar::level2 {
@@ -71,6 +72,7 @@ struct DecodeReport {
     std::vector<FurtherPattern> further_patterns;
     std::string message_station;  // ICAO of message 31; empty where there is none
     std::map<int, std::uint64_t> radial_compression;  // message 31: indicator, radials
+    std::optional<RdaStatus> rda_status;              // the last message 2
     double decompress_s = 0;  // CPU seconds in decompression, all threads added
 };
 

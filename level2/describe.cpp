@@ -196,6 +196,19 @@ void describe_times(Json& json, const Volume& volume) {
     json["last_radial_time"] = iso_time(volume.sweeps.back().radials.back().time);
 }
 
+// The last message 2; null where there is none.
+Json describe_status(const std::optional<RdaStatus>& status) {
+    if (!status) return nullptr;
+    Json json = {{"state", static_cast<int>(status->state)},
+                 {"operability", status->operability},
+                 {"vcp", status->vcp},
+                 {"build", nullptr},
+                 {"troubles", rda_troubles(*status)}};
+    // Hundredths, as the ICD has them: a float would show its last bits.
+    if (status->build) json["build"] = std::round(*status->build * 100.0) / 100.0;
+    return json;
+}
+
 }  // namespace
 
 Json describe_sweep(const Sweep& sweep, std::size_t index) {
@@ -270,6 +283,7 @@ Json describe(const Decoded& decoded, const FileFacts& file) {
     json["complete"] = report.complete;
     json["bytes_dropped"] = report.bytes_dropped;
     json["further_volume_starts"] = report.further_volume_starts;
+    json["rda_status"] = describe_status(report.rda_status);
     json["problems"] = describe_problems(report);
     json["sweeps"] = Json::array();
     for (std::size_t i = 0; i < volume.sweeps.size(); ++i)

@@ -60,7 +60,8 @@ bool is_surely_message_31(const MessageHeader& header, std::span<const std::byte
 // A frame of another kind: nothing in its body is fixed, so its header has to be beyond doubt.
 bool is_surely_other_message(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool one_of_the_archived = header.type == 2 || header.type == 3 || header.type == 5 ||
-                                     header.type == 13 || header.type == 15 || header.type == 18;
+                                     header.type == 13 || header.type == 15 || header.type == 18 ||
+                                     header.type == 32;
     return one_of_the_archived && all_zero(bytes.first(terminal_manager_bytes)) &&
            header.segments <= 100 && header.size_halfwords >= 40;
 }

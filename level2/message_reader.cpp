@@ -12,8 +12,10 @@
 namespace stormcellar::level2 {
 namespace {
 
-// No message is longer: 131 kB for one whose size has 16 bits, and no known one has more.
-constexpr std::size_t longest_message_bytes = std::size_t{1} << 20;
+// A radial's size has 16 bits and counts halfwords. Message 29 has been seen nowhere; its size has
+// 32 bits.
+constexpr std::size_t longest_radial_bytes = std::size_t{1} << 18;
+constexpr std::size_t longest_message_bytes = std::size_t{1} << 24;
 
 // Whether a message, a fill frame, a further volume header or the end may stand here.
 bool may_follow(std::span<const std::byte> next, bool last, bool after_radial) {
@@ -29,6 +31,10 @@ bool may_follow(std::span<const std::byte> next, bool last, bool after_radial) {
 
 bool is_radial(const MessageHeader& header) {
     return header.type == 1 || header.type == 31;
+}
+
+std::size_t longest(int type) {
+    return type == 31 ? longest_radial_bytes : longest_message_bytes;
 }
 
 }  // namespace
@@ -70,7 +76,7 @@ std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (all_zero(rest.first(message_header_bytes))) return read_fill(rest, last);
     const MessageHeader header = read_message_header(rest.first(message_header_bytes));
     const std::size_t length = header.length_bytes();
-    if (!is_plausible(header) || length < message_header_bytes || length > longest_message_bytes) {
+    if (!is_plausible(header) || length < message_header_bytes || length > longest(header.type)) {
         return resynchronise(rest, 1, last, "no message header where one is due");
     }
     return read_message(header, rest, last);
@@ -164,6 +170,12 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         return;
     }
     ++builder_.report_data().message_counts[header.type];
+    if (header.type == 2) {
+        const auto body = message.subspan(message_header_bytes);
+        // A frame of zeros says nothing.
+        auto status = all_zero(body) ? std::nullopt : read_rda_status(header, body);
+        if (status) builder_.report_data().rda_status = std::move(*status);
+    }
     if (header.type == 5 || header.type == 7) {
         auto vcp = read_vcp(header.type, message.subspan(message_header_bytes));
         if (vcp) builder_.add_pattern(std::move(*vcp));

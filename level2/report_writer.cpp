@@ -62,6 +62,7 @@ void ReportWriter::append(DecodeReport next) {
     }
     add_count(report_.ldm_records, next.ldm_records);
     add_count(report_.negative_control_words, next.negative_control_words);
+    if (next.rda_status) report_.rda_status = std::move(next.rda_status);
     report_.message_bytes += next.message_bytes;
     report_.bytes_dropped += next.bytes_dropped;
     report_.decompress_s += next.decompress_s;

@@ -355,7 +355,8 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     }
     volume_.station = station(fallback_station);
     const bool ended = volume_has_ended();
-    const bool gaps = check_volume(volume_, previous_.has_value(), ended, report());
+    const bool gaps =
+        check_volume(volume_, previous_.has_value(), ended, report_.rda_status, report());
     report_.complete = ended && !gaps && report_.bytes_dropped == 0;
     report().finish();
     return Decoded{std::move(volume_), std::move(report_)};

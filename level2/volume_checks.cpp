@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stormcellar::level2 {
 namespace {
@@ -88,7 +89,8 @@ RadialGaps gaps_of(const Sweep& sweep) {
     return gaps;
 }
 
-bool check_volume(const Volume& volume, bool has_radials, bool has_ended, ReportWriter report) {
+bool check_volume(const Volume& volume, bool has_radials, bool has_ended,
+                  const std::optional<RdaStatus>& status, ReportWriter report) {
     const bool missing = check_radials(volume, report);
     check_position(volume, report);
     check_time(volume, report);
@@ -97,6 +99,12 @@ bool check_volume(const Volume& volume, bool has_radials, bool has_ended, Report
     } else if (!has_ended) {
         report.add(Severity::warning, "no_end_of_volume",
                    "the volume stops before its end: its last radial is not marked as the last");
+    }
+    if (!status) return missing;
+    const std::vector<std::string> troubles = rda_troubles(*status);
+    if (!troubles.empty()) {
+        report.add(Severity::note, "radar_trouble",
+                   fmt::format("the radar reports: {}", fmt::join(troubles, ", ")));
     }
     return missing;
 }

@@ -29,7 +29,7 @@ struct Outcome {
 Outcome check(const Volume& volume, std::string_view code) {
     DecodeReport report;
     Outcome outcome;
-    outcome.missing = check_volume(volume, true, true, ReportWriter{report});
+    outcome.missing = check_volume(volume, true, true, {}, ReportWriter{report});
     for (const Problem& problem : report.problems) {
         if (problem.code == code) outcome.messages.push_back(problem.message);
     }
@@ -38,7 +38,8 @@ Outcome check(const Volume& volume, std::string_view code) {
 
 TEST(VolumeChecks, ASoundVolumeHasNoProblem) {
     DecodeReport report;
-    EXPECT_FALSE(check_volume(volume_of({{1, 2, 3}, {1, 2}}), true, true, ReportWriter{report}));
+    EXPECT_FALSE(
+        check_volume(volume_of({{1, 2, 3}, {1, 2}}), true, true, {}, ReportWriter{report}));
     EXPECT_TRUE(report.problems.empty());
 }
 
@@ -65,6 +66,17 @@ TEST(VolumeChecks, ManySweepsWithGapsAreSummedUp) {
         check(volume_of(std::vector<std::vector<int>>(50, {1, 3})), "missing_radials");
     EXPECT_EQ(outcome.messages.size(), 9U);
     EXPECT_EQ(outcome.messages.back(), "42 further sweeps lack 42 radials");
+}
+
+TEST(VolumeChecks, WhatTheRadarReportsIsPassedOn) {
+    RdaStatus status;
+    DecodeReport report;
+    EXPECT_FALSE(check_volume(volume_of({{1}}), true, true, status, ReportWriter{report}));
+    status.state = RdaState::standby;
+    EXPECT_FALSE(check_volume(volume_of({{1}}), true, true, status, ReportWriter{report}));
+    ASSERT_FALSE(report.problems.empty());
+    EXPECT_EQ(report.problems.back().code, "radar_trouble");
+    EXPECT_NE(report.problems.back().message.find("standby"), std::string::npos);
 }
 
 }  // namespace
