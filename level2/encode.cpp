@@ -1,121 +1,20 @@
 #include "level2/encode.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <bzlib.h>
 
+#include "level2/encode_checks.h"
 #include "level2/encode_messages.h"
 
 namespace stormcellar::level2 {
 namespace {
 
-template <class... Args>
-tl::unexpected<Error> refuse(fmt::format_string<Args...> format, Args&&... args) {
-    return fail(ErrorCode::bad_argument, "cannot write the volume: {}",
-                fmt::format(format, std::forward<Args>(args)...));
-}
-
-template <class Integer>
-bool fits(double number) {
-    return number >= std::numeric_limits<Integer>::min() &&
-           number <= std::numeric_limits<Integer>::max();
-}
-
-Status check_moment(const Sweep& sweep, const SweepMoment& moment) {
-    const auto name = moment_name(moment.moment);
-    const int number = sweep.elevation_number;
-    if (moment.word_size_bits != 8 && moment.word_size_bits != 16) {
-        return refuse("{} of elevation {} has codes of {} bits", name, number,
-                      moment.word_size_bits);
-    }
-    if (moment.gate_stride < 0 || moment.gate_counts.size() != sweep.radials.size()) {
-        return refuse("{} of elevation {} has {} rows for {} radials", name, number,
-                      moment.gate_counts.size(), sweep.radials.size());
-    }
-    const std::size_t codes =
-        moment.word_size_bits == 8 ? moment.codes8.size() : moment.codes16.size();
-    const auto stride = static_cast<std::size_t>(moment.gate_stride);
-    if (codes != stride * sweep.radials.size()) {
-        return refuse("{} of elevation {} has {} codes for {} rows of {}", name, number, codes,
-                      sweep.radials.size(), stride);
-    }
-    const auto too_long = [stride](std::uint16_t gates) { return gates > stride; };
-    if (std::any_of(moment.gate_counts.begin(), moment.gate_counts.end(), too_long)) {
-        return refuse("{} of elevation {} counts more gates than a row holds", name, number);
-    }
-    if (!fits<std::int16_t>(moment.first_gate_m) || !fits<std::uint16_t>(moment.gate_spacing_m)) {
-        return refuse("{} of elevation {} begins at {} m and steps by {} m", name, number,
-                      moment.first_gate_m, moment.gate_spacing_m);
-    }
-    if (!fits<std::uint8_t>(moment.control_flags) ||
-        !fits<std::int16_t>(moment.snr_threshold_db * 8.0) ||
-        !fits<std::int16_t>(moment.folding_threshold_db * 10.0)) {
-        return refuse("{} of elevation {} has flags or thresholds beyond message 31", name, number);
-    }
-    return {};
-}
-
-Status check_sweep(const Sweep& sweep) {
-    const int number = sweep.elevation_number;
-    if (sweep.message_type != 31) {
-        return refuse("elevation {} came in message {}, not 31", number, sweep.message_type);
-    }
-    if (!fits<std::uint8_t>(number)) return refuse("elevation number {}", number);
-    const float spacing = sweep.azimuth_spacing_deg;
-    if (spacing != 0 && spacing != 0.5F && spacing != 1) {
-        return refuse("elevation {} has radials every {} degrees, not 0.5 or 1", number, spacing);
-    }
-    for (const Radial& radial : sweep.radials) {
-        if (!fits<std::uint16_t>(nexrad_from_time(radial.time).day)) {
-            return refuse("elevation {} has a radial of {}; message 31 ends in 2149", number,
-                          format_utc(radial.time));
-        }
-        if (!fits<std::uint16_t>(radial.nyquist_mps * 100.0) ||
-            !fits<std::uint16_t>(radial.unambiguous_range_m / 100.0)) {
-            return refuse("elevation {} has a Nyquist velocity of {} m/s at {} m", number,
-                          radial.nyquist_mps, radial.unambiguous_range_m);
-        }
-    }
-    for (const SweepMoment& moment : sweep.moments) {
-        Status checked = check_moment(sweep, moment);
-        if (!checked) return checked;
-    }
-    return {};
-}
-
-Status check_volume(const Volume& volume) {
-    if (volume.header) {
-        if (volume.header->filename.size() > 12) {
-            return refuse("the header's name '{}' is longer than 12", volume.header->filename);
-        }
-        if (!volume.header->icao.empty() && volume.header->icao.size() != 4) {
-            return refuse("the header's site '{}' is not four characters", volume.header->icao);
-        }
-    }
-    if (const auto start = volume.start_time();
-        start && !fits<std::uint16_t>(nexrad_from_time(*start).day)) {
-        return refuse("the volume begins at {}; messages end in 2149", format_utc(*start));
-    }
-    if (volume.radial_count() == 0) {
-        if (!volume.header) return refuse("neither header nor radials");
-        return {};
-    }
-    if (volume.station.size() != 4) {
-        return refuse("the station '{}' is not four characters", volume.station);
-    }
-    if (!volume.block) return refuse("no position: the volume data block is missing");
-    if (volume.block->size_bytes != 44 + volume.block->rest.size()) {
-        return refuse("the volume data block says {} bytes and holds {}", volume.block->size_bytes,
-                      44 + volume.block->rest.size());
-    }
-    for (const Sweep& sweep : volume.sweeps) {
-        Status checked = check_sweep(sweep);
-        if (!checked) return checked;
-    }
-    return {};
-}
+constexpr int legacy_radials_per_record = 100;  // of builds up to 8 (ICD 2620010A to C)
 
 UtcTime first_time(const Volume& volume) {
     return volume.start_time().value_or(UtcTime{});
@@ -123,7 +22,9 @@ UtcTime first_time(const Volume& volume) {
 
 std::vector<std::byte> encode_header(const Volume& volume) {
     const NexradTime start = nexrad_from_time(first_time(volume));
-    const VolumeHeader made{"AR2V0006.001", start.day, start.milliseconds, volume.station};
+    const bool legacy = !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
+    const VolumeHeader made{legacy ? "AR2V0001.001" : "AR2V0006.001", start.day, start.milliseconds,
+                            volume.station};
     const VolumeHeader& header = volume.header ? *volume.header : made;
     ByteWriter out;
     out.text(header.filename, 12);
@@ -164,12 +65,16 @@ void set_control_word(EncodedRecord& record, bool last) {
 
 Status append_sweep(std::vector<EncodedRecord>& records, const Volume& volume, const Sweep& sweep,
                     const EncodeOptions& options, MessageRun& run) {
-    const auto step = static_cast<std::size_t>(options.radials_per_record);
+    const bool legacy = sweep.message_type == 1;
+    const int most = legacy ? std::min(options.radials_per_record, legacy_radials_per_record)
+                            : options.radials_per_record;
+    const auto step = static_cast<std::size_t>(most);
     for (std::size_t first = 0; first < sweep.radials.size(); first += step) {
         const std::size_t end = std::min(first + step, sweep.radials.size());
         ByteWriter messages;
         for (std::size_t i = first; i < end; ++i) {
-            Status written = append_radial(messages, volume, sweep, i, run);
+            Status written = legacy ? append_radial_1(messages, volume, sweep, i, run)
+                                    : append_radial(messages, volume, sweep, i, run);
             if (!written) return written;
         }
         auto record = compress(messages.bytes(), options.compression_level);
@@ -195,16 +100,37 @@ std::vector<std::byte> EncodedVolume::joined() const {
     return file;
 }
 
+std::vector<EncodedChunk> EncodedVolume::chunks() const {
+    // "2022-03-17T00:08:42Z" without its marks is the first part of a chunk's name.
+    std::string digits = format_utc(std::chrono::floor<std::chrono::seconds>(start));
+    std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+    const std::string volume = digits.substr(0, 8) + "-" + digits.substr(8, 6);
+    std::vector<EncodedChunk> chunks;
+    for (const EncodedRecord& record : records) {
+        const bool first = chunks.empty();
+        const bool last = &record == &records.back();
+        EncodedChunk& chunk = chunks.emplace_back();
+        chunk.name = {volume, static_cast<int>(chunks.size()),
+                      first  ? ChunkKind::start
+                      : last ? ChunkKind::end
+                             : ChunkKind::intermediate};
+        if (first) chunk.bytes = header;
+        chunk.bytes.insert(chunk.bytes.end(), record.bytes.begin(), record.bytes.end());
+    }
+    return chunks;
+}
+
 Result<EncodedVolume> encode(const Volume& volume, const EncodeOptions& options) {
     if (options.compression_level < 1 || options.compression_level > 9 ||
         options.radials_per_record < 1) {
         return refuse("compression level {}, {} radials a record", options.compression_level,
                       options.radials_per_record);
     }
-    const Status checked = check_volume(volume);
+    const Status checked = check_encodable(volume);
     if (!checked) return pass_on(checked);
 
     EncodedVolume encoded;
+    encoded.start = first_time(volume);
     encoded.header = encode_header(volume);
     MessageRun run(volume);
     ByteWriter metadata;

@@ -3,21 +3,24 @@
 // Writes an Archive II file as the RDA would send it: a 24-byte header, a metadata record of 134
 // frames with messages 5 and 2 at their places (the frames of clutter maps and adaptation data stay
 // empty, as TDWRs send them: a Volume does not hold them, and they are not made up), then LDM bzip2
-// records of up to 120 message 31 radials that never span two sweeps; the last control word is
-// negative. decode(encode(v)) gives the same volume to the bit for volumes of message 31; one
-// without a header gets one (AR2V0006.001, the first radial's time).
-// Errors: bad_argument for a volume that message 31 cannot hold (message 1, no station, no volume
-// data block, numbers beyond their fields, rows that do not match). Nothing is rounded in silence,
-// beyond the fields' own steps: elevation of a cut 180/32768 deg, Nyquist velocity 0.01 m/s,
-// unambiguous range 100 m, thresholds 0.1 and 0.125 dB.
-// Source: ICD 2620002W tables II, IV, XI, XVII; ICD 2620010 section 7.
-// Thread contract: encode() is a pure function.
+// records of up to 120 radials (message 1: 100) that never span two sweeps; the last control word
+// is negative. Sweeps of message 31 are written as message 31, those of message 1 as message 1, so
+// decode(encode(v)) gives the same volume to the bit. One without a header gets one (AR2V0006.001
+// or AR2V0001.001, the first radial's time). Message 1 does not name its station: the header does,
+// or the decoder's fallback. Errors: bad_argument for a volume that its messages cannot hold (no
+// station or volume data block for message 31, numbers beyond their fields, rows that do not
+// match). Nothing is rounded in silence, beyond the fields' own steps: elevation of a cut 180/32768
+// deg, Nyquist velocity 0.01 m/s, unambiguous range 100 m, thresholds 0.1 and 0.125 dB. Source: ICD
+// 2620002W tables II, III, IV, XI, XVII; ICD 2620010 section 7. Thread contract: encode() is a pure
+// function.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "base/result.h"
+#include "base/utc_time.h"
+#include "level2/chunk_name.h"
 #include "level2/volume.h"
 
 namespace stormcellar::level2 {
@@ -27,11 +30,20 @@ struct EncodedRecord {
     std::vector<std::byte> bytes;
 };
 
+struct EncodedChunk {
+    ChunkName name;
+    std::vector<std::byte> bytes;
+};
+
 struct EncodedVolume {
+    UtcTime start;
     std::vector<std::byte> header;  // the 24 bytes
     std::vector<EncodedRecord> records;
 
     [[nodiscard]] std::vector<std::byte> joined() const;  // header and records: a whole file
+    // The same as chunks: one with the header and the metadata (S), then one a record (I, the last
+    // E), named by the volume's start. There must be no more than 999.
+    [[nodiscard]] std::vector<EncodedChunk> chunks() const;
 };
 
 struct EncodeOptions {

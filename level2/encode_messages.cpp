@@ -11,31 +11,8 @@ constexpr std::size_t communications_header_bytes = 12;
 constexpr std::size_t message_header_bytes = 16;
 constexpr std::size_t frame_body_bytes = 2400;  // 1,208 halfwords with the header
 constexpr std::uint8_t orda_channel = 8;        // single channel, open RDA
-constexpr std::uint16_t largest_sequence = 0x7FFF;
 // Stands for a number that the radar does not know, inside a block that it does send.
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-
-// Starts a message and gives the position of its size, to be set when the body is there.
-std::size_t begin_message(ByteWriter& out, std::uint8_t type, UtcTime time, MessageRun& run) {
-    const NexradTime stamp = nexrad_from_time(time);
-    out.zeros(communications_header_bytes);
-    const std::size_t size_position = out.size();
-    out.u16(0);
-    out.u8(orda_channel);
-    out.u8(type);
-    out.u16(run.sequence);
-    out.u16(static_cast<std::uint16_t>(stamp.day));
-    out.u32(stamp.milliseconds);
-    out.u16(1);  // segments
-    out.u16(1);  // this one's number
-    run.sequence = static_cast<std::uint16_t>((run.sequence + 1U) & largest_sequence);
-    return size_position;
-}
-
-void end_message(ByteWriter& out, std::size_t size_position) {
-    const std::size_t halfwords = (out.size() - size_position) / 2;
-    out.set_u16(size_position, static_cast<std::uint16_t>(halfwords));
-}
 
 std::int16_t to_i16(double number) {
     return static_cast<std::int16_t>(std::lround(number));
@@ -78,7 +55,7 @@ Status append_vcp(ByteWriter& out, const Vcp& vcp, UtcTime time, MessageRun& run
                     vcp.message_type);
     }
     const auto type = static_cast<std::uint8_t>(vcp.message_type);
-    const std::size_t size_position = begin_message(out, type, time, run);
+    const std::size_t size_position = begin_message(out, orda_channel, type, time, run);
     out.u16(static_cast<std::uint16_t>(body_bytes / 2));
     out.u16(vcp.pattern_type);
     out.u16(vcp.pattern_number);
@@ -99,15 +76,27 @@ Status append_vcp(ByteWriter& out, const Vcp& vcp, UtcTime time, MessageRun& run
     return {};
 }
 
-// Message 2, ICD table IV in the length of builds up to 18: the radar operates under remote
-// control, is on line, sends reflectivity, velocity and width, and has no alarm. What a Volume
-// does not know (power, maps, corrections) is zero.
-void append_status(ByteWriter& out, int vcp, UtcTime time, MessageRun& run) {
-    constexpr std::size_t halfwords = 40;
+// The first build that sends such radials, in hundredths (ICD 2620002, tables XVII by build).
+std::uint16_t build_of(const Volume& volume) {
+    constexpr std::uint16_t build_13 = 1300, build_17 = 1700, build_19 = 1900, build_20 = 2000;
+    const auto has_cfp = [](const Sweep& sweep) { return sweep.find(Moment::cfp) != nullptr; };
+    const int version = volume.block ? volume.block->version_major : 1;
+    if (version >= 3) return build_20;
+    if (std::any_of(volume.sweeps.begin(), volume.sweeps.end(), has_cfp)) return build_19;
+    return version == 2 ? build_17 : build_13;
+}
+
+// Message 2, ICD table IV: the radar operates under remote control, is on line, sends
+// reflectivity, velocity and width, and has no alarm. What a Volume does not know (power, maps,
+// corrections) is zero.
+void append_status(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
+    constexpr std::uint16_t build_18 = 1800, version_of_build_19 = 9;
     constexpr std::uint16_t operate = 0x10, on_line = 2, remote = 4, utility_power = 2;
     constexpr std::uint16_t all_moments_enabled = 0x1C, operational = 4, super_resolution = 2;
-    constexpr std::uint16_t build_16_1 = 1610;
-    const std::size_t size_position = begin_message(out, 2, time, run);
+    const std::uint16_t build = build_of(volume);
+    const std::size_t halfwords = build < build_18 ? 40 : 60;
+    const int block_vcp = volume.block ? volume.block->vcp : 0;
+    const std::size_t size_position = begin_message(out, orda_channel, 2, time, run);
     const std::size_t body = out.size();
     out.u16(operate);
     out.u16(on_line);
@@ -116,12 +105,13 @@ void append_status(ByteWriter& out, int vcp, UtcTime time, MessageRun& run) {
     out.u16(0);  // average transmitter power
     out.u16(0);  // reflectivity calibration correction
     out.u16(all_moments_enabled);
-    out.u16(static_cast<std::uint16_t>(vcp));
+    out.u16(static_cast<std::uint16_t>(volume.vcp.value_or(block_vcp)));
     out.u16(0);  // control authorization
-    out.u16(build_16_1);
+    out.u16(build);
     out.u16(operational);
     out.u16(super_resolution);
     out.zeros(2 * halfwords - (out.size() - body));
+    if (build >= build_18) out.set_u16(out.size() - 2, version_of_build_19);
     end_message(out, size_position);
     out.pad_to_multiple_of(frame_bytes);
 }
@@ -238,6 +228,27 @@ class BlockTable {
 
 }  // namespace
 
+std::size_t begin_message(ByteWriter& out, std::uint8_t channel, std::uint8_t type, UtcTime time,
+                          MessageRun& run) {
+    const NexradTime stamp = nexrad_from_time(time);
+    out.zeros(communications_header_bytes);
+    const std::size_t size_position = out.size();
+    out.u16(0);
+    out.u8(channel);
+    out.u8(type);
+    out.u16(run.sequence++);
+    out.u16(static_cast<std::uint16_t>(stamp.day));
+    out.u32(stamp.milliseconds);
+    out.u16(1);  // segments
+    out.u16(1);  // this one's number
+    return size_position;
+}
+
+void end_message(ByteWriter& out, std::size_t size_position) {
+    const std::size_t halfwords = (out.size() - size_position) / 2;
+    out.set_u16(size_position, static_cast<std::uint16_t>(halfwords));
+}
+
 // Builds that send CFP (19 and later) have room for ten pointers, those before for nine.
 MessageRun::MessageRun(const Volume& volume) {
     const auto has_cfp = [](const Sweep& sweep) { return sweep.find(Moment::cfp) != nullptr; };
@@ -246,14 +257,15 @@ MessageRun::MessageRun(const Volume& volume) {
 }
 
 Status append_metadata(ByteWriter& out, const Volume& volume, UtcTime time, MessageRun& run) {
-    const std::size_t used_frames = volume.vcp_message ? 2 : 1;
+    // An RDA before the open one has another message 2, of which a Volume knows nothing.
+    const bool legacy = !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
+    const std::size_t used_frames = (volume.vcp_message ? 1U : 0U) + (legacy ? 0U : 1U);
     out.zeros((metadata_frames - used_frames) * frame_bytes);
     if (volume.vcp_message) {
         Status written = append_vcp(out, *volume.vcp_message, time, run);
         if (!written) return written;
     }
-    const int block_vcp = volume.block ? volume.block->vcp : 0;
-    append_status(out, volume.vcp.value_or(block_vcp), time, run);
+    if (!legacy) append_status(out, volume, time, run);
     return {};
 }
 
@@ -268,7 +280,7 @@ Status append_radial(ByteWriter& out, const Volume& volume, const Sweep& sweep, 
     }
 
     const NexradTime stamp = nexrad_from_time(radial.time);
-    const std::size_t size_position = begin_message(out, 31, radial.time, run);
+    const std::size_t size_position = begin_message(out, orda_channel, 31, radial.time, run);
     const std::size_t start = out.size();
     out.text(volume.station, 4);
     out.u32(stamp.milliseconds);

@@ -33,8 +33,20 @@ struct MessageRun {
 [[nodiscard]] Status append_metadata(ByteWriter& out, const Volume& volume, UtcTime time,
                                      MessageRun& run);
 
-// Appends radial `index` of a sweep as message 31. The sweep must be consistent (see encode.cpp).
-// Errors: bad_argument when the radial is larger than its 16-bit length allows.
+// Starts a message at the end of `out` and gives the position of its size; end_message() fills that
+// in.
+[[nodiscard]] std::size_t begin_message(ByteWriter& out, std::uint8_t channel, std::uint8_t type,
+                                        UtcTime time, MessageRun& run);
+void end_message(ByteWriter& out, std::size_t size_position);
+
+// Appends radial `index` of a sweep as a frame of message 1. The sweep must be consistent.
+// Errors: bad_argument when the frame cannot hold its gates, when its two Doppler moments differ in
+// gates, or when angles are no multiples of the ICD's steps.
+[[nodiscard]] Status append_radial_1(ByteWriter& out, const Volume& volume, const Sweep& sweep,
+                                     std::size_t index, MessageRun& run);
+
+// Appends radial `index` of a sweep as message 31. The sweep must be consistent (see
+// encode_checks). Errors: bad_argument when the radial is larger than its 16-bit length allows.
 [[nodiscard]] Status append_radial(ByteWriter& out, const Volume& volume, const Sweep& sweep,
                                    std::size_t index, MessageRun& run);
 

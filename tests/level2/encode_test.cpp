@@ -10,6 +10,7 @@
 #include "base/byte_reader.h"
 #include "base/file_system.h"
 #include "level2/decode.h"
+#include "level2/live_volume.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
@@ -243,7 +244,8 @@ TEST(Encode, RefusesWhatMessage31CannotHold) {
         {"block of another size", [](Volume& v) { v.block->rest.pop_back(); }},
         {"long name", [](Volume& v) { v.header->filename = "AR2V0006.1160"; }},
         {"header site", [](Volume& v) { v.header->icao = "KLO"; }},
-        {"message 1", [](Volume& v) { v.sweeps[1].message_type = 1; }},
+        {"message 1 of another kind", [](Volume& v) { v.sweeps[1].message_type = 1; }},
+        {"message 3", [](Volume& v) { v.sweeps[1].message_type = 3; }},
         {"number", [](Volume& v) { v.sweeps[1].elevation_number = 256; }},
         {"spacing", [](Volume& v) { v.sweeps[1].azimuth_spacing_deg = 0.75F; }},
         {"Nyquist", [](Volume& v) { v.sweeps[1].radials[5].nyquist_mps = 700; }},
@@ -276,22 +278,57 @@ class EncodeReal : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EncodeReal, ComesBackToTheBit) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = decode_file(*testing::data_directory() / "volumes" / GetParam());
+    const auto decoded = decode_file(*testing::data_directory() / GetParam());
     ASSERT_TRUE(decoded) << decoded.error().message;
     const auto encoded = encode(decoded->volume, {.compression_level = 1});
     ASSERT_TRUE(encoded) << encoded.error().message;
-    const auto again = decode(encoded->joined());
+    DecodeOptions options;
+    options.fallback_station = decoded->volume.station;
+    const auto again = decode(encoded->joined(), options);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(difference(decoded->volume, again->volume), "");
+    EXPECT_EQ(again->report.bytes_dropped, 0U);
+
+    LiveOptions live_options;
+    live_options.decode = options;
+    LiveVolume live{live_options};
+    for (const EncodedChunk& chunk : encoded->chunks())
+        EXPECT_TRUE(live.add(chunk.name.number, chunk.name.kind, chunk.bytes, {}));
+    EXPECT_TRUE(live.is_whole());
+    EXPECT_EQ(difference(live.finish().value(), *again), "");
 }
 
-// Super-resolution with every moment, TDWR, trimmed, one radial block after another, few radials.
-INSTANTIATE_TEST_SUITE_P(Volumes, EncodeReal,
-                         ::testing::Values("KDMX20250101_225441_V06", "KTLX20170101_030027_V06",
-                                           "Level2_TSTL_20220213_2357.ar2v",
-                                           "KTLX20140101_000624.trimmed.ar2v",
-                                           "KIWX20160429_194300_V06.gz"),
-                         [](const auto& test) { return std::to_string(test.index); });
+// Message 31: super-resolution with every moment, TDWR, trimmed, few radials, recombined.
+// Message 1: of 1991, 1999, damaged, four volumes in a file, 1 m/s, gates that vary in a sweep.
+INSTANTIATE_TEST_SUITE_P(
+    Volumes, EncodeReal,
+    ::testing::Values(
+        "volumes/KDMX20250101_225441_V06", "volumes/KTLX20170101_030027_V06",
+        "volumes/Level2_TSTL_20220213_2357.ar2v", "volumes/KTLX20140101_000624.trimmed.ar2v",
+        "volumes/KIWX20160429_194300_V06.gz", "volumes/KCCX20130112_070503_V06.gz",
+        "volumes/KATX20160427_095248_V06.gz", "mosaic-northeast/KDOX20100911_012056_V04.gz",
+        "volumes/KTLX19910720_160529.gz", "volumes/KTLX19990503_235621.gz",
+        "volumes/KLVX20050106_163401.gz", "volumes/KBBX20060113_170337.gz",
+        "volumes/KCRP20170826_044114.trimmed.ar2v", "volumes/KOKX20080109_141449.gz",
+        "volumes/example_nexrad_archive_msg1.bz2", "sequence-kbgm/KBGM20050822_024414.gz"),
+    [](const auto& test) { return std::to_string(test.index); });
+
+TEST(Encode, ChunksAreNamedByTheVolumesStart) {
+    const auto encoded = encode(example_volume()).value();
+    const auto chunks = encoded.chunks();
+    ASSERT_EQ(chunks.size(), encoded.records.size());
+    Bytes joined;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        const std::string name = to_string(chunks[i].name);
+        const auto parsed = parse_chunk_name(name);
+        ASSERT_TRUE(parsed) << name;
+        EXPECT_EQ(parsed->number, static_cast<int>(i) + 1);
+        joined.insert(joined.end(), chunks[i].bytes.begin(), chunks[i].bytes.end());
+    }
+    EXPECT_EQ(chunks.front().name.kind, ChunkKind::start);
+    EXPECT_EQ(chunks.back().name.kind, ChunkKind::end);
+    EXPECT_EQ(joined, encoded.joined());
+}
 
 // The bodies of message 31 that follow the first metadata record of a file, without the headers.
 std::vector<Bytes> first_radials(std::span<const std::byte> file) {
