@@ -1,5 +1,6 @@
 #include "export/netcdf_builder.h"
 
+#include <array>
 #include <cstdlib>
 
 #include <netcdf.h>
@@ -16,7 +17,7 @@ std::mutex& library_mutex() {
 
 NetcdfBuilder::NetcdfBuilder() {
     // The name is never used: the file exists in memory only.
-    open_ = good(nc_create_mem("grid.nc", NC_NETCDF4 | NC_CLOBBER, 0, &id_), "begin");
+    open_ = good(nc_create_mem("memory.nc", NC_NETCDF4 | NC_CLOBBER, 0, &id_), "begin");
 }
 
 NetcdfBuilder::~NetcdfBuilder() {
@@ -58,9 +59,26 @@ void NetcdfBuilder::deflate(int variable, int level) {
     good(nc_def_var_deflate(id_, variable, shuffle, 1, level), "deflate");
 }
 
-void NetcdfBuilder::fill_value(int variable, float value) {
-    if (failure_ != NC_NOERR) return;
-    good(nc_def_var_fill(id_, variable, NC_FILL, &value), "fill value");
+void NetcdfBuilder::fill_value(int variable, double value) {
+    nc_type type = NC_NAT;
+    if (failure_ != NC_NOERR || !good(nc_inq_vartype(id_, variable, &type), "fill value")) return;
+    const auto define = [&](auto typed) {
+        good(nc_def_var_fill(id_, variable, NC_FILL, &typed), "fill value");
+    };
+    switch (type) {
+        case NC_BYTE:
+            return define(static_cast<signed char>(value));
+        case NC_SHORT:
+            return define(static_cast<short>(value));
+        case NC_INT:
+            return define(static_cast<int>(value));
+        case NC_FLOAT:
+            return define(static_cast<float>(value));
+        case NC_DOUBLE:
+            return define(value);
+        default:
+            good(NC_EBADTYPE, "fill value");
+    }
 }
 
 void NetcdfBuilder::text(int variable, const char* name, std::string_view value) {
@@ -88,18 +106,47 @@ void NetcdfBuilder::bytes(int variable, const char* name, std::span<const signed
 }
 
 void NetcdfBuilder::write(int variable, std::span<const double> values) {
-    if (failure_ != NC_NOERR) return;
+    if (failure_ != NC_NOERR || values.empty()) return;
     good(nc_put_var_double(id_, variable, values.data()), "write");
 }
 
 void NetcdfBuilder::write(int variable, std::span<const float> values) {
-    if (failure_ != NC_NOERR) return;
+    if (failure_ != NC_NOERR || values.empty()) return;
     good(nc_put_var_float(id_, variable, values.data()), "write");
 }
 
+void NetcdfBuilder::write(int variable, std::span<const int> values) {
+    if (failure_ != NC_NOERR || values.empty()) return;
+    good(nc_put_var_int(id_, variable, values.data()), "write");
+}
+
 void NetcdfBuilder::write(int variable, std::span<const signed char> values) {
-    if (failure_ != NC_NOERR) return;
+    if (failure_ != NC_NOERR || values.empty()) return;
     good(nc_put_var_schar(id_, variable, values.data()), "write");
+}
+
+void NetcdfBuilder::write(int variable, std::span<const char> characters) {
+    if (failure_ != NC_NOERR || characters.empty()) return;
+    good(nc_put_var_text(id_, variable, characters.data()), "write");
+}
+
+void NetcdfBuilder::write_rows(int variable, const Rows& rows, std::span<const int> values) {
+    if (failure_ != NC_NOERR || values.empty()) return;
+    const std::array<std::size_t, 2> start = {rows.first, 0};
+    const std::array<std::size_t, 2> count = {rows.count, rows.width};
+    good(values.size() == rows.count * rows.width ? NC_NOERR : NC_EINVAL, "write rows");
+    if (failure_ != NC_NOERR) return;
+    good(nc_put_vara_int(id_, variable, start.data(), count.data(), values.data()), "write rows");
+}
+
+void NetcdfBuilder::write_rows(int variable, const Rows& rows,
+                               std::span<const signed char> values) {
+    if (failure_ != NC_NOERR || values.empty()) return;
+    const std::array<std::size_t, 2> start = {rows.first, 0};
+    const std::array<std::size_t, 2> count = {rows.count, rows.width};
+    good(values.size() == rows.count * rows.width ? NC_NOERR : NC_EINVAL, "write rows");
+    if (failure_ != NC_NOERR) return;
+    good(nc_put_vara_schar(id_, variable, start.data(), count.data(), values.data()), "write rows");
 }
 
 Result<std::vector<std::byte>> NetcdfBuilder::finish() {

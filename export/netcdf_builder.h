@@ -29,21 +29,36 @@ class NetcdfBuilder {
     // Stands for "no variable" and "the file": its attributes are the global ones.
     static constexpr int file = -1;
 
+    // Of size 0: netCDF knows that as an unlimited dimension with nothing in it yet.
     int dimension(const char* name, std::size_t size);
     // Types are those of netcdf.h. No dimensions: a scalar.
     int variable(const char* name, int type, const std::vector<int>& dimensions);
     void chunks(int variable, const std::vector<std::size_t>& sizes);
     void deflate(int variable, int level);
-    void fill_value(int variable, float value);
+    // The value that stands for nothing, in the variable's own type.
+    void fill_value(int variable, double value);
     void text(int variable, const char* name, std::string_view value);
     void number(int variable, const char* name, double value);
     void number(int variable, const char* name, int value);
     void numbers(int variable, const char* name, std::span<const double> values);
     void bytes(int variable, const char* name, std::span<const signed char> values);
 
+    // A whole variable; netCDF turns the numbers into the variable's type. Nothing for no values.
     void write(int variable, std::span<const double> values);
     void write(int variable, std::span<const float> values);
+    void write(int variable, std::span<const int> values);
     void write(int variable, std::span<const signed char> values);
+    // Rows of equal length, one after the other, as a variable of characters.
+    void write(int variable, std::span<const char> characters);
+
+    // Some rows of a variable of two dimensions, each over its whole second dimension.
+    struct Rows {
+        std::size_t first = 0;
+        std::size_t count = 0;
+        std::size_t width = 0;
+    };
+    void write_rows(int variable, const Rows& rows, std::span<const int> values);
+    void write_rows(int variable, const Rows& rows, std::span<const signed char> values);
 
     // The bytes of the file; the builder is then closed.
     Result<std::vector<std::byte>> finish();
