@@ -6,6 +6,7 @@
 
 #include <netcdf.h>
 
+#include "export/moment_text.h"
 #include "export/netcdf_builder.h"
 #include "grid/beam_geometry.h"
 #include "grid/column_geometry.h"
@@ -23,32 +24,6 @@ constexpr const char* mapping_name = "azimuthal_equidistant";
 struct Dimensions {
     int time, z, y, x;
 };
-
-struct FieldNames {
-    const char* long_name;
-    const char* standard_name;  // null where CF has none
-};
-
-FieldNames names_of(level2::Moment moment) {
-    switch (moment) {
-        case level2::Moment::ref:
-            return {"reflectivity", "equivalent_reflectivity_factor"};
-        case level2::Moment::vel:
-            return {"radial velocity, away from the radar, as measured (aliased)",
-                    "radial_velocity_of_scatterers_away_from_instrument"};
-        case level2::Moment::sw:
-            return {"spectrum width of radial velocity", nullptr};
-        case level2::Moment::zdr:
-            return {"differential reflectivity", nullptr};
-        case level2::Moment::phi:
-            return {"differential phase, as measured (wrapped)", nullptr};
-        case level2::Moment::rho:
-            return {"correlation coefficient", nullptr};
-        case level2::Moment::cfp:
-            return {"clutter filter power removed", nullptr};
-    }
-    return {"", nullptr};
-}
 
 std::string joined(const std::vector<std::string>& parts, const char* separator) {
     return fmt::format("{}", fmt::join(parts, separator));
@@ -166,9 +141,9 @@ void write_field(NetcdfBuilder& file, const Grid& grid, const Dimensions& size, 
     const int field = define_field(file, name.c_str(), NC_FLOAT, size, grid.spec, deflate_level);
     constexpr float fill = NC_FILL_FLOAT;
     file.fill_value(field, fill);
-    const FieldNames names = names_of(grid.moment);
+    const MomentText names = text_of(grid.moment);
     file.text(field, "long_name", names.long_name);
-    if (names.standard_name != nullptr) file.text(field, "standard_name", names.standard_name);
+    if (names.cf_name != nullptr) file.text(field, "standard_name", names.cf_name);
     file.text(field, "units", level2::moment_units(grid.moment));
     file.text(field, "cell_methods", "area: point");
     file.text(field, "ancillary_variables", "status");

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <netcdf.h>
 
+#include "tests/export/netcdf_reader.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -40,39 +40,6 @@ Grid small_grid() {
     }
     return made;
 }
-
-// A reader that fails the test instead of returning codes.
-class Reader {
-  public:
-    explicit Reader(const std::filesystem::path& path) {
-        EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &id_), NC_NOERR);
-    }
-    ~Reader() { nc_close(id_); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-
-    std::vector<double> values(const char* name, std::size_t count) {
-        std::vector<double> read(count);
-        EXPECT_EQ(nc_get_var_double(id_, variable(name), read.data()), NC_NOERR) << name;
-        return read;
-    }
-    std::string text(const char* of, const char* name) {
-        const int owner = of == nullptr ? NC_GLOBAL : variable(of);
-        std::size_t length = 0;
-        EXPECT_EQ(nc_inq_attlen(id_, owner, name, &length), NC_NOERR) << name;
-        std::string read(length, '\0');
-        EXPECT_EQ(nc_get_att_text(id_, owner, name, read.data()), NC_NOERR) << name;
-        return read;
-    }
-
-  private:
-    int variable(const char* name) {
-        int found = -1;
-        EXPECT_EQ(nc_inq_varid(id_, name, &found), NC_NOERR) << name;
-        return found;
-    }
-    int id_ = 0;
-};
 
 class GridNetcdf : public ::testing::Test {
   protected:

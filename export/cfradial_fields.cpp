@@ -1,0 +1,167 @@
+// The moments of a CfRadial file: packed codes, and what each gate holds.
+#include <algorithm>
+#include <array>
+
+#include <netcdf.h>
+
+#include "export/cfradial_parts.h"
+#include "export/moment_text.h"
+
+namespace stormcellar::netcdf {
+namespace {
+
+using level2::GateStatus;
+using level2::Moment;
+using level2::SweepMoment;
+
+// No code is negative.
+constexpr int fill_code = -1;
+// The flags of CFP, codes 0 to 7, stand in its status variable as this plus the code.
+constexpr int first_filter_flag = 16;
+constexpr int filter_flags = 8;
+// A chunk holds half a sweep of half-degree radials, unless its rows are very long.
+constexpr std::size_t chunk_rows = 360;
+constexpr std::size_t chunk_codes = std::size_t{1} << 20;
+
+struct NamedStatus {
+    int value;
+    std::string meaning;
+};
+
+std::vector<NamedStatus> states_of(Moment moment) {
+    constexpr auto number = [](GateStatus status) { return static_cast<int>(status); };
+    if (moment != Moment::cfp) {
+        return {{number(GateStatus::valid), "valid"},
+                {number(GateStatus::below_threshold), "below_threshold"},
+                {number(GateStatus::range_folded), "range_folded"},
+                {number(GateStatus::no_data), "no_data"}};
+    }
+    std::vector<NamedStatus> states = {{number(GateStatus::valid), "valid"},
+                                       {number(GateStatus::no_data), "no_data"}};
+    for (int flag = 0; flag < filter_flags; ++flag)
+        states.push_back({first_filter_flag + flag, fmt::format("filter_flag_{}", flag)});
+    return states;
+}
+
+int status_of(const SweepMoment& moment, std::size_t radial, std::int32_t gate) {
+    const GateStatus status = moment.status(radial, gate);
+    const bool flag = moment.moment == Moment::cfp && status == GateStatus::no_data &&
+                      gate < moment.gate_counts[radial];
+    return flag ? first_filter_flag + moment.code(radial, gate) : static_cast<int>(status);
+}
+
+std::vector<std::size_t> chunks_of(const CfradialParts& parts, std::size_t gates) {
+    const std::size_t rows = std::clamp<std::size_t>(chunk_codes / gates, 1, chunk_rows);
+    return {std::min(rows, parts.layout.radials), gates};
+}
+
+int define_on_gates(const CfradialParts& parts, const CfradialField& field, const std::string& name,
+                    int type) {
+    const RangeAxis& axis = parts.layout.axes[field.axis];
+    const int variable =
+        parts.file.variable(name.c_str(), type, {parts.time, parts.ranges[field.axis]});
+    parts.file.chunks(variable, chunks_of(parts, axis.gates));
+    parts.file.deflate(variable, parts.deflate_level);
+    parts.file.text(variable, "coordinates", "elevation azimuth " + axis.name);
+    parts.file.text(variable, "moment", level2::moment_name(field.kind->moment));
+    return variable;
+}
+
+int define_codes(const CfradialParts& parts, const CfradialField& field) {
+    NetcdfBuilder& file = parts.file;
+    const SweepMoment& kind = *field.kind;
+    const int codes =
+        define_on_gates(parts, field, field.name, kind.word_size_bits == 8 ? NC_SHORT : NC_INT);
+    file.fill_value(codes, fill_code);
+    const MomentText text = text_of(kind.moment);
+    file.text(codes, "long_name", text.long_name);
+    if (text.cfradial_name != nullptr) file.text(codes, "standard_name", text.cfradial_name);
+    file.text(codes, "units", level2::moment_units(kind.moment));
+    // A scale of 0 says that the code is the value.
+    const double scale = kind.scale == 0 ? 1.0 : static_cast<double>(kind.scale);
+    const double offset = kind.scale == 0 ? 0.0 : static_cast<double>(kind.offset);
+    file.number(codes, "scale_factor", 1 / scale);
+    file.number(codes, "add_offset", offset == 0 ? 0.0 : -offset / scale);
+    file.text(codes, "ancillary_variables", field.name + "_status");
+    file.number(codes, "level2_scale", static_cast<double>(kind.scale));
+    file.number(codes, "level2_offset", static_cast<double>(kind.offset));
+    file.number(codes, "level2_word_size", kind.word_size_bits);
+    if (kind.moment == Moment::phi) {
+        file.text(codes, "field_folds", "true");
+        file.number(codes, "fold_limit_lower", 0.0);
+        file.number(codes, "fold_limit_upper", 360.0);
+    }
+    return codes;
+}
+
+int define_status(const CfradialParts& parts, const CfradialField& field) {
+    NetcdfBuilder& file = parts.file;
+    const int status = define_on_gates(parts, field, field.name + "_status", NC_BYTE);
+    file.text(status, "long_name", "what a gate of " + field.name + " holds");
+    file.text(status, "standard_name", "status_flag");
+    std::vector<signed char> values;
+    std::string meanings;
+    for (const NamedStatus& state : states_of(field.kind->moment)) {
+        values.push_back(static_cast<signed char>(state.value));
+        meanings += (meanings.empty() ? "" : " ") + state.meaning;
+    }
+    file.bytes(status, "flag_values", values);
+    file.text(status, "flag_meanings", meanings);
+    file.text(status, "is_discrete", "true");
+    file.text(status, "is_quality_field", "true");
+    file.text(status, "qualified_variables", field.name);
+    file.text(status, "comment",
+              field.kind->moment == Moment::cfp
+                  ? "no_data: the radial has no such gate; filter_flag_N: code N, which is a flag "
+                    "of the clutter filter and no power (ICD 2620002)"
+                  : "below_threshold: seen, code 0; range_folded: echo from beyond the unambiguous "
+                    "range, code 1; no_data: the radial has no such gate");
+    return status;
+}
+
+struct SweepGates {
+    std::vector<int> codes;
+    std::vector<signed char> states;
+};
+
+// One sweep's rows; a null moment gives rows without gates. The vectors are reused.
+void unpack(const SweepMoment* moment, std::size_t radials, std::size_t gates, SweepGates& to) {
+    to.codes.assign(radials * gates, fill_code);
+    to.states.assign(radials * gates, static_cast<signed char>(GateStatus::no_data));
+    if (moment == nullptr) return;
+    for (std::size_t radial = 0; radial < radials; ++radial) {
+        const std::size_t row = radial * gates;
+        const auto count = static_cast<std::int32_t>(moment->gate_counts[radial]);
+        for (std::int32_t gate = 0; gate < count; ++gate) {
+            const std::size_t at = row + static_cast<std::size_t>(gate);
+            const int status = status_of(*moment, radial, gate);
+            to.states[at] = static_cast<signed char>(status);
+            if (status == static_cast<int>(GateStatus::valid)) {
+                to.codes[at] = moment->code(radial, gate);
+            }
+        }
+    }
+}
+
+void write_field(const CfradialParts& parts, const CfradialField& field, SweepGates& gates) {
+    const int codes = define_codes(parts, field);
+    const int status = define_status(parts, field);
+    const std::size_t width = parts.layout.axes[field.axis].gates;
+    for (std::size_t sweep = 0; sweep < field.sweeps.size(); ++sweep) {
+        const NetcdfBuilder::Rows rows{parts.layout.first_radials[sweep],
+                                       parts.volume.sweeps[sweep].radials.size(), width};
+        unpack(field.sweeps[sweep], rows.count, width, gates);
+        parts.file.write_rows(codes, rows, std::span<const int>(gates.codes));
+        parts.file.write_rows(status, rows, std::span<const signed char>(gates.states));
+    }
+}
+
+}  // namespace
+
+void write_fields(const CfradialParts& parts) {
+    SweepGates gates;
+    for (const CfradialField& field : parts.layout.fields)
+        write_field(parts, field, gates);
+}
+
+}  // namespace stormcellar::netcdf

@@ -1,0 +1,16 @@
+// export/moment_text.h -- what a moment is called in netCDF files; internal to export.
+#pragma once
+
+#include "level2/volume.h"
+
+namespace stormcellar::netcdf {
+
+struct MomentText {
+    const char* long_name;
+    const char* cf_name;        // standard name of CF's own table; null where it has none
+    const char* cfradial_name;  // proposed by CfRadial 1.4, section 6.1; null where it has none
+};
+
+[[nodiscard]] MomentText text_of(level2::Moment moment);
+
+}  // namespace stormcellar::netcdf

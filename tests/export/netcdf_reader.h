@@ -1,0 +1,74 @@
+// tests/export/netcdf_reader.h -- reads a netCDF file; what is not there fails the test.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <netcdf.h>
+
+namespace stormcellar::netcdf {
+
+class Reader {
+  public:
+    explicit Reader(const std::filesystem::path& path) {
+        EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &id_), NC_NOERR);
+    }
+    ~Reader() { nc_close(id_); }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+
+    // As they are stored: scale_factor and add_offset are not applied.
+    std::vector<double> values(const char* name, std::size_t count) {
+        std::vector<double> read(count);
+        EXPECT_EQ(nc_get_var_double(id_, variable(name), read.data()), NC_NOERR) << name;
+        return read;
+    }
+    std::string letters(const char* name, std::size_t count) {
+        std::string read(count, '\0');
+        EXPECT_EQ(nc_get_var_text(id_, variable(name), read.data()), NC_NOERR) << name;
+        return read;
+    }
+    // Attributes; of the file where `of` is null.
+    std::string text(const char* of, const char* name) {
+        const int owner = of == nullptr ? NC_GLOBAL : variable(of);
+        std::size_t length = 0;
+        EXPECT_EQ(nc_inq_attlen(id_, owner, name, &length), NC_NOERR) << name;
+        std::string read(length, '\0');
+        EXPECT_EQ(nc_get_att_text(id_, owner, name, read.data()), NC_NOERR) << name;
+        return read;
+    }
+    double number(const char* of, const char* name) {
+        const int owner = of == nullptr ? NC_GLOBAL : variable(of);
+        double read = 0;
+        EXPECT_EQ(nc_get_att_double(id_, owner, name, &read), NC_NOERR) << name;
+        return read;
+    }
+    std::size_t length(const char* dimension) {
+        int found = -1;
+        std::size_t length = 0;
+        EXPECT_EQ(nc_inq_dimid(id_, dimension, &found), NC_NOERR) << dimension;
+        EXPECT_EQ(nc_inq_dimlen(id_, found, &length), NC_NOERR) << dimension;
+        return length;
+    }
+    bool has_variable(const char* name) {
+        int found = -1;
+        return nc_inq_varid(id_, name, &found) == NC_NOERR;
+    }
+    bool has_attribute(const char* of, const char* name) {
+        const int owner = of == nullptr ? NC_GLOBAL : variable(of);
+        return nc_inq_att(id_, owner, name, nullptr, nullptr) == NC_NOERR;
+    }
+
+  private:
+    int variable(const char* name) {
+        int found = -1;
+        EXPECT_EQ(nc_inq_varid(id_, name, &found), NC_NOERR) << name;
+        return found;
+    }
+    int id_ = 0;
+};
+
+}  // namespace stormcellar::netcdf
