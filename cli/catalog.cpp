@@ -2,12 +2,11 @@
 #include "catalog/catalog.h"
 
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "base/file_system.h"
+#include "cli/catalog_get.h"
 #include "cli/commands.h"
 #include "cli/query_options.h"
 
@@ -24,8 +23,7 @@ struct CatalogOptions {
     TimeRangeOptions times;
     bool rejected = false;
     bool json = false;
-    std::string output;
-    bool force = false;
+    GetOptions get;
 };
 
 nlohmann::json to_json(const CatalogEntry& entry) {
@@ -143,47 +141,11 @@ int run_one(const CatalogOptions& options, bool latest) {
     return exit_done;
 }
 
-// Copies one raw file; an existing file is left alone unless --force.
-Status copy_raw(const CatalogEntry& entry, const fs::path& to, bool force) {
-    if (!force && fs::exists(to)) {
-        return fail(ErrorCode::bad_argument, "{}: exists (--force replaces it)", to.native());
-    }
-    const auto bytes = read_file(entry.path);
-    if (!bytes) return pass_on(bytes);
-    if (bytes->size() != entry.size_bytes) {
-        return fail(ErrorCode::corrupt, "{}: has {} bytes and not the {} of the catalog",
-                    entry.path.native(), bytes->size(), entry.size_bytes);
-    }
-    return write_file_atomically(real_file_system(), to, *bytes);
-}
-
 int run_get(const CatalogOptions& options) {
     const auto entries = matching(options);
     if (!entries) return report_query_error(entries.error(), options);
     if (entries->empty()) return report_nothing_matched();
-    std::error_code error;
-    fs::create_directories(options.output, error);
-    if (error) {
-        return report_error(
-            {ErrorCode::io, fmt::format("{}: {}", options.output, error.message())});
-    }
-    int status = exit_done;
-    std::map<fs::path, fs::path> copies;  // and what each was copied from
-    for (const CatalogEntry& entry : *entries) {
-        const fs::path to = fs::path{options.output} / entry.path.filename();
-        const auto [copy, is_new] = copies.emplace(to, entry.path);
-        if (!is_new && copy->second == entry.path) continue;  // a file of several volumes
-        const Status copied =
-            is_new ? copy_raw(entry, to, options.force)
-                   : fail(ErrorCode::bad_argument, "{}: not copied, {} has the same name",
-                          entry.path.native(), copy->second.native());
-        if (!copied) {
-            status = report_error(copied.error());
-            continue;
-        }
-        fmt::print("{}\n", printable(to.native()));
-    }
-    return status;
+    return get_files(*entries, options.get);
 }
 
 CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string& name,
@@ -211,11 +173,15 @@ Command add_catalog(CLI::App& app) {
     CLI::App* oldest = add_query(*command, *options, "oldest", "The oldest volume");
     for (CLI::App* one : {latest, oldest})
         one->add_option("--station", options->station, station_help)->required();
-    CLI::App* get = add_query(*command, *options, "get", "Copy raw files out of the archive");
+    CLI::App* get =
+        add_query(*command, *options, "get",
+                  "Copy raw files out of the archive, or write their volumes as netCDF");
     get->add_option("--station", options->station, station_help)->required();
     add_time_range(*get, options->times);
-    get->add_option("-o,--output", options->output, "The directory to copy into")->required();
-    get->add_flag("--force", options->force, "Replace files that are there already");
+    get->add_option("-o,--output", options->get.output, "The directory to write into")->required();
+    get->add_flag("--force", options->get.force, "Replace files that are there already");
+    get->add_flag("--decode", options->get.decode,
+                  "Write each volume as CfRadial netCDF instead of copying its file");
     for (CLI::App* one : {stations, list, latest, oldest})
         one->add_flag("--json", options->json, "Print one JSON document");
 

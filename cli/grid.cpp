@@ -14,6 +14,7 @@
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "cli/commands.h"
+#include "cli/problem_notes.h"
 #include "export/grid_netcdf.h"
 #include "grid/column_geometry.h"
 #include "grid/gridder.h"
@@ -21,8 +22,6 @@
 
 namespace stormcellar::cli {
 namespace {
-
-constexpr std::size_t most_problems_noted = 20;
 
 struct GridOptions {
     std::vector<std::string> files;
@@ -188,19 +187,6 @@ Result<GridRequest> parse_request(const GridOptions& options) {
 bool holds(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
                        [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
-}
-
-std::vector<std::string> notes_of(const level2::DecodeReport& report) {
-    std::vector<std::string> notes;
-    for (const level2::Problem& problem : report.problems) {
-        if (notes.size() == most_problems_noted) {
-            notes.push_back(
-                fmt::format("and {} more problems", report.problems.size() - notes.size()));
-            break;
-        }
-        notes.push_back(problem.text());
-    }
-    return notes;
 }
 
 Result<level2::Decoded> read_and_decode(const std::filesystem::path& path, int threads,

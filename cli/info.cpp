@@ -1,4 +1,4 @@
-// stormcellar info FILE [--json]: decode a Level II file and describe it.
+// stormcellar info FILE [--json] [--to OUT.nc]: decode a Level II file and describe it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,8 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/file_system.h"
 #include "base/station_table.h"
 #include "cli/commands.h"
+#include "cli/volume_export.h"
 #include "level2/chunk_directory.h"
 #include "level2/describe.h"
 
@@ -19,6 +21,8 @@ struct InfoOptions {
     std::string file;
     bool json = false;
     int threads = 0;  // 0: as many as the machine has
+    std::string to;   // CfRadial file to write; empty: none
+    int volume = 0;   // of the file, from 1; 0: its only one
 };
 
 std::string_view vcp_source_text(level2::VcpSource source) {
@@ -142,22 +146,66 @@ std::uintmax_t size_of(const std::filesystem::path& path) {
     return sum;
 }
 
+// Before long work: whether the CfRadial file can appear where it shall.
+Status check_output(const InfoOptions& options) {
+    if (options.to.empty()) return {};
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options.file, options.to, ignored)) {
+        return fail(ErrorCode::bad_argument, "{}: is the volume itself", options.to);
+    }
+    return check_target(options.to);
+}
+
+// Which volume of the file is to be written, from 0.
+Result<std::size_t> chosen_volume(const InfoOptions& options, std::size_t count) {
+    if (options.volume == 0 && count > 1) {
+        return fail(ErrorCode::bad_argument,
+                    "{}: holds {} volumes: say which one with --volume 1 to {}", options.file,
+                    count, count);
+    }
+    const auto number = static_cast<std::size_t>(std::max(options.volume, 1));
+    if (number > count) {
+        return fail(ErrorCode::bad_argument, "--volume {}: {} holds {} volume{}", number,
+                    options.file, count, count == 1 ? "" : "s");
+    }
+    return number - 1;
+}
+
+Status write_chosen(const InfoOptions& options, level2::Decoded decoded) {
+    const level2::DecodeReport report = decoded.report;
+    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    const auto chosen = chosen_volume(options, volumes.size());
+    if (!chosen) return pass_on(chosen);
+    return export_volume(volumes, *chosen, report, options.file, options.to);
+}
+
 int run_info(const InfoOptions& options) {
+    if (const Status good = check_output(options); !good) return report_error(good.error());
     level2::DecodeOptions decode_options;
     decode_options.threads =
         options.threads > 0 ? options.threads
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const std::filesystem::path path{options.file};
-    const auto decoded = level2::decode_path(path, decode_options);
+    auto decoded = level2::decode_path(path, decode_options);
     if (!decoded) return report_error(decoded.error());
-    const auto size = size_of(path);
-    const level2::FileFacts file{path.filename().string(), size};
+    const level2::FileFacts file{path.filename().string(), size_of(path)};
+    auto json = options.json ? level2::describe(*decoded, file) : nlohmann::ordered_json{};
+    if (!options.to.empty()) {
+        const std::size_t count = decoded->report.further_volume_starts.size() + 1;
+        if (const auto chosen = chosen_volume(options, count); !chosen) {
+            return report_error(chosen.error());
+        }
+    }
+    if (!options.json) print_facts(*decoded, file);
+    if (!options.to.empty()) {
+        const Status written = write_chosen(options, std::move(*decoded));
+        if (!written) return report_error(written.error());
+        json["written"] = options.to;
+        if (!options.json) fmt::print("\n{}: written as CfRadial\n", printable(options.to));
+    }
     if (options.json) {
-        const auto json = level2::describe(*decoded, file);
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
         fmt::print("{}\n", json.dump(1, ' ', false, replace));
-    } else {
-        print_facts(*decoded, file);
     }
     return exit_done;
 }
@@ -171,6 +219,11 @@ Command add_info(CLI::App& app) {
                      "The file, or a directory of chunks; what it is, is found by content")
         ->required();
     info->add_flag("--json", options->json, "One JSON document");
+    CLI::Option* to = info->add_option("--to", options->to,
+                                       "Also write the volume to this file, as CfRadial netCDF");
+    info->add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
+        ->check(CLI::Range(1, 1000))
+        ->needs(to);
     info->add_option("--threads", options->threads, "Threads to decompress with")
         ->check(CLI::Range(1, 256));
     return {info, [options] { return run_info(*options); }};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file_system.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
@@ -88,6 +89,61 @@ TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
     EXPECT_EQ(table.status, 0);
     EXPECT_NE(table.out.find("partial"), std::string::npos);
     EXPECT_NE(table.out.find("1367 bytes dropped (at 1507840)"), std::string::npos) << table.out;
+}
+
+TEST_F(InfoTest, WritesTheVolumeAndStillPrintsItsFacts) {
+    STORMCELLAR_NEED_DATA();
+    const auto file = *testing::data_directory() / "volumes" / "KIWX20160429_194300_V06.gz";
+    const std::string to = directory_ / "x.nc";
+    const ProgramResult plain = info({file});
+    const ProgramResult ran = info({file, "--to", to});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    EXPECT_EQ(ran.out, plain.out + "\n" + to + ": written as CfRadial\n");
+    const auto first = *read_file(to);
+    auto json = nlohmann::json::parse(info({file, "--json", "--to", to}).out);
+    EXPECT_EQ(json.at("written"), to);
+    json.erase("written");
+    EXPECT_EQ(json, nlohmann::json::parse(info({file, "--json"}).out));
+    EXPECT_EQ(*read_file(to), first) << "replaced by the same bytes";
+}
+
+TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
+    STORMCELLAR_NEED_DATA();
+    const auto file = *testing::data_directory() / "volumes" / "KBBX20060113_170337.gz";
+    const std::string to = directory_ / "x.nc";
+    for (const bool json : {false, true}) {
+        std::vector<std::string> arguments = {file, "--to", to};
+        if (json) arguments.emplace_back("--json");
+        const ProgramResult asked = info(arguments);
+        EXPECT_EQ(asked.status, 2);
+        EXPECT_EQ(asked.out, "");
+        EXPECT_NE(asked.err.find("holds 4 volumes: say which one with --volume 1 to 4"),
+                  std::string::npos)
+            << asked.err;
+    }
+    EXPECT_EQ(info({file, "--to", to, "--volume", "5"}).status, 2);
+    EXPECT_EQ(info({file, "--to", to, "--volume", "0"}).status, 2);
+    EXPECT_EQ(info({file, "--volume", "2"}).status, 2) << "nothing is written without --to";
+    EXPECT_FALSE(std::filesystem::exists(to));
+    EXPECT_EQ(info({file, "--to", to, "--volume", "4"}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(to));
+}
+
+TEST_F(InfoTest, RefusesATargetBeforeItDecodes) {
+    const std::string file = write("zeros", std::string(100, '\0'));
+    const auto refused = [&](const std::string& to) {
+        const ProgramResult ran = info({file, "--to", to});
+        EXPECT_EQ(ran.out, "");
+        EXPECT_NE(ran.err.find(to), std::string::npos) << ran.err;
+        EXPECT_EQ(ran.err.find("Level II"), std::string::npos) << "it decoded first: " << ran.err;
+        return ran.status;
+    };
+    EXPECT_EQ(refused(file), 2) << "the volume itself";
+    EXPECT_EQ(refused(directory_.path()), 1);
+    EXPECT_EQ(refused(directory_ / "missing" / "x.nc"), 1);
+    EXPECT_EQ(refused("/dev/null"), 1);
+    EXPECT_EQ(std::filesystem::file_size(file), 100U);
 }
 
 TEST_F(InfoTest, TheTableHasALineForEachSweep) {

@@ -1,5 +1,6 @@
 // stormcellar catalog and stormcellar cache, run as a user runs them on two real volumes.
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,13 @@ class QueryTest : public ::testing::Test {
         for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
             ASSERT_TRUE(ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, true));
         }
+    }
+    void ingest(const std::filesystem::path& file) {
+        auto catalog = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+        const auto store =
+            *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", false);
+        pipeline::Ingestor ingestor(catalog, store, {});
+        ASSERT_TRUE(ingestor.ingest(file, true));
     }
     ProgramResult run(std::vector<std::string> arguments) {
         const bool catalog = arguments.at(0) == "catalog";
@@ -85,6 +93,66 @@ TEST_F(QueryTest, GetCopiesRawBytesAndLeavesWhatIsThere) {
     EXPECT_EQ(run(forced).status, 0);
 }
 
+TEST_F(QueryTest, GetDecodesEachVolumeToNetcdf) {
+    const std::string out = directory_ / "out";
+    const std::vector<std::string> get = {"catalog", "get", "--station", "KBGM",
+                                          "-o",      out,   "--decode"};
+    const auto ran = run(get);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.out, out + "/KBGM20050822_024414.nc\n" + out + "/KBGM20050822_025001.nc\n");
+    // The same file as info writes.
+    const std::string other = directory_ / "other.nc";
+    const auto raw = *testing::data_directory() / "sequence-kbgm" / "KBGM20050822_024414.gz";
+    ASSERT_EQ(testing::run_program(STORMCELLAR_PROGRAM, {"info", raw, "--to", other}).status, 0);
+    EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.nc"), *read_file(other));
+    std::filesystem::resize_file(out + "/KBGM20050822_024414.nc", 10);
+    const auto again = run(get);
+    EXPECT_EQ(again.status, 2);
+    EXPECT_NE(again.err.find("--force replaces it"), std::string::npos) << again.err;
+    EXPECT_EQ(std::filesystem::file_size(out + "/KBGM20050822_024414.nc"), 10U);
+    auto forced = get;
+    forced.emplace_back("--force");
+    EXPECT_EQ(run(forced).status, 0);
+    EXPECT_EQ(*read_file(out + "/KBGM20050822_024414.nc"), *read_file(other));
+}
+
+// A file of four volumes: each that the times ask for is a file of its own.
+TEST_F(QueryTest, GetDecodesTheVolumesOfAFileThatWereAskedFor) {
+    ingest(*testing::data_directory() / "volumes" / "KBBX20060113_170337.gz");
+    const json entries = json::parse(run({"catalog", "list", "--station", "KBBX", "--json"}).out);
+    ASSERT_EQ(entries.size(), 4U);
+    const auto names = [&](const std::vector<std::string>& times) {
+        const auto out = directory_ / ("out" + std::to_string(times.size()));
+        std::vector<std::string> get = {"catalog", "get",        "--station", "KBBX",
+                                        "-o",      out.string(), "--decode"};
+        get.insert(get.end(), times.begin(), times.end());
+        EXPECT_EQ(run(get).status, 0);
+        std::set<std::string> found;
+        for (const auto& entry : std::filesystem::directory_iterator(out))
+            found.insert(entry.path().filename());
+        return found;
+    };
+    const std::string name = "KBBX20060113_170337_volume";
+    EXPECT_EQ(names({}), (std::set{name + "1.nc", name + "2.nc", name + "3.nc", name + "4.nc"}));
+    EXPECT_EQ(names({"--from", entries[1]["start_time"], "--to", entries[2]["start_time"]}),
+              (std::set{name + "2.nc", name + "3.nc"}));
+}
+
+// What cannot be decoded any more is named, and the others are written.
+TEST_F(QueryTest, GetDecodesWhatItCanAndNamesTheRest) {
+    const auto copy = directory_ / "KBGM20050822_025549.gz";
+    std::filesystem::copy_file(
+        *testing::data_directory() / "sequence-kbgm" / "KBGM20050822_025549.gz", copy);
+    ingest(copy);
+    const auto size = std::filesystem::file_size(copy);
+    std::ofstream(copy) << std::string(size, 'x');
+    const std::string out = directory_ / "out";
+    const auto ran = run({"catalog", "get", "--station", "KBGM", "-o", out, "--decode"});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find(copy.string()), std::string::npos) << ran.err;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 2);
+}
+
 TEST_F(QueryTest, CacheIsListedAndADamagedGridIsNamed) {
     const json grids = json::parse(run({"cache", "list", "--json"}).out);
     ASSERT_EQ(grids.size(), 2U);
@@ -102,14 +170,10 @@ TEST_F(QueryTest, CacheIsListedAndADamagedGridIsNamed) {
 // Two directories of the archive may hold files of one name.
 TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     const std::filesystem::path kbgm = *testing::data_directory() / "sequence-kbgm";
-    auto catalog = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-    const auto store =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", false);
-    pipeline::Ingestor ingestor(catalog, store, {});
     std::filesystem::create_directory(directory_ / "other");
     const auto copy = directory_ / "other/KBGM20050822_024414.gz";
     std::filesystem::copy_file(kbgm / "KBGM20050822_025549.gz", copy);
-    ASSERT_TRUE(ingestor.ingest(copy, true));
+    ingest(copy);
     const std::string out = directory_ / "out";
     const auto ran = run({"catalog", "get", "--station", "KBGM", "-o", out, "--force"});
     EXPECT_EQ(ran.status, 2);

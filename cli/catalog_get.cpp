@@ -1,0 +1,145 @@
+#include "cli/catalog_get.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <thread>
+
+#include "base/file_system.h"
+#include "cli/commands.h"
+#include "cli/volume_export.h"
+#include "level2/decode.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::CatalogEntry;
+
+// A file of the archive, and the start times of those of its volumes that matched.
+struct MatchedFile {
+    CatalogEntry entry;
+    std::vector<std::optional<UtcTime>> starts;
+};
+
+std::vector<MatchedFile> files_of(const std::vector<CatalogEntry>& entries) {
+    std::vector<MatchedFile> files;
+    std::map<fs::path, std::size_t> places;
+    for (const CatalogEntry& entry : entries) {
+        const auto [place, is_new] = places.emplace(entry.path, files.size());
+        if (is_new) files.push_back({entry, {}});
+        files[place->second].starts.push_back(entry.volume.start_time);
+    }
+    return files;
+}
+
+// What a run has written, so that it never puts one file in the place of another.
+class Targets {
+  public:
+    explicit Targets(const GetOptions& options) : options_(options) {}
+
+    // The path of this name in the output directory, when it may be written.
+    Result<fs::path> claim(const std::string& name, const fs::path& source) {
+        fs::path to = fs::path{options_.output} / name;
+        const auto [other, is_new] = taken_.emplace(to, source);
+        if (!is_new) {
+            return fail(ErrorCode::bad_argument, "{}: not {}, {} has the same name",
+                        source.native(), options_.decode ? "written" : "copied",
+                        other->second.native());
+        }
+        if (!options_.force && fs::exists(to)) {
+            return fail(ErrorCode::bad_argument, "{}: exists (--force replaces it)", to.native());
+        }
+        return to;
+    }
+
+  private:
+    const GetOptions& options_;
+    std::map<fs::path, fs::path> taken_;  // and the source of each
+};
+
+Result<std::vector<std::byte>> read_raw(const CatalogEntry& entry) {
+    auto bytes = read_file(entry.path);
+    if (bytes && bytes->size() != entry.size_bytes) {
+        return fail(ErrorCode::corrupt, "{}: has {} bytes and not the {} of the catalog",
+                    entry.path.native(), bytes->size(), entry.size_bytes);
+    }
+    return bytes;
+}
+
+Status copy_raw(const MatchedFile& file, Targets& targets) {
+    const auto to = targets.claim(file.entry.path.filename().string(), file.entry.path);
+    if (!to) return pass_on(to);
+    const auto bytes = read_raw(file.entry);
+    if (!bytes) return pass_on(bytes);
+    if (auto written = write_file_atomically(real_file_system(), *to, *bytes); !written) {
+        return written;
+    }
+    fmt::print("{}\n", printable(to->native()));
+    return {};
+}
+
+// "KTLX19990503_235621" of "KTLX19990503_235621.gz".
+std::string name_without_compression(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    const bool compressed = extension == ".gz" || extension == ".bz2" || extension == ".Z";
+    return (compressed ? path.stem() : path.filename()).string();
+}
+
+Result<level2::Decoded> decode_raw(const CatalogEntry& entry) {
+    const auto bytes = read_raw(entry);
+    if (!bytes) return pass_on(bytes);
+    level2::DecodeOptions options;
+    options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    options.fallback_station = entry.station;
+    auto decoded = level2::decode(*bytes, options);
+    if (!decoded) {
+        return fail(decoded.error().code, "{}: {}", entry.path.native(), decoded.error().message);
+    }
+    return decoded;
+}
+
+Status write_decoded(const MatchedFile& file, Targets& targets) {
+    auto decoded = decode_raw(file.entry);
+    if (!decoded) return pass_on(decoded);
+    const level2::DecodeReport report = decoded->report;
+    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
+    const std::string name = name_without_compression(file.entry.path);
+    const bool alone = volumes.size() == 1;
+    bool any = false;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const bool matched = std::find(file.starts.begin(), file.starts.end(),
+                                       volumes[i].start_time()) != file.starts.end();
+        if (!alone && !matched) continue;
+        any = true;
+        const auto to = targets.claim(
+            alone ? name + ".nc" : fmt::format("{}_volume{}.nc", name, i + 1), file.entry.path);
+        if (!to) return pass_on(to);
+        if (auto done = export_volume(volumes, i, report, file.entry.path, *to); !done) return done;
+        fmt::print("{}\n", printable(to->native()));
+    }
+    if (any) return {};
+    return fail(ErrorCode::corrupt, "{}: holds other volumes than the catalog says",
+                file.entry.path.native());
+}
+
+}  // namespace
+
+int get_files(const std::vector<CatalogEntry>& entries, const GetOptions& options) {
+    std::error_code error;
+    fs::create_directories(options.output, error);
+    if (error) {
+        return report_error(
+            {ErrorCode::io, fmt::format("{}: {}", options.output, error.message())});
+    }
+    Targets targets(options);
+    int status = exit_done;
+    for (const MatchedFile& file : files_of(entries)) {
+        const Status done = options.decode ? write_decoded(file, targets) : copy_raw(file, targets);
+        if (!done) status = report_error(done.error());
+    }
+    return status;
+}
+
+}  // namespace stormcellar::cli

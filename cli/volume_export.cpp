@@ -1,0 +1,28 @@
+#include "cli/volume_export.h"
+
+#include <fmt/format.h>
+
+#include "base/file_system.h"
+#include "cli/problem_notes.h"
+#include "export/cfradial.h"
+
+namespace stormcellar::cli {
+
+Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
+                     const level2::DecodeReport& report, const std::filesystem::path& source,
+                     const std::filesystem::path& to) {
+    const level2::Volume& volume = volumes[number];
+    netcdf::VolumeWriteOptions options;
+    options.source_file = source.filename().string();
+    options.notes = notes_of(report);
+    options.complete = report.complete;
+    if (volumes.size() > 1) {
+        options.complete = level2::has_ended(volume);
+        options.notes.insert(options.notes.begin(),
+                             fmt::format("the file holds {} volumes; this is number {}",
+                                         volumes.size(), number + 1));
+    }
+    return netcdf::write_volume(real_file_system(), to, volume, options);
+}
+
+}  // namespace stormcellar::cli
