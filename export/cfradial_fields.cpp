@@ -19,9 +19,11 @@ constexpr int fill_code = -1;
 // The flags of CFP, codes 0 to 7, stand in its status variable as this plus the code.
 constexpr int first_filter_flag = 16;
 constexpr int filter_flags = 8;
-// A chunk holds half a sweep of half-degree radials, unless its rows are very long.
+// A chunk holds at most half a sweep of half-degree radials. Sweeps and chunks do not end together,
+// so the last two chunks are kept at hand: an int takes four bytes.
 constexpr std::size_t chunk_rows = 360;
-constexpr std::size_t chunk_codes = std::size_t{1} << 20;
+constexpr std::size_t chunk_codes = std::size_t{1} << 18;
+constexpr std::size_t chunk_cache_bytes = 2 * 4 * chunk_codes;
 
 struct NamedStatus {
     int value;
@@ -61,6 +63,7 @@ int define_on_gates(const CfradialParts& parts, const CfradialField& field, cons
     const int variable =
         parts.file.variable(name.c_str(), type, {parts.time, parts.ranges[field.axis]});
     parts.file.chunks(variable, chunks_of(parts, axis.gates));
+    parts.file.chunk_cache(variable, chunk_cache_bytes);
     parts.file.deflate(variable, parts.deflate_level);
     parts.file.text(variable, "coordinates", "elevation azimuth " + axis.name);
     parts.file.text(variable, "moment", level2::moment_name(field.kind->moment));

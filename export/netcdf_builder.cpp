@@ -53,6 +53,13 @@ void NetcdfBuilder::chunks(int variable, const std::vector<std::size_t>& sizes) 
     good(nc_def_var_chunking(id_, variable, NC_CHUNKED, sizes.data()), "chunks");
 }
 
+void NetcdfBuilder::chunk_cache(int variable, std::size_t bytes) {
+    if (failure_ != NC_NOERR) return;
+    constexpr std::size_t slots = 101;       // of the hash table
+    constexpr float written_go_first = 1.0;  // a chunk that is full is not needed again
+    good(nc_set_var_chunk_cache(id_, variable, bytes, slots, written_go_first), "chunk cache");
+}
+
 void NetcdfBuilder::deflate(int variable, int level) {
     if (failure_ != NC_NOERR || level == 0) return;
     constexpr int shuffle = 1;

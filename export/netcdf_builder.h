@@ -34,6 +34,8 @@ class NetcdfBuilder {
     // Types are those of netcdf.h. No dimensions: a scalar.
     int variable(const char* name, int type, const std::vector<int>& dimensions);
     void chunks(int variable, const std::vector<std::size_t>& sizes);
+    // How much of a chunked variable is kept unpacked until the end; netCDF keeps 16 MiB or more.
+    void chunk_cache(int variable, std::size_t bytes);
     void deflate(int variable, int level);
     // The value that stands for nothing, in the variable's own type.
     void fill_value(int variable, double value);
