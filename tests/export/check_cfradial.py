@@ -7,6 +7,7 @@ CRC of the codes, which are put together again from values and states.
 """
 import datetime
 import json
+import pathlib
 import re
 import subprocess
 import sys
@@ -195,6 +196,19 @@ def check_file(data, golden):
         same(data[name].coordinates, "elevation azimuth " + data[name].dimensions[1], name)
 
 
+def check_documented(data):
+    """Every variable, dimension and attribute of the file stands in docs/export.md."""
+    page = pathlib.Path(__file__).parents[2] / "docs" / "export.md"
+    prose = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    known = set(re.findall(r"`([^`]+)`", prose))
+    found = set(data.variables) | set(data.dimensions) | set(data.ncattrs())
+    for name in found:
+        plain = re.sub(r"_\d+(?=$|_status$)", "", name)
+        if plain.removesuffix("_status") in UNITS:
+            plain = plain.removesuffix("_status")
+        assert plain in known, f"{name} is not in {page}"
+
+
 def check_xarray(path, sweeps):
     with xarray.open_dataset(path) as dataset:
         same(dataset.sizes["sweep"], len(sweeps), "sweeps in xarray")
@@ -231,6 +245,7 @@ def main():
         for path in paths:
             with netCDF4.Dataset(path) as data:
                 check_file(data, golden)
+                check_documented(data)
                 count = len(data.dimensions["sweep"])
                 sweeps, rest = rest[:count], rest[count:]
                 same(len(data.dimensions["time"]), sum(s["n_radials"] for s in sweeps), "radials")
