@@ -18,6 +18,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # False positives of gcc 12 in optimised standard library code.
   add_compile_options(-Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow
     -Wno-array-bounds -Wno-dangling-pointer)
+else()
+  # The fuzzers are built with clang; its warnings are no reason not to fuzz.
+  add_compile_options(-Wno-error)
 endif()
 
 if(STORMCELLAR_SANITIZE)

@@ -133,10 +133,16 @@ Bytes message_31_with_block(std::span<const std::byte> block) {
     return with_length(radial_header({}, 1).u32(36).raw(block).bytes);
 }
 
+namespace {
+
+// In units of 180/32768 degree; negative ones wrap round.
+unsigned angle(float deg) {
+    return static_cast<unsigned>(static_cast<int>(deg / 180.0F * 32768.0F)) & 0xFFFFU;
+}
+
+}  // namespace
+
 Bytes message_1(const Ray& ray) {
-    const auto angle = [](float deg) {
-        return static_cast<unsigned>(deg / 180.0F * 32768.0F) & 0xFFFFU;
-    };
     Writer body;
     body.u32(ray.ms).u16(day).u16(4660).u16(angle(ray.azimuth_deg)).u16(ray.azimuth_number);
     body.u16(ray.status).u16(angle(ray.elevation_deg)).u16(ray.elevation_number);
@@ -153,7 +159,7 @@ Bytes vcp_frame(unsigned pattern, std::span<const float> elevations_deg) {
     body.u16(0).u16(2).u16(pattern).u16(static_cast<unsigned>(elevations_deg.size()));
     body.u8(1).u8(2).u8(4).u8(2).u32(0).u16(3).u16(0x1003).u16(0);
     for (const float elevation_deg : elevations_deg) {
-        body.u16(static_cast<unsigned>(elevation_deg / 180.0F * 32768.0F) & 0xFFFFU);
+        body.u16(angle(elevation_deg));
         body.u8(2).u8(1).u8(11).u8(3).u16(28).u16(0xFFFE);
         for (unsigned threshold = 16; threshold < 22; ++threshold)
             body.u16(threshold);

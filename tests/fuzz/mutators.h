@@ -1,0 +1,28 @@
+// tests/fuzz/mutators.h -- changes to Level II bytes that reach behind the checks.
+//
+// Bytes changed at random almost never get past bzip2's checksums or a message's header. These
+// change records and messages as such, and pack again what they unpacked.
+// Thread contract: functions are pure but for the `Random` and the `MutateBytes` they are given.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <span>
+
+#include "tests/level2/wire.h"
+
+namespace stormcellar::fuzz {
+
+using level2::wire::Bytes;
+using Random = std::minstd_rand;
+// Changes any bytes in any way; the result is at most `most` bytes long.
+using MutateBytes = std::function<Bytes(Bytes bytes, std::size_t most)>;
+
+// Results are at most `most` bytes long, which is more than the bytes given.
+[[nodiscard]] Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
+                                     const MutateBytes& mutate);
+[[nodiscard]] Bytes mutate_messages(const Bytes& stream, std::size_t most, Random& random,
+                                    const MutateBytes& mutate);
+
+}  // namespace stormcellar::fuzz

@@ -1,0 +1,31 @@
+// tests/fuzz/properties.h -- what must hold for any bytes whatever.
+//
+// Each function throws a PropertyError that says what does not hold. Crashes, reads beyond the end
+// and undefined behaviour are the sanitizers' to find, hangs and memory the fuzzer's.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+
+namespace stormcellar::fuzz {
+
+class PropertyError : public std::logic_error {
+  public:
+    using std::logic_error::logic_error;
+};
+
+// A whole file, in any container. One thread and two give the same volume, report or error; the
+// volume is well formed; it can be described and split, and where it can be written it comes back
+// to the bit.
+void check_container(std::span<const std::byte> file);
+
+// A message stream, without the 24-byte header. Read as it is and packed into an LDM record it
+// gives the same; good radials before it are kept to the bit.
+void check_messages(std::span<const std::byte> stream);
+
+// A .Z file: expands as slow_expand() does. The same bytes taken as plain text come back from a
+// compressor.
+void check_compress(std::span<const std::byte> file);
+
+}  // namespace stormcellar::fuzz

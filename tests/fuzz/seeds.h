@@ -1,0 +1,20 @@
+// tests/fuzz/seeds.h -- small files made by hand, from which the fuzzers start. Never real data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/level2/wire.h"
+
+namespace stormcellar::fuzz {
+
+struct Seed {
+    std::string name;
+    level2::wire::Bytes bytes;
+};
+
+[[nodiscard]] std::vector<Seed> container_seeds();
+[[nodiscard]] std::vector<Seed> messages_seeds();
+[[nodiscard]] std::vector<Seed> compress_seeds();
+
+}  // namespace stormcellar::fuzz
