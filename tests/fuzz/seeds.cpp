@@ -69,7 +69,8 @@ std::vector<Seed> messages_seeds() {
 std::vector<Seed> container_seeds() {
     const Bytes volume = ldm_volume();
     const Bytes stream = wire::join({wire::archive_header(), wire::radial_messages(1, 3, 20)});
-    const Bytes legacy = wire::join({wire::archive_header("ARCHIVE2.031", ""), legacy_radials(3)});
+    const Bytes legacy =
+        wire::join({wire::archive_header("ARCHIVE2.031", std::string(4, '\0')), legacy_radials(3)});
     Bytes cut = volume;
     cut.resize(volume.size() - 40);
     Bytes flipped = volume;

@@ -1,0 +1,41 @@
+// tests/hard_cases/container_mutants.h -- damage to LDM records and to the gzip around a file.
+#pragma once
+
+#include <random>
+
+#include "tests/hard_cases/mutant.h"
+#include "tests/hard_cases/unpacked_volume.h"
+
+namespace stormcellar::level2 {
+
+// Mutant number 0, 1, 2 ... of a volume in LDM records: kinds in turn, the rest by the number.
+// The same number gives the same mutant on every machine.
+class ContainerMutants {
+  public:
+    explicit ContainerMutants(const UnpackedVolume& volume) : volume_(volume) {}
+    [[nodiscard]] Mutant make(std::uint64_t number) const;
+
+  private:
+    using Random = std::mt19937_64;
+    [[nodiscard]] Mutant control_word(Random& random) const;
+    [[nodiscard]] Mutant rearranged(Random& random) const;
+    [[nodiscard]] Mutant cut(Random& random) const;
+    [[nodiscard]] Mutant flipped(Random& random) const;
+    [[nodiscard]] Mutant resized(Random& random) const;
+    [[nodiscard]] Mutant overwritten(Random& random) const;
+    [[nodiscard]] Mutant gzip(Random& random) const;
+
+    // Of these records in this order; the radials of `soft` may fall.
+    [[nodiscard]] std::vector<ExpectedRadial> expect(const std::vector<std::size_t>& order,
+                                                     std::optional<std::size_t> soft) const;
+    [[nodiscard]] std::vector<std::size_t> all_records() const;
+    [[nodiscard]] Mutant with_record(std::string kind, std::size_t record,
+                                     const wire::Bytes& bytes) const;
+
+    const UnpackedVolume& volume_;
+};
+
+// Bits flipped in, or bytes cut off, a gzip file that holds messages without records.
+[[nodiscard]] Mutant gzip_mutant(const UnpackedVolume& volume, std::uint64_t number);
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,315 @@
+#include "tests/hard_cases/message_mutants.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/byte_reader.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+using wire::Bytes;
+using Random = std::mt19937_64;
+
+std::size_t below(Random& random, std::size_t limit) {
+    return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
+}
+
+// Headers at wrong places can be plausible, and more so a frame behind each other.
+constexpr const char* chance_header = "a header that is only plausible is believed";
+
+struct Field {
+    const char* name;
+    std::size_t at;  // in the message, its 28 bytes of header included
+    std::size_t width;
+};
+
+constexpr std::array<Field, 6> header_fields = {{{"size", 12, 2},
+                                                 {"type", 15, 1},
+                                                 {"date", 18, 2},
+                                                 {"time", 20, 4},
+                                                 {"number of segments", 24, 2},
+                                                 {"segment", 26, 2}}};
+constexpr std::array<Field, 14> fields_31 = {{{"station", 28, 4},
+                                              {"time", 32, 4},
+                                              {"date", 36, 2},
+                                              {"azimuth number", 38, 2},
+                                              {"azimuth", 40, 4},
+                                              {"compression", 44, 1},
+                                              {"radial length", 46, 2},
+                                              {"spacing", 48, 1},
+                                              {"status", 49, 1},
+                                              {"elevation number", 50, 1},
+                                              {"elevation", 52, 4},
+                                              {"number of blocks", 58, 2},
+                                              {"first pointer", 60, 4},
+                                              {"fourth pointer", 72, 4}}};
+constexpr std::array<Field, 14> fields_1 = {{{"time", 28, 4},
+                                             {"date", 32, 2},
+                                             {"azimuth", 36, 2},
+                                             {"azimuth number", 38, 2},
+                                             {"status", 40, 2},
+                                             {"elevation", 42, 2},
+                                             {"elevation number", 44, 2},
+                                             {"first gate", 46, 2},
+                                             {"gate spacing", 50, 2},
+                                             {"surveillance gates", 54, 2},
+                                             {"Doppler gates", 56, 2},
+                                             {"REF pointer", 64, 2},
+                                             {"VEL pointer", 66, 2},
+                                             {"resolution", 70, 2}}};
+constexpr std::array<Field, 4> fields_5 = {
+    {{"size", 28, 2}, {"pattern", 32, 2}, {"number of cuts", 34, 2}, {"first elevation", 50, 2}}};
+// Behind the name of a block of message 31.
+constexpr std::array<Field, 8> fields_of_block = {{{"name", 0, 4},
+                                                   {"size", 4, 2},
+                                                   {"gates", 8, 2},
+                                                   {"first gate", 10, 2},
+                                                   {"gate spacing", 12, 2},
+                                                   {"word size", 19, 1},
+                                                   {"scale", 20, 4},
+                                                   {"offset", 24, 4}}};
+
+std::uint32_t read(const Bytes& bytes, const Field& field) {
+    ByteReader reader{bytes};
+    reader.skip(field.at);
+    return field.width == 1 ? reader.u8() : field.width == 2 ? reader.u16() : reader.u32();
+}
+
+void write(Bytes& bytes, const Field& field, std::uint32_t number) {
+    for (std::size_t i = 0; i < field.width; ++i)
+        bytes[field.at + i] = static_cast<std::byte>(number >> (8 * (field.width - 1 - i)));
+}
+
+// Nothing, little, the ends of the range, the neighbours; for 4 bytes also NaN, infinity, 1e30.
+std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
+    const std::uint32_t most = width == 1 ? 0xFFU : width == 2 ? 0xFFFFU : 0xFFFFFFFFU;
+    const std::array<std::uint32_t, 13> numbers = {
+        0,       1,       2,  most,       most - 1,   most / 2,  most / 2 + 1,
+        was + 1, was - 1, 31, 0x7FC00000, 0x7F800000, 0x7149F2CA};
+    return numbers[below(random, width == 4 ? 13 : 10)] & most;
+}
+
+std::span<const Field> own_fields(int type) {
+    if (type == 31) return fields_31;
+    if (type == 1) return fields_1;
+    if (type == 5 || type == 7) return fields_5;
+    return header_fields;
+}
+
+}  // namespace
+
+MessageMutants::Draft MessageMutants::draft() const {
+    Draft draft;
+    for (const StreamMessage& message : volume_.messages) {
+        const auto bytes = std::span{volume_.stream}.subspan(message.offset, message.length);
+        draft.parts.emplace_back(bytes.begin(), bytes.end());
+        draft.order.push_back(draft.order.size());
+        draft.fates.push_back(Fate::kept);
+    }
+    return draft;
+}
+
+// One in eight is no radial, where there are such.
+std::size_t MessageMutants::any_message(Random& random) const {
+    const bool other = random() % 8 == 0;
+    std::size_t message = 0;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        message = below(random, volume_.messages.size());
+        if (volume_.messages[message].radial.has_value() != other) break;
+    }
+    return message;
+}
+
+// Of another type a message may be quite in order, so that nothing shows.
+void MessageMutants::note_type(Draft& draft, std::size_t number, unsigned type) const {
+    constexpr std::size_t frame_bytes = 2432;
+    draft.mutant.shows = false;
+    const StreamMessage& message = volume_.messages[number];
+    if (!message.radial && (type == 1 || type == 31)) {
+        draft.mutant.known_defect = "another message that calls itself a radial is taken for one";
+    }
+    if (message.type == 31 && type != 31 && type != 29 && message.length < frame_bytes) {
+        draft.mutant.known_defect = "a frame's length is believed over the messages inside it";
+    }
+}
+
+void MessageMutants::field(Draft& draft, Random& random) const {
+    const std::size_t number = any_message(random);
+    Bytes& bytes = draft.parts[number];
+    const auto own = own_fields(volume_.messages[number].type);
+    const bool of_header = random() % 3 == 0;
+    const std::span<const Field> fields = of_header ? std::span<const Field>{header_fields} : own;
+    const Field& field = fields[below(random, fields.size())];
+    if (field.at + field.width > bytes.size()) return;
+    const std::uint32_t was = read(bytes, field);
+    const std::uint32_t is = extreme(was, field.width, random);
+    write(bytes, field, is);
+    draft.fates[number] = Fate::damaged;
+    if (of_header) draft.mutant.known_defect = chance_header;
+    if (field.at == header_fields[1].at) note_type(draft, number, is);
+    draft.mutant.kind = of_header ? "field of a message header" : "field of a message";
+    draft.mutant.what +=
+        fmt::format(" message {}: {} {:#x} becomes {:#x}", number, field.name, was, is);
+}
+
+void MessageMutants::block_field(Draft& draft, Random& random) const {
+    constexpr Field blocks{"", 58, 2};
+    const std::size_t number = any_message(random);
+    Bytes& bytes = draft.parts[number];
+    if (volume_.messages[number].type != 31) return field(draft, random);
+    const std::size_t block = below(random, read(bytes, blocks));
+    const std::size_t at = 28 + read(bytes, {"", 60 + 4 * block, 4});
+    Field field = fields_of_block[below(random, fields_of_block.size())];
+    field.at += at;
+    if (field.at + field.width > bytes.size()) return;
+    const std::uint32_t was = read(bytes, field);
+    const std::uint32_t is = extreme(was, field.width, random);
+    write(bytes, field, is);
+    draft.fates[number] = Fate::damaged;
+    draft.mutant.kind = "field of a data block";
+    draft.mutant.what += fmt::format(" message {}, block {}: {} {:#x} becomes {:#x}", number, block,
+                                     field.name, was, is);
+}
+
+void MessageMutants::rearranged(Draft& draft, Random& random) const {
+    constexpr std::array<const char*, 3> kinds = {"message removed", "message repeated",
+                                                  "messages swapped"};
+    const std::size_t kind = below(random, kinds.size());
+    const std::size_t a = any_message(random);
+    const std::size_t b = any_message(random);
+    std::vector<std::size_t>& order = draft.order;
+    if (kind == 0) order.erase(order.begin() + static_cast<std::ptrdiff_t>(a));
+    if (kind == 1) order.insert(order.begin() + static_cast<std::ptrdiff_t>(b), a);
+    if (kind == 2) std::swap(order[a], order[b]);
+    draft.mutant.kind = kinds[kind];
+    draft.mutant.what += fmt::format(" messages {} and {}", a, b);
+    draft.mutant.shows = false;
+}
+
+// A radial that has lost bytes never comes out: never half a radial.
+void MessageMutants::resized(Draft& draft, Random& random) const {
+    const std::size_t number = any_message(random);
+    Bytes& bytes = draft.parts[number];
+    const std::size_t at = below(random, bytes.size());
+    const std::size_t count = 1 + below(random, random() % 2 == 0 ? 8 : 3000);
+    const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const bool add = random() % 2 == 0;
+    if (add) {
+        Bytes noise(count);
+        for (std::byte& byte : noise)
+            byte = static_cast<std::byte>(random() % 256);
+        bytes.insert(place, noise.begin(), noise.end());
+        draft.fates[number] = Fate::damaged;
+    } else {
+        bytes.erase(place, place + static_cast<std::ptrdiff_t>(std::min(count, bytes.size() - at)));
+        const bool radial_follows =
+            number + 1 < volume_.messages.size() && volume_.messages[number + 1].radial.has_value();
+        draft.fates[number] = radial_follows ? Fate::may_fall : Fate::damaged;
+    }
+    draft.mutant.known_defect = chance_header;
+    draft.mutant.kind = add ? "bytes added to a message" : "bytes lost of a message";
+    draft.mutant.what += fmt::format(" message {}: {} at {}", number, count, at);
+}
+
+void MessageMutants::flipped(Draft& draft, Random& random) const {
+    const std::size_t number = any_message(random);
+    Bytes& bytes = draft.parts[number];
+    std::string where;
+    for (std::size_t flips = 1 + below(random, 8); flips > 0; --flips) {
+        const std::size_t most =
+            random() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 120) : bytes.size();
+        const std::size_t at = below(random, most);
+        bytes[at] ^= static_cast<std::byte>(1U << (random() % 8));
+        if (at == header_fields[1].at)
+            note_type(draft, number, std::to_integer<unsigned>(bytes[at]));
+        where += fmt::format(" {}", at);
+    }
+    draft.fates[number] = Fate::damaged;
+    if (draft.mutant.known_defect.empty()) draft.mutant.known_defect = chance_header;
+    draft.mutant.kind = "bits flipped in a message";
+    draft.mutant.what += fmt::format(" message {}, bytes{}", number, where);
+}
+
+// Noise, or zeros, from inside one message on, maybe over the next ones.
+void MessageMutants::overwritten(Draft& draft, Random& random) const {
+    const bool zeros = random() % 2 == 0;
+    const std::size_t first = any_message(random);
+    std::size_t number = first;
+    std::size_t at = below(random, draft.parts[number].size());
+    const std::size_t count = 1 + below(random, 12'000);
+    for (std::size_t left = count; left > 0 && number < draft.parts.size();) {
+        draft.parts[number][at] = zeros ? std::byte{0} : static_cast<std::byte>(random() % 256);
+        draft.fates[number] = Fate::damaged;
+        --left;
+        if (++at == draft.parts[number].size()) {
+            ++number;
+            at = 0;
+        }
+    }
+    // Zeros for a whole message of a frame's length are a frame that fills up.
+    draft.mutant.shows = !zeros;
+    draft.mutant.known_defect = chance_header;
+    draft.mutant.kind = zeros ? "zeros over messages" : "noise over messages";
+    draft.mutant.what += fmt::format(" {} bytes from message {} on", count, first);
+}
+
+void MessageMutants::cut(Draft& draft, Random& random) const {
+    const std::size_t number = any_message(random);
+    Bytes& bytes = draft.parts[number];
+    const std::array<std::size_t, 8> places = {
+        0, 1, 4, 27, 28, 29, bytes.size() / 2, bytes.size() - 1};
+    const std::size_t place = places[below(random, places.size())];
+    bytes.resize(std::min(bytes.size(), place));
+    draft.fates[number] = Fate::may_fall;
+    draft.order.resize(place == 0 ? number : number + 1);
+    draft.mutant.kind = "stream cut around a message's start";
+    draft.mutant.what += fmt::format(" message {}, {} bytes of it kept", number, place);
+}
+
+void MessageMutants::several(Draft& draft, Random& random) const {
+    field(draft, random);
+    flipped(draft, random);
+    block_field(draft, random);
+    draft.mutant.kind = "several messages";
+}
+
+Mutant MessageMutants::finish(Draft draft, std::uint64_t number) const {
+    Mutant& mutant = draft.mutant;
+    Bytes stream;
+    bool beside_damage = false;
+    for (const std::size_t message : draft.order) {
+        const Bytes& part = draft.parts[message];
+        stream.insert(stream.end(), part.begin(), part.end());
+        const auto radial = volume_.messages[message].radial;
+        Fate fate = draft.fates[message];
+        if (fate == Fate::kept && beside_damage) fate = Fate::beside;
+        beside_damage = draft.fates[message] != Fate::kept;
+        if (radial) mutant.expected.push_back({radial, fate});
+    }
+    const bool packed = number % 16 == 15;
+    const Bytes body = packed ? wire::ldm_record(stream, true, 1) : std::move(stream);
+    mutant.file = volume_.header;
+    mutant.file.insert(mutant.file.end(), body.begin(), body.end());
+    mutant.what = fmt::format("message mutant {}{}: {},{}", number, packed ? ", packed" : "",
+                              mutant.kind, mutant.what);
+    return mutant;
+}
+
+Mutant MessageMutants::make(std::uint64_t number) const {
+    using Change = void (MessageMutants::*)(Draft&, Random&) const;
+    constexpr std::array<Change, 11> changes = {
+        &MessageMutants::field,       &MessageMutants::block_field, &MessageMutants::resized,
+        &MessageMutants::cut,         &MessageMutants::field,       &MessageMutants::flipped,
+        &MessageMutants::overwritten, &MessageMutants::rearranged,  &MessageMutants::block_field,
+        &MessageMutants::resized,     &MessageMutants::several};
+    Random random(number);
+    Draft draft = this->draft();
+    (this->*changes[number % changes.size()])(draft, random);
+    return finish(std::move(draft), number);
+}
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,44 @@
+// tests/hard_cases/message_mutants.h -- damage to the message stream, behind every checksum.
+#pragma once
+
+#include <random>
+
+#include "tests/hard_cases/mutant.h"
+#include "tests/hard_cases/unpacked_volume.h"
+
+namespace stormcellar::level2 {
+
+// Mutant number 0, 1, 2 ... of a plain stream: kinds in turn, the rest by the number. Every 16th is
+// packed into one LDM record.
+class MessageMutants {
+  public:
+    explicit MessageMutants(const UnpackedVolume& volume) : volume_(volume) {}
+    [[nodiscard]] Mutant make(std::uint64_t number) const;
+
+  private:
+    using Random = std::mt19937_64;
+    // The stream in parts, one a message, and what is expected of each.
+    struct Draft {
+        Mutant mutant;
+        std::vector<wire::Bytes> parts;
+        std::vector<std::size_t> order;  // messages, by number, as they stand in the file
+        std::vector<Fate> fates;         // of the messages
+    };
+    void note_type(Draft& draft, std::size_t number, unsigned type) const;
+    void field(Draft& draft, Random& random) const;
+    void block_field(Draft& draft, Random& random) const;
+    void rearranged(Draft& draft, Random& random) const;
+    void resized(Draft& draft, Random& random) const;
+    void flipped(Draft& draft, Random& random) const;
+    void overwritten(Draft& draft, Random& random) const;
+    void cut(Draft& draft, Random& random) const;
+    void several(Draft& draft, Random& random) const;
+
+    [[nodiscard]] Draft draft() const;
+    [[nodiscard]] std::size_t any_message(Random& random) const;
+    [[nodiscard]] Mutant finish(Draft draft, std::uint64_t number) const;
+
+    const UnpackedVolume& volume_;
+};
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,176 @@
+// Real volumes, damaged in every way that mutant.h and its makers know, against their undamaged
+// selves. An ordinary run takes the start and end of each volume and some mutants of it;
+// STORMCELLAR_MUTANTS=N takes the whole volume, N mutants of its container and 10 N of its
+// messages.
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "base/checksum.h"
+#include "base/file_system.h"
+#include "tests/hard_cases/container_mutants.h"
+#include "tests/hard_cases/message_mutants.h"
+#include "tests/hard_cases/oracle.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+namespace fs = std::filesystem;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+constexpr double most_seconds = sanitized ? 30 : 5;
+constexpr long most_memory_kib = 1L << 20;  // the sanitizers' own memory does not count
+constexpr unsigned hang_s = 120;
+
+struct Size {
+    std::uint64_t container_mutants = 0;
+    std::uint64_t message_mutants = 0;
+    std::size_t record_bytes = 0;  // compressed
+    std::size_t stream_bytes = 0;
+};
+
+Size chosen_size() {
+    const char* chosen = std::getenv("STORMCELLAR_MUTANTS");
+    std::uint64_t mutants = 0;
+    if (chosen != nullptr) {
+        const std::string_view text = chosen;
+        std::from_chars(text.data(), text.data() + text.size(), mutants);
+    }
+    if (mutants == 0) return {8, 66, 100'000, 500'000};
+    return {mutants, 10 * mutants, SIZE_MAX, std::size_t{8} << 20};
+}
+
+// Volumes, a mosaic and the chunks of two volumes; of the chunks the folder stands for the volume.
+std::vector<std::string> names() {
+    const auto data = testing::data_directory();
+    if (!data) return {"no_real_volumes"};
+    std::vector<std::string> names = {"chunks/L2D_185", "chunks/KLOT_34"};
+    for (const char* folder : {"volumes", "mosaic-northeast"}) {
+        for (const auto& entry : fs::directory_iterator(*data / folder))
+            names.push_back(fmt::format("{}/{}", folder, entry.path().filename().string()));
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::vector<std::byte> bytes_of(const fs::path& path) {
+    if (!fs::is_directory(path)) return read_file(path).value();
+    std::set<fs::path> chunks;
+    for (const auto& chunk : fs::directory_iterator(path))
+        chunks.insert(chunk.path());
+    std::vector<std::byte> joined;
+    for (const auto& chunk : chunks) {
+        const auto bytes = read_file(chunk).value();
+        joined.insert(joined.end(), bytes.begin(), bytes.end());
+    }
+    return joined;
+}
+
+// What is being decoded, for the handler below: a crash or a hang has to say on what.
+char current[400];
+
+void say_current(int signal_number) {
+    std::signal(signal_number, SIG_DFL);
+    for (const char* text : {"\nwhile decoding ", static_cast<const char*>(current), "\n"})
+        (void)!write(STDERR_FILENO, text, std::char_traits<char>::length(text));
+    std::raise(signal_number);
+}
+
+long peak_memory_kib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+class MutationTest : public ::testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        for (const int signal_number : {SIGALRM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS})
+            std::signal(signal_number, say_current);
+        const auto file = bytes_of(*testing::data_directory() / GetParam());
+        const auto decoded = decode(file);
+        ASSERT_TRUE(decoded) << decoded.error().message;
+        const auto& corruption = decoded->report.corruption;
+        volume_ = unpack(file, corruption ? std::optional{corruption->offset} : std::nullopt);
+        if (!corruption) {
+            EXPECT_EQ(volume_.radials, decoded->volume.radial_count());
+        }
+    }
+    void TearDown() override { alarm(0); }
+
+    template <class Make>
+    void check(Oracle& oracle, std::uint64_t mutants, Make make) {
+        // Every volume has mutants of its own.
+        const std::string& name = GetParam();
+        const std::uint64_t first = crc32(std::as_bytes(std::span{name})) % 1000;
+        for (std::uint64_t number = first; number < first + mutants; ++number) {
+            const Mutant mutant = make(number);
+            snprintf(current, sizeof current, "%s, %s", GetParam().c_str(), mutant.what.c_str());
+            alarm(hang_s);
+            const std::string wrong = oracle.check(mutant);
+            EXPECT_EQ(wrong, "") << mutant.what;
+        }
+        fmt::print("{}: {} radials, slowest {:.3f} s, peak {} MiB\n{}", GetParam(),
+                   oracle.radials(), oracle.slowest().count(), peak_memory_kib() >> 10,
+                   table_of(oracle.figures()));
+        EXPECT_LT(oracle.slowest().count(), most_seconds);
+        if (!sanitized) {
+            EXPECT_LT(peak_memory_kib(), most_memory_kib);
+        }
+    }
+
+    UnpackedVolume volume_;
+    const Size size_ = chosen_size();
+};
+
+TEST_P(MutationTest, Containers) {
+    if (volume_.records.empty()) {
+        const UnpackedVolume part = short_stream(volume_, size_.stream_bytes);
+        Oracle oracle(part.plain_file());
+        ASSERT_EQ(oracle.radials(), part.radials);
+        check(oracle, size_.container_mutants,
+              [&](std::uint64_t number) { return gzip_mutant(part, number); });
+        return;
+    }
+    const UnpackedVolume part = short_records(volume_, size_.record_bytes);
+    const ContainerMutants mutants(part);
+    Oracle oracle(part.ldm_file());
+    ASSERT_EQ(oracle.radials(), part.radials);
+    check(oracle, size_.container_mutants,
+          [&](std::uint64_t number) { return mutants.make(number); });
+}
+
+TEST_P(MutationTest, Messages) {
+    const UnpackedVolume part = short_stream(volume_, size_.stream_bytes);
+    const MessageMutants mutants(part);
+    Oracle oracle(part.plain_file());
+    ASSERT_EQ(oracle.radials(), part.radials);
+    check(oracle, size_.message_mutants,
+          [&](std::uint64_t number) { return mutants.make(number); });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MutationTest, ::testing::ValuesIn(names()),
+                         [](const auto& parameter) {
+                             std::string name = parameter.param;
+                             for (char& c : name) {
+                                 if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+                             }
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace stormcellar::level2

@@ -1,0 +1,149 @@
+#include "tests/hard_cases/oracle.h"
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace stormcellar::level2 {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string key_of(const Problem& problem) {
+    return fmt::format("{} {} {}", problem.code, problem.offset.value_or(0), problem.message);
+}
+
+bool begins_sweep(const Radial& radial) {
+    const RadialStatus status = status_of(radial);
+    return status == RadialStatus::start_of_elevation || status == RadialStatus::start_of_volume ||
+           status == RadialStatus::start_of_last_elevation;
+}
+
+// Sweeps begin where the radials say so, and nowhere else.
+std::string wrong_sweep(const Decoded& decoded) {
+    const std::vector<Sweep>& sweeps = decoded.volume.sweeps;
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        for (std::size_t radial = 1; radial < sweeps[i].radials.size(); ++radial) {
+            if (begins_sweep(sweeps[i].radials[radial]))
+                return fmt::format("sweep {} goes on over a start of a sweep", i);
+        }
+        const bool said = i == 0 || begins_sweep(sweeps[i].radials.front()) ||
+                          sweeps[i].elevation_number != sweeps[i - 1].elevation_number ||
+                          sweeps[i].message_type != sweeps[i - 1].message_type ||
+                          !decoded.report.further_headers.empty();
+        if (!said) return fmt::format("sweep {} is made up", i);
+    }
+    return {};
+}
+
+}  // namespace
+
+Oracle::Oracle(std::span<const std::byte> file) {
+    const auto decoded = decode(file);
+    if (!decoded) throw std::runtime_error("the undamaged file: " + decoded.error().message);
+    radials_ = identities(decoded->volume);
+    for (const Problem& problem : decoded->report.problems)
+        own_problems_.insert(key_of(problem));
+}
+
+bool Oracle::names_something(const DecodeReport& report) const {
+    for (const Problem& problem : report.problems) {
+        // A volume that had no end before has none now; that is all a cut between records shows.
+        if (problem.severity != Severity::note &&
+            (problem.code == "no_end_of_volume" || !own_problems_.contains(key_of(problem)))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Walks both in the order of the file. Where one that is not surely kept is due, what has come out
+// decides whether it fell: the next expected one that equals it within the same damage.
+Oracle::Match Oracle::match(const Mutant& mutant, const std::vector<RadialIdentity>& found,
+                            KindFigures& figures) const {
+    Match match;
+    const std::vector<ExpectedRadial>& expected = mutant.expected;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const ExpectedRadial& due = expected[i];
+        if (at < found.size() && is(due.radial, found[at])) {
+            ++at;
+            ++figures.compared;
+            continue;
+        }
+        if (due.fate == Fate::kept) {
+            match.wrong = fmt::format("radial {} of the undamaged volume is {}", *due.radial,
+                                      at < found.size() ? "changed or missing" : "missing");
+            return match;
+        }
+        if (due.fate == Fate::damaged && at < found.size()) {
+            std::size_t next = i + 1;
+            while (next < expected.size() && !is(expected[next].radial, found[at]) &&
+                   expected[next].fate != Fate::kept)
+                ++next;
+            if (next == expected.size() || !is(expected[next].radial, found[at])) {
+                ++at;
+                ++figures.changed;
+                continue;
+            }
+        }
+        if (!due.radial) continue;
+        match.lost = true;
+        ++(due.fate == Fate::beside ? figures.beside : figures.fallen);
+    }
+    if (at < found.size() && !mutant.anything_after) {
+        match.wrong = fmt::format("{} radials that no one sent", found.size() - at);
+    }
+    return match;
+}
+
+std::string Oracle::judge(const Mutant& mutant, const Result<Decoded>& decoded,
+                          KindFigures& figures) const {
+    if (!decoded) {
+        ++figures.refused;
+        for (const ExpectedRadial& due : mutant.expected) {
+            if (due.fate == Fate::kept) return "refused: " + decoded.error().message;
+        }
+        const ErrorCode code = decoded.error().code;
+        const bool said = code == ErrorCode::empty || code == ErrorCode::truncated ||
+                          code == ErrorCode::corrupt || code == ErrorCode::not_level2;
+        return said ? "" : "refused as something else: " + decoded.error().message;
+    }
+    const Match match = this->match(mutant, identities(decoded->volume), figures);
+    if (!match.wrong.empty()) return match.wrong;
+    if (const std::string wrong = wrong_sweep(*decoded); !wrong.empty()) return wrong;
+    if (names_something(decoded->report)) return {};
+    if (mutant.always_named) return "the damage is not named";
+    const bool lost = match.lost || mutant.expected.size() < radials_.size();
+    if (lost && mutant.shows) return "radials are lost and no problem says so";
+    if (lost) ++figures.unnamed;
+    return {};
+}
+
+std::string Oracle::check(const Mutant& mutant) {
+    static const bool strict = std::getenv("STORMCELLAR_STRICT") != nullptr;
+    KindFigures& figures = figures_[mutant.kind];
+    ++figures.mutants;
+    const auto begin = Clock::now();
+    const auto decoded = decode(mutant.file);
+    slowest_ = std::max<std::chrono::duration<double>>(slowest_, Clock::now() - begin);
+    const std::string wrong = judge(mutant, decoded, figures);
+    if (wrong.empty() || mutant.known_defect.empty() || strict) return wrong;
+    ++figures.known;
+    return {};
+}
+
+std::string table_of(const std::map<std::string, KindFigures>& figures) {
+    std::string table =
+        fmt::format("{:<36} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "kind", "mutants",
+                    "refused", "compared", "fallen", "beside", "changed", "unnamed", "known");
+    for (const auto& [kind, f] : figures) {
+        table += fmt::format("{:<36} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", kind,
+                             f.mutants, f.refused, f.compared, f.fallen, f.beside, f.changed,
+                             f.unnamed, f.known);
+    }
+    return table;
+}
+
+}  // namespace stormcellar::level2

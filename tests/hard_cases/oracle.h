@@ -1,0 +1,67 @@
+// tests/hard_cases/oracle.h -- decodes mutants and compares with the undamaged volume.
+//
+// Claims, for every mutant: radials come out as their fates say, in the order of the file, and no
+// others; sweeps begin only where a radial says so; what is lost is named by a problem that the
+// undamaged volume has not, or the whole file is refused, but then nothing in it was to be kept.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "level2/decode.h"
+#include "tests/hard_cases/mutant.h"
+#include "tests/level2/radial_identity.h"
+
+namespace stormcellar::level2 {
+
+struct KindFigures {
+    std::uint64_t mutants = 0;
+    std::uint64_t refused = 0;   // an error instead of a volume
+    std::uint64_t compared = 0;  // radials found equal to the bit
+    std::uint64_t fallen = 0;   // radials in the damage, or guarded with it, that have not come out
+    std::uint64_t beside = 0;   // radials right behind the damage that have not come out
+    std::uint64_t changed = 0;  // radials whose own damage shows in them
+    std::uint64_t unnamed = 0;  // mutants that lost radials without a trace in their bytes
+    std::uint64_t known = 0;    // mutants that fail for a known defect
+};
+
+class Oracle {
+  public:
+    // The undamaged file, which must decode.
+    explicit Oracle(std::span<const std::byte> file);
+
+    [[nodiscard]] std::size_t radials() const { return radials_.size(); }
+    // What does not hold; empty when all does.
+    [[nodiscard]] std::string check(const Mutant& mutant);
+    [[nodiscard]] const std::map<std::string, KindFigures>& figures() const { return figures_; }
+    [[nodiscard]] std::chrono::duration<double> slowest() const { return slowest_; }
+
+  private:
+    struct Match {
+        std::string wrong;  // empty: all radials have come out as they should
+        bool lost = false;  // one that was expected has not come out
+    };
+    [[nodiscard]] bool is(std::optional<std::size_t> radial, RadialIdentity found) const {
+        return radial && radials_[*radial] == found;
+    }
+    [[nodiscard]] std::string judge(const Mutant& mutant, const Result<Decoded>& decoded,
+                                    KindFigures& figures) const;
+    [[nodiscard]] Match match(const Mutant& mutant, const std::vector<RadialIdentity>& found,
+                              KindFigures& figures) const;
+    [[nodiscard]] bool names_something(const DecodeReport& report) const;
+
+    std::vector<RadialIdentity> radials_;
+    std::set<std::string> own_problems_;  // of the undamaged volume
+    std::map<std::string, KindFigures> figures_;
+    std::chrono::duration<double> slowest_{0};
+};
+
+// One line a kind.
+[[nodiscard]] std::string table_of(const std::map<std::string, KindFigures>& figures);
+
+}  // namespace stormcellar::level2

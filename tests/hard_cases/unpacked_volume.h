@@ -1,0 +1,48 @@
+// tests/hard_cases/unpacked_volume.h -- a file taken apart into records and messages.
+//
+// Independent of level2's readers, so that a test can damage one part and knows which the others
+// are. Trusts its input: only for undamaged files (of a damaged one its intact start).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tests/level2/wire.h"
+
+namespace stormcellar::level2 {
+
+struct StreamMessage {
+    int type = 0;  // -1: a 24-byte volume header inside the stream
+    std::size_t offset = 0;
+    std::size_t length = 0;
+    std::optional<std::size_t> radial;  // its number among all radials
+
+    [[nodiscard]] std::size_t end() const { return offset + length; }
+};
+
+struct UnpackedVolume {
+    wire::Bytes header;                // the first 24 bytes; empty where there is none
+    std::vector<wire::Bytes> records;  // with their control words; empty where not LDM
+    std::vector<std::size_t> radials_of_record;
+    wire::Bytes stream;  // all messages
+    std::vector<StreamMessage> messages;
+    std::size_t radials = 0;
+
+    [[nodiscard]] wire::Bytes ldm_file() const;    // header and records, no gzip around them
+    [[nodiscard]] wire::Bytes plain_file() const;  // header and stream
+};
+
+// `stream_limit`: messages beyond so many bytes of the stream are left out.
+[[nodiscard]] UnpackedVolume unpack(std::span<const std::byte> file,
+                                    std::optional<std::uint64_t> stream_limit = std::nullopt);
+
+// Of a volume in records: the first ones and the last, with at most so many compressed bytes, but
+// never less than three records.
+[[nodiscard]] UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes);
+// The metadata without its fill frames, the first messages and the last few, as a plain stream.
+[[nodiscard]] UnpackedVolume short_stream(const UnpackedVolume& whole, std::size_t most_bytes);
+
+}  // namespace stormcellar::level2
