@@ -95,6 +95,18 @@ long peak_memory_kib() {
     return usage.ru_maxrss;
 }
 
+// Of all volumes, printed at the end.
+std::map<std::string, KindFigures> all_figures;
+
+class FiguresPrinter : public ::testing::Environment {
+  public:
+    void TearDown() override {
+        if (!all_figures.empty()) fmt::print("{}", table_of(all_figures));
+    }
+};
+const ::testing::Environment* const figures_printer =
+    ::testing::AddGlobalTestEnvironment(new FiguresPrinter);
+
 class MutationTest : public ::testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
@@ -124,9 +136,9 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
             const std::string wrong = oracle.check(mutant);
             EXPECT_EQ(wrong, "") << mutant.what;
         }
-        fmt::print("{}: {} radials, slowest {:.3f} s, peak {} MiB\n{}", GetParam(),
-                   oracle.radials(), oracle.slowest().count(), peak_memory_kib() >> 10,
-                   table_of(oracle.figures()));
+        fmt::print("{}: {} radials, {} mutants, slowest {:.3f} s, peak {} MiB\n", name,
+                   oracle.radials(), mutants, oracle.slowest().count(), peak_memory_kib() >> 10);
+        add(all_figures, oracle.figures());
         EXPECT_LT(oracle.slowest().count(), most_seconds);
         if (!sanitized) {
             EXPECT_LT(peak_memory_kib(), most_memory_kib);

@@ -110,9 +110,9 @@ std::string Oracle::judge(const Mutant& mutant, const Result<Decoded>& decoded,
                           code == ErrorCode::corrupt || code == ErrorCode::not_level2;
         return said ? "" : "refused as something else: " + decoded.error().message;
     }
-    const Match match = this->match(mutant, identities(decoded->volume), figures);
+    Match match = this->match(mutant, identities(decoded->volume), figures);
     if (!match.wrong.empty()) return match.wrong;
-    if (const std::string wrong = wrong_sweep(*decoded); !wrong.empty()) return wrong;
+    if (std::string wrong = wrong_sweep(*decoded); !wrong.empty()) return wrong;
     if (names_something(decoded->report)) return {};
     if (mutant.always_named) return "the damage is not named";
     const bool lost = match.lost || mutant.expected.size() < radials_.size();
@@ -128,22 +128,47 @@ std::string Oracle::check(const Mutant& mutant) {
     const auto begin = Clock::now();
     const auto decoded = decode(mutant.file);
     slowest_ = std::max<std::chrono::duration<double>>(slowest_, Clock::now() - begin);
-    const std::string wrong = judge(mutant, decoded, figures);
+    std::string wrong = judge(mutant, decoded, figures);
     if (wrong.empty() || mutant.known_defect.empty() || strict) return wrong;
     ++figures.known;
     return {};
+}
+
+namespace {
+
+void add(KindFigures& sum, const KindFigures& more) {
+    sum.mutants += more.mutants;
+    sum.refused += more.refused;
+    sum.compared += more.compared;
+    sum.fallen += more.fallen;
+    sum.beside += more.beside;
+    sum.changed += more.changed;
+    sum.unnamed += more.unnamed;
+    sum.known += more.known;
+}
+
+std::string line_of(const std::string& kind, const KindFigures& f) {
+    return fmt::format("{:<36} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", kind, f.mutants,
+                       f.refused, f.compared, f.fallen, f.beside, f.changed, f.unnamed, f.known);
+}
+
+}  // namespace
+
+void add(std::map<std::string, KindFigures>& sum, const std::map<std::string, KindFigures>& more) {
+    for (const auto& [kind, figures] : more)
+        add(sum[kind], figures);
 }
 
 std::string table_of(const std::map<std::string, KindFigures>& figures) {
     std::string table =
         fmt::format("{:<36} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "kind", "mutants",
                     "refused", "compared", "fallen", "beside", "changed", "unnamed", "known");
+    KindFigures sum;
     for (const auto& [kind, f] : figures) {
-        table += fmt::format("{:<36} {:>8} {:>8} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", kind,
-                             f.mutants, f.refused, f.compared, f.fallen, f.beside, f.changed,
-                             f.unnamed, f.known);
+        table += line_of(kind, f);
+        add(sum, f);
     }
-    return table;
+    return table + line_of("all", sum);
 }
 
 }  // namespace stormcellar::level2

@@ -61,7 +61,8 @@ class Oracle {
     std::chrono::duration<double> slowest_{0};
 };
 
-// One line a kind.
+void add(std::map<std::string, KindFigures>& sum, const std::map<std::string, KindFigures>& more);
+// One line a kind, and the sum.
 [[nodiscard]] std::string table_of(const std::map<std::string, KindFigures>& figures);
 
 }  // namespace stormcellar::level2
