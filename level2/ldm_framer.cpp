@@ -11,6 +11,9 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t control_word_bytes = 4;
+// The largest volume known, all of it, has 12 MB. A length beyond this is a lie, and is known to be
+// one before so many bytes have come.
+constexpr std::size_t longest_record_bytes = std::size_t{64} << 20;
 
 // What stands behind a record when its length is right; undecided while too little is there.
 std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
@@ -48,7 +51,8 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
     part.negative = control < 0;
     const auto length = static_cast<std::size_t>(control < 0 ? -control : control);
     const auto stream = rest.subspan(control_word_bytes);
-    if (length <= stream.size()) {
+    if (length > stream.size() && length <= longest_record_bytes && !last) return std::nullopt;
+    if (length <= stream.size() && length <= longest_record_bytes) {
         std::optional<bool> right = ends_as_bzip2(stream.first(length));
         if (!*right) right = may_begin(stream.subspan(length), last);
         if (!right) return std::nullopt;
@@ -62,7 +66,7 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
     const auto next = find_stream(rest, 2 * control_word_bytes + bzip2_mark_bytes);
     if (!next && !last) return std::nullopt;
     part.bytes = next ? rest.subspan(control_word_bytes, *next - 2 * control_word_bytes) : stream;
-    part.cut = !next && length > stream.size();
+    part.cut = !next && length > stream.size() && length <= longest_record_bytes;
     part.bad_length = !part.cut;
     end_part(control_word_bytes + part.bytes.size());
     return part;

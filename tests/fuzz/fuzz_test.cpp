@@ -41,6 +41,10 @@ TEST(Fuzz, Container) {
     check_seeds(container_seeds(), 50, check_container, mutate_container);
 }
 
+TEST(Fuzz, Live) {
+    check_seeds(live_seeds(), 100, check_live, mutate_live);
+}
+
 TEST(Fuzz, Messages) {
     check_seeds(messages_seeds(), 200, check_messages, mutate_messages);
 }

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     try {
         const std::filesystem::path directory = argv[1];
         write(directory / "container", stormcellar::fuzz::container_seeds());
+        write(directory / "live", stormcellar::fuzz::live_seeds());
         write(directory / "messages", stormcellar::fuzz::messages_seeds());
         write(directory / "compress", stormcellar::fuzz::compress_seeds());
     } catch (const std::exception& error) {

@@ -243,4 +243,18 @@ Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
     return fitting(join(parts), file, most, mutate);
 }
 
+Bytes mutate_live(const Bytes& input, std::size_t most, Random& random, const MutateBytes& mutate) {
+    constexpr std::size_t order_bytes = 8;
+    if (input.size() < order_bytes || most <= order_bytes) return mutate(input, most);
+    const auto split = input.begin() + order_bytes;
+    Bytes order(input.begin(), split);
+    Bytes file(split, input.end());
+    if (below(random, 3) == 0) {
+        order[below(random, order_bytes)] = static_cast<std::byte>(random());
+    } else {
+        file = mutate_container(file, most - order_bytes, random, mutate);
+    }
+    return wire::join({order, file});
+}
+
 }  // namespace stormcellar::fuzz

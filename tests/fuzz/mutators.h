@@ -22,6 +22,9 @@ using MutateBytes = std::function<Bytes(Bytes bytes, std::size_t most)>;
 // Results are at most `most` bytes long, which is more than the bytes given.
 [[nodiscard]] Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
                                      const MutateBytes& mutate);
+// A file as above, behind eight bytes that decide in which order its parts arrive.
+[[nodiscard]] Bytes mutate_live(const Bytes& input, std::size_t most, Random& random,
+                                const MutateBytes& mutate);
 [[nodiscard]] Bytes mutate_messages(const Bytes& stream, std::size_t most, Random& random,
                                     const MutateBytes& mutate);
 

@@ -24,6 +24,10 @@ void check_container(std::span<const std::byte> file);
 // gives the same; good radials before it are kept to the bit.
 void check_messages(std::span<const std::byte> stream);
 
+// A file behind eight bytes that decide the order. As it grows it gives what it gives whole; cut
+// into chunks, of which some are lost, repeated or damaged, it gives the same in any order.
+void check_live(std::span<const std::byte> input);
+
 // A .Z file: expands as slow_expand() does. The same bytes taken as plain text come back from a
 // compressor.
 void check_compress(std::span<const std::byte> file);

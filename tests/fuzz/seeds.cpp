@@ -91,6 +91,16 @@ std::vector<Seed> container_seeds() {
     };
 }
 
+std::vector<Seed> live_seeds() {
+    std::vector<Seed> seeds;
+    for (Seed& seed : container_seeds()) {
+        Bytes order(8);
+        order[7] = static_cast<std::byte>(seeds.size());
+        seeds.push_back({std::move(seed.name), wire::join({order, seed.bytes})});
+    }
+    return seeds;
+}
+
 std::vector<Seed> compress_seeds() {
     const Bytes plain = wire::radial_messages(1, 2, 40);
     return {

@@ -14,6 +14,7 @@ struct Seed {
 };
 
 [[nodiscard]] std::vector<Seed> container_seeds();
+[[nodiscard]] std::vector<Seed> live_seeds();
 [[nodiscard]] std::vector<Seed> messages_seeds();
 [[nodiscard]] std::vector<Seed> compress_seeds();
 
