@@ -1,7 +1,7 @@
 // Real volumes, damaged in every way that mutant.h and its makers know, against their undamaged
 // selves. An ordinary run takes the start and end of each volume and some mutants of it;
-// STORMCELLAR_MUTANTS=N takes the whole volume, N mutants of its container and 10 N of its
-// messages.
+// STORMCELLAR_MUTANTS=N takes the whole volume (of its messages 8 MiB), N mutants of its container
+// and 10 N of its messages.
 #include <charconv>
 #include <csignal>
 #include <cstdio>
