@@ -9,8 +9,12 @@
 
 namespace stormcellar::level2 {
 
-// `body` is the message after its 28 bytes of header. None when it holds no pattern (frames of old
-// builds are zeros) or does not hold the cuts that it counts.
+// Type, number and count of the cuts stand in so many bytes; the frames of old builds that hold no
+// pattern have zeros there.
+inline constexpr std::size_t vcp_header_bytes = 22;
+
+// `body` is the message after its 28 bytes of header. None when it holds no pattern or does not
+// hold the cuts that it counts.
 [[nodiscard]] std::optional<Vcp> read_vcp(int message_type, std::span<const std::byte> body);
 
 }  // namespace stormcellar::level2

@@ -16,7 +16,7 @@ constexpr std::uint16_t latest_day = 40'000;   // 2079
 constexpr std::uint16_t own_length_in_segments = 65'535;
 
 // What follows a header of message 1 agrees with it (ICD 2620002 table III).
-bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte> body) {
+bool agrees_with_message_1(const MessageHeader& header, std::span<const std::byte> body) {
     ByteReader reader{body};
     const std::uint32_t ms = reader.u32();
     const std::uint16_t date = reader.u16();
@@ -34,8 +34,13 @@ bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte>
     const int days_apart = static_cast<int>(date) - static_cast<int>(header.date);
     return ms < ms_per_day + slack_ms && std::abs(days_apart) <= 1 && azimuth_number >= 1 &&
            azimuth_number <= 1000 && status <= 5 && elevation_number >= 1 &&
-           elevation_number <= 40 && surveillance_gates <= 460 && doppler_gates <= 920 &&
-           surveillance_gates + doppler_gates > 0;
+           elevation_number <= 40 && surveillance_gates <= 460 && doppler_gates <= 920;
+}
+
+// As above; zeros, which agree with many things, are no gates.
+bool is_surely_message_1(const MessageHeader& header, std::span<const std::byte> body) {
+    constexpr std::size_t gate_counts_at = 26;
+    return agrees_with_message_1(header, body) && !all_zero(body.subspan(gate_counts_at, 4));
 }
 
 // What follows a header of message 31 agrees with it (ICD 2620002 table XVII-A).
@@ -115,6 +120,21 @@ bool is_surely_message(std::span<const std::byte> bytes) {
     if (header.type == 1) return is_surely_message_1(header, body);
     if (header.type == 31) return is_surely_message_31(header, body);
     return is_surely_other_message(header, bytes);
+}
+
+bool is_credible_radial(const MessageHeader& header, std::span<const std::byte> body) {
+    return header.type == 1 ? agrees_with_message_1(header, body)
+                            : is_surely_message_31(header, body);
+}
+
+bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message) {
+    constexpr std::size_t length_at = 18;
+    const auto body = message.subspan(message_header_bytes);
+    if (header.type == 1) return is_surely_message_1(header, body);
+    if (header.type != 31 || !is_surely_message_31(header, body)) return false;
+    ByteReader reader{body};
+    reader.seek(length_at);
+    return reader.u16() == body.size();
 }
 
 std::optional<std::size_t> find_message(std::span<const std::byte> bytes, std::size_t from) {

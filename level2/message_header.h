@@ -47,6 +47,12 @@ struct MessageHeader {
 inline constexpr std::size_t sure_message_bytes = 128;  // it never looks farther
 [[nodiscard]] bool is_surely_message(std::span<const std::byte> bytes);
 
+// Whether a radial's body (message 1 or 31) agrees with its header in time and range of numbers.
+[[nodiscard]] bool is_credible_radial(const MessageHeader& header, std::span<const std::byte> body);
+// As above, and the length is beyond doubt: a frame's, or the one that message 31 itself gives
+// (all that are known do). `message` is as long as the header says.
+[[nodiscard]] bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message);
+
 // The first place at or after `from` where a message surely begins.
 [[nodiscard]] std::optional<std::size_t> find_message(std::span<const std::byte> bytes,
                                                       std::size_t from);

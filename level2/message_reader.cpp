@@ -17,16 +17,16 @@ namespace {
 constexpr std::size_t longest_radial_bytes = std::size_t{1} << 18;
 constexpr std::size_t longest_message_bytes = std::size_t{1} << 24;
 
-// Whether a message, a fill frame, a further volume header or the end may stand here.
-bool may_follow(std::span<const std::byte> next, bool last, bool after_radial) {
+// Whether what stands behind a message leaves no doubt that the message ends there: another one, a
+// fill frame, a further volume header, or the end.
+bool surely_follows(std::span<const std::byte> next, bool last, bool after_radial) {
     if (next.size() < message_header_bytes) {
         return last && (next.size() < frame_bytes || all_zero(next));
     }
     if (read_archive_header(next)) return true;
-    const auto header_bytes = next.first(message_header_bytes);
     // Zeros after a radial are more likely its neighbour's gates below threshold than a frame.
-    if (all_zero(header_bytes)) return !after_radial;
-    return is_plausible(read_message_header(header_bytes));
+    if (all_zero(next.first(message_header_bytes))) return !after_radial;
+    return is_surely_message(next);
 }
 
 bool is_radial(const MessageHeader& header) {
@@ -55,7 +55,7 @@ std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
 }
 
 std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
-    if (!last && rest.size() < frame_bytes + message_header_bytes) return 0;
+    if (!last && rest.size() < frame_bytes + sure_message_bytes) return 0;
     if (!in_sync_) return resynchronise(rest, 0, last, "bytes of the message stream are missing");
     if (const auto header = read_archive_header(rest)) {
         close_damage();
@@ -102,9 +102,13 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             rest, message_header_bytes, last,
             fmt::format("message of type {} cut by the end of the data", header.type));
     }
-    if (!last && rest.size() < length + message_header_bytes) return 0;
-    if (!may_follow(rest.subspan(length), last, is_radial(header))) {
-        // A message that begins inside this one shows that this one has lost bytes.
+    if (!last && rest.size() < length + sure_message_bytes) return 0;
+    const auto message = rest.first(length);
+    const bool firm = is_firm_radial(header, message) &&
+                      surely_follows(rest.subspan(length), last, is_radial(header));
+    if (!firm) {
+        // A message that begins inside this one shows that this one has lost bytes, or that its
+        // header is none.
         const auto search = rest.first(std::min(rest.size(), length + sure_message_bytes));
         const auto next = find_message(search, message_header_bytes);
         if (next && *next < length) {
@@ -177,13 +181,26 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         if (status) builder_.report_data().rda_status = std::move(*status);
     }
     if (header.type == 5 || header.type == 7) {
-        auto vcp = read_vcp(header.type, message.subspan(message_header_bytes));
-        if (vcp) builder_.add_pattern(std::move(*vcp));
+        const auto body = message.subspan(message_header_bytes);
+        auto vcp = read_vcp(header.type, body);
+        if (vcp) {
+            builder_.add_pattern(std::move(*vcp));
+        } else if (!all_zero(body.first(std::min(body.size(), vcp_header_bytes)))) {
+            builder_.report().add(
+                Severity::warning, "bad_pattern",
+                fmt::format("message {} does not hold the cuts that it counts", header.type),
+                offset_);
+        }
     }
 }
 
 void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message) {
     auto body = message.subspan(message_header_bytes);
+    if (!is_credible_radial(header, body)) {
+        builder_.report().damage("bad_radial", "a radial contradicts its header", offset_,
+                                 message.size());
+        return;
+    }
     std::vector<std::byte> expanded;
     if (header.type == 31) {
         const int compression = message_31_compression(body);

@@ -1,5 +1,7 @@
 #include "level2/report_writer.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,11 +32,17 @@ std::string Problem::text() const {
 }
 
 void ReportWriter::add(Problem problem) {
-    if (report_.problems.size() >= DecodeReport::max_problems) {
+    std::vector<Problem>& problems = report_.problems;
+    if (problems.size() >= DecodeReport::max_problems) {
         ++report_.problems_left_out;
-        return;
+        // The last of those that matter least makes room.
+        const auto least = std::min_element(
+            problems.rbegin(), problems.rend(),
+            [](const Problem& a, const Problem& b) { return a.severity < b.severity; });
+        if (least->severity >= problem.severity) return;
+        problems.erase(std::next(least).base());
     }
-    report_.problems.push_back(std::move(problem));
+    problems.push_back(std::move(problem));
 }
 
 void ReportWriter::add(Severity severity, std::string_view code, std::string message,

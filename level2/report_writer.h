@@ -14,7 +14,7 @@ class ReportWriter {
   public:
     explicit ReportWriter(DecodeReport& report) : report_(report) {}
 
-    // Beyond DecodeReport::max_problems they are counted only.
+    // Beyond DecodeReport::max_problems the last of the least severity are counted only.
     void add(Problem problem);
     void add(Severity severity, std::string_view code, std::string message,
              std::optional<std::uint64_t> offset = std::nullopt);

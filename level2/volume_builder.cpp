@@ -355,8 +355,10 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     }
     volume_.station = station(fallback_station);
     const bool ended = volume_has_ended();
-    const bool gaps =
-        check_volume(volume_, previous_.has_value(), ended, report_.rda_status, report());
+    const bool all_cuts = report_.sweeps_left_out == 0 && report_.records_skipped == 0;
+    const VolumeFacts facts{previous_.has_value(), ended, all_cuts, report_.further_volume_starts,
+                            report_.rda_status};
+    const bool gaps = check_volume(volume_, facts, report());
     report_.complete = ended && !gaps && report_.bytes_dropped == 0;
     report().finish();
     return Decoded{std::move(volume_), std::move(report_)};

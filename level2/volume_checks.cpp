@@ -56,6 +56,31 @@ int check_missing(const Volume& volume, const std::vector<RadialGaps>& gaps, Rep
     return missing;
 }
 
+// Cuts are numbered from 1 and count upwards by one; a volume may end at any of them.
+bool check_cuts(const Volume& volume, const std::vector<std::size_t>& volume_starts,
+                ReportWriter& report) {
+    bool missing = false;
+    int previous = 0;
+    auto next_volume = volume_starts.begin();
+    for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
+        if (next_volume != volume_starts.end() && *next_volume == i) {
+            previous = 0;
+            ++next_volume;
+        }
+        const int number = volume.sweeps[i].elevation_number;
+        if (number > previous + 1) {
+            missing = true;
+            report.add(Severity::warning, "missing_cuts",
+                       number == previous + 2
+                           ? fmt::format("before sweep {}, cut {} is missing", i, previous + 1)
+                           : fmt::format("before sweep {}, cuts {} to {} are missing", i,
+                                         previous + 1, number - 1));
+        }
+        previous = number;
+    }
+    return missing;
+}
+
 bool check_radials(const Volume& volume, ReportWriter& report) {
     std::vector<RadialGaps> gaps;
     for (const Sweep& sweep : volume.sweeps)
@@ -89,19 +114,21 @@ RadialGaps gaps_of(const Sweep& sweep) {
     return gaps;
 }
 
-bool check_volume(const Volume& volume, bool has_radials, bool has_ended,
-                  const std::optional<RdaStatus>& status, ReportWriter report) {
-    const bool missing = check_radials(volume, report);
+bool check_volume(const Volume& volume, const VolumeFacts& facts, ReportWriter report) {
+    const bool missing_radials = check_radials(volume, report);
+    // Where only some cuts were asked for, others are bound to be missing.
+    const bool missing_cuts = facts.all_cuts && check_cuts(volume, facts.volume_starts, report);
+    const bool missing = missing_radials || missing_cuts;
     check_position(volume, report);
     check_time(volume, report);
-    if (!has_radials) {
+    if (!facts.has_radials) {
         report.add(Severity::warning, "no_radials", "metadata without radials");
-    } else if (!has_ended) {
+    } else if (!facts.has_ended) {
         report.add(Severity::warning, "no_end_of_volume",
                    "the volume stops before its end: its last radial is not marked as the last");
     }
-    if (!status) return missing;
-    const std::vector<std::string> troubles = rda_troubles(*status);
+    if (!facts.status) return missing;
+    const std::vector<std::string> troubles = rda_troubles(*facts.status);
     if (!troubles.empty()) {
         report.add(Severity::note, "radar_trouble",
                    fmt::format("the radar reports: {}", fmt::join(troubles, ", ")));

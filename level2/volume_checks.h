@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "level2/message_2.h"
 #include "level2/report_writer.h"
@@ -9,12 +10,21 @@
 
 namespace stormcellar::level2 {
 
+// What a Volume does not say of itself.
+struct VolumeFacts {
+    bool has_radials = true;  // also when they are of cuts that were not asked for
+    bool has_ended = true;    // the last radial was marked as the volume's last
+    bool all_cuts = true;     // none was left out because it was not asked for
+    std::vector<std::size_t> volume_starts = {};  // sweeps at which a further volume begins
+    std::optional<RdaStatus> status = {};
+};
+
 // Reports a missing position or one that disagrees with the station table, a header's time that
-// the radials contradict, radials that are missing or come twice, a volume without its end, and
-// what the radar itself reports as trouble.
-// True when radials are missing.
-[[nodiscard]] bool check_volume(const Volume& volume, bool has_radials, bool has_ended,
-                                const std::optional<RdaStatus>& status, ReportWriter report);
+// the radials contradict, radials that are missing or come twice, cuts that are missing, a volume
+// without its end, and what the radar itself reports as trouble.
+// True when radials or cuts are missing.
+[[nodiscard]] bool check_volume(const Volume& volume, const VolumeFacts& facts,
+                                ReportWriter report);
 
 // Radials of a sweep are numbered from 1; 0 stands for no number.
 struct RadialGaps {

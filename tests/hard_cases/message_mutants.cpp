@@ -19,7 +19,6 @@ std::size_t below(Random& random, std::size_t limit) {
 }
 
 // Headers at wrong places can be plausible, and more so a frame behind each other.
-constexpr const char* chance_header = "a header that is only plausible is believed";
 
 struct Field {
     const char* name;
@@ -124,19 +123,6 @@ std::size_t MessageMutants::any_message(Random& random) const {
     return message;
 }
 
-// Of another type a message may be quite in order, so that nothing shows.
-void MessageMutants::note_type(Draft& draft, std::size_t number, unsigned type) const {
-    constexpr std::size_t frame_bytes = 2432;
-    draft.mutant.shows = false;
-    const StreamMessage& message = volume_.messages[number];
-    if (!message.radial && (type == 1 || type == 31)) {
-        draft.mutant.known_defect = "another message that calls itself a radial is taken for one";
-    }
-    if (message.type == 31 && type != 31 && type != 29 && message.length < frame_bytes) {
-        draft.mutant.known_defect = "a frame's length is believed over the messages inside it";
-    }
-}
-
 void MessageMutants::field(Draft& draft, Random& random) const {
     const std::size_t number = any_message(random);
     Bytes& bytes = draft.parts[number];
@@ -149,8 +135,8 @@ void MessageMutants::field(Draft& draft, Random& random) const {
     const std::uint32_t is = extreme(was, field.width, random);
     write(bytes, field, is);
     draft.fates[number] = Fate::damaged;
-    if (of_header) draft.mutant.known_defect = chance_header;
-    if (field.at == header_fields[1].at) note_type(draft, number, is);
+    // Of another type a message may be quite in order.
+    if (field.at == header_fields[1].at) draft.mutant.shows = false;
     draft.mutant.kind = of_header ? "field of a message header" : "field of a message";
     draft.mutant.what +=
         fmt::format(" message {}: {} {:#x} becomes {:#x}", number, field.name, was, is);
@@ -210,7 +196,6 @@ void MessageMutants::resized(Draft& draft, Random& random) const {
             number + 1 < volume_.messages.size() && volume_.messages[number + 1].radial.has_value();
         draft.fates[number] = radial_follows ? Fate::may_fall : Fate::damaged;
     }
-    draft.mutant.known_defect = chance_header;
     draft.mutant.kind = add ? "bytes added to a message" : "bytes lost of a message";
     draft.mutant.what += fmt::format(" message {}: {} at {}", number, count, at);
 }
@@ -224,12 +209,10 @@ void MessageMutants::flipped(Draft& draft, Random& random) const {
             random() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 120) : bytes.size();
         const std::size_t at = below(random, most);
         bytes[at] ^= static_cast<std::byte>(1U << (random() % 8));
-        if (at == header_fields[1].at)
-            note_type(draft, number, std::to_integer<unsigned>(bytes[at]));
+        if (at == header_fields[1].at) draft.mutant.shows = false;
         where += fmt::format(" {}", at);
     }
     draft.fates[number] = Fate::damaged;
-    if (draft.mutant.known_defect.empty()) draft.mutant.known_defect = chance_header;
     draft.mutant.kind = "bits flipped in a message";
     draft.mutant.what += fmt::format(" message {}, bytes{}", number, where);
 }
@@ -252,7 +235,6 @@ void MessageMutants::overwritten(Draft& draft, Random& random) const {
     }
     // Zeros for a whole message of a frame's length are a frame that fills up.
     draft.mutant.shows = !zeros;
-    draft.mutant.known_defect = chance_header;
     draft.mutant.kind = zeros ? "zeros over messages" : "noise over messages";
     draft.mutant.what += fmt::format(" {} bytes from message {} on", count, first);
 }

@@ -24,7 +24,6 @@ class MessageMutants {
         std::vector<std::size_t> order;  // messages, by number, as they stand in the file
         std::vector<Fate> fates;         // of the messages
     };
-    void note_type(Draft& draft, std::size_t number, unsigned type) const;
     void field(Draft& draft, Random& random) const;
     void block_field(Draft& draft, Random& random) const;
     void rearranged(Draft& draft, Random& random) const;

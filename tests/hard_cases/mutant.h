@@ -35,9 +35,6 @@ struct Mutant {
     // every radial is kept.
     bool always_named = false;
     bool anything_after = false;  // nothing guards the rest of the file
-    // What the decoder is known to do wrong here; empty: nothing. Such a mutant may fail, which is
-    // counted, until the defect is gone (STORMCELLAR_STRICT=1: it may not).
-    std::string known_defect;
 };
 
 }  // namespace stormcellar::level2

@@ -115,12 +115,11 @@ TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
     }
 }
 
-// What the decoder is known to do wrong, each in its smallest form. The mutants that show the same
-// carry the same words (Mutant::known_defect). A test loses its DISABLED_ with the defect.
+// What the mutants have found, each in its smallest form.
 
 // 2026-11-21, on seven legacy volumes: a header at the wrong place can be plausible, and then the
 // one a frame on is so again. The reader took hundreds of frames for messages of unknown types.
-TEST(KnownDefect, DISABLED_EightBytesLostCostOneLegacyRadial) {
+TEST(FoundByMutants, EightBytesLostCostOneLegacyRadial) {
     Bytes radials;
     for (unsigned i = 0; i < 40; ++i) {
         wire::Ray ray;
@@ -138,7 +137,7 @@ TEST(KnownDefect, DISABLED_EightBytesLostCostOneLegacyRadial) {
 
 // 2026-11-21: message 15, its type damaged to 1, became a radial of elevation 0 at azimuth 0, and
 // the report said nothing.
-TEST(KnownDefect, DISABLED_MetadataOfAnotherTypeIsNoRadial) {
+TEST(FoundByMutants, MetadataOfAnotherTypeIsNoRadial) {
     const Bytes metadata = wire::frame(15, Bytes(100, std::byte{3}));
     for (const unsigned type : {1U, 31U}) {
         Bytes damaged = metadata;
@@ -155,7 +154,7 @@ TEST(KnownDefect, DISABLED_MetadataOfAnotherTypeIsNoRadial) {
 
 // 2026-11-21, KDOX20100911 and L2D_185: message 31 shorter than a frame, its type damaged to one
 // that stands in a frame; zeros among the gates a frame on were enough to believe it.
-TEST(KnownDefect, DISABLED_AFrameDoesNotSwallowTheRadialsInsideIt) {
+TEST(FoundByMutants, AFrameDoesNotSwallowTheRadialsInsideIt) {
     Bytes radials;
     for (unsigned i = 0; i < 20; ++i) {
         wire::Ray ray;
@@ -173,7 +172,7 @@ TEST(KnownDefect, DISABLED_AFrameDoesNotSwallowTheRadialsInsideIt) {
 
 // 2026-11-21, KTLX20140101: a record of more than 4 MiB is read block by block, and that way does
 // not compare the control word with the stream.
-TEST(KnownDefect, DISABLED_TheWrongLengthOfALargeRecordIsNamed) {
+TEST(FoundByMutants, TheWrongLengthOfALargeRecordIsNamed) {
     const Bytes radials = wire::radial_messages(1, 1500, 1000);
     ASSERT_GT(radials.size(), std::size_t{4} << 20);
     Bytes record = wire::ldm_record(radials, true);
@@ -186,7 +185,7 @@ TEST(KnownDefect, DISABLED_TheWrongLengthOfALargeRecordIsNamed) {
 
 // 2026-11-21, KTLX19910720 and KLIX20050828: after a hundred notes the list of problems was full,
 // and the gzip checksum's was left out.
-TEST(KnownDefect, DISABLED_NotesDoNotCrowdOutErrors) {
+TEST(FoundByMutants, NotesDoNotCrowdOutErrors) {
     Bytes file = wire::join({wire::archive_header(), wire::radial_messages(1, 6)});
     for (int i = 0; i < 120; ++i)
         file = wire::join({file, wire::frame(200)});
@@ -199,7 +198,7 @@ TEST(KnownDefect, DISABLED_NotesDoNotCrowdOutErrors) {
 
 // 2026-11-21: a file of 408 kB with radials of 30,000 gates took 1504 MiB, because arrays that grow
 // are copied and the limit counts what they hold. Counts the process's peak, so run it alone.
-TEST(KnownDefect, DISABLED_ASmallFileNeverTakesAGibibyte) {
+TEST(FoundByMutants, ASmallFileNeverTakesAGibibyte) {
     Bytes radials;
     for (unsigned i = 0; i < 20; ++i) {
         wire::Ray ray;
@@ -220,7 +219,7 @@ TEST(KnownDefect, DISABLED_ASmallFileNeverTakesAGibibyte) {
 }
 
 // 2026-11-21: a message 5 that cannot be read is left out, and the report said nothing.
-TEST(KnownDefect, DISABLED_AnUnreadablePatternIsNamed) {
+TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     Bytes vcp = wire::vcp_frame(212, elevations_deg);
     wire::overwrite_u16(vcp, 28 + 6, 0xFFFF);
     const auto decoded = decode(plain_volume(vcp));

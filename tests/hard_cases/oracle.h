@@ -27,7 +27,6 @@ struct KindFigures {
     std::uint64_t beside = 0;   // radials right behind the damage that have not come out
     std::uint64_t changed = 0;  // radials whose own damage shows in them
     std::uint64_t unnamed = 0;  // mutants that lost radials without a trace in their bytes
-    std::uint64_t known = 0;    // mutants that fail for a known defect
 };
 
 class Oracle {

@@ -1,7 +1,5 @@
 #include "level2/volume_checks.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
 namespace stormcellar::level2 {
@@ -29,7 +27,7 @@ struct Outcome {
 Outcome check(const Volume& volume, std::string_view code) {
     DecodeReport report;
     Outcome outcome;
-    outcome.missing = check_volume(volume, true, true, {}, ReportWriter{report});
+    outcome.missing = check_volume(volume, {}, ReportWriter{report});
     for (const Problem& problem : report.problems) {
         if (problem.code == code) outcome.messages.push_back(problem.message);
     }
@@ -38,8 +36,7 @@ Outcome check(const Volume& volume, std::string_view code) {
 
 TEST(VolumeChecks, ASoundVolumeHasNoProblem) {
     DecodeReport report;
-    EXPECT_FALSE(
-        check_volume(volume_of({{1, 2, 3}, {1, 2}}), true, true, {}, ReportWriter{report}));
+    EXPECT_FALSE(check_volume(volume_of({{1, 2, 3}, {1, 2}}), {}, ReportWriter{report}));
     EXPECT_TRUE(report.problems.empty());
 }
 
@@ -68,12 +65,25 @@ TEST(VolumeChecks, ManySweepsWithGapsAreSummedUp) {
     EXPECT_EQ(outcome.messages.back(), "42 further sweeps lack 42 radials");
 }
 
+TEST(VolumeChecks, CutsThatAreMissingAreNamed) {
+    Volume volume = volume_of({{1}, {1}, {1}, {1}});
+    volume.sweeps[1].elevation_number = 3;
+    volume.sweeps[2].elevation_number = 3;  // begun again
+    volume.sweeps[3].elevation_number = 2;
+    DecodeReport report;
+    EXPECT_TRUE(check_volume(volume, {.volume_starts = {3}}, ReportWriter{report}));
+    ASSERT_EQ(report.problems.size(), 2U);
+    EXPECT_EQ(report.problems[0].message, "before sweep 1, cut 2 is missing");
+    EXPECT_EQ(report.problems[1].message, "before sweep 3, cut 1 is missing");
+    EXPECT_FALSE(check_volume(volume, {.all_cuts = false}, ReportWriter{report}));
+}
+
 TEST(VolumeChecks, WhatTheRadarReportsIsPassedOn) {
     RdaStatus status;
     DecodeReport report;
-    EXPECT_FALSE(check_volume(volume_of({{1}}), true, true, status, ReportWriter{report}));
+    EXPECT_FALSE(check_volume(volume_of({{1}}), {.status = status}, ReportWriter{report}));
     status.state = RdaState::standby;
-    EXPECT_FALSE(check_volume(volume_of({{1}}), true, true, status, ReportWriter{report}));
+    EXPECT_FALSE(check_volume(volume_of({{1}}), {.status = status}, ReportWriter{report}));
     ASSERT_FALSE(report.problems.empty());
     EXPECT_EQ(report.problems.back().code, "radar_trouble");
     EXPECT_NE(report.problems.back().message.find("standby"), std::string::npos);
