@@ -1,5 +1,6 @@
 #include "level2/volume_checks.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,6 +31,30 @@ void check_time(const Volume& volume, ReportWriter& report) {
 
 // Sweeps that lack radials are named one by one as far as a person reads on.
 constexpr int most_named_sweeps = 8;
+
+bool ends_marked(const Sweep& sweep) {
+    const RadialStatus last = status_of(sweep.radials.back());
+    return last == RadialStatus::end_of_elevation || last == RadialStatus::end_of_volume;
+}
+
+// Sweeps whose last radials are lost, but for the last sweep, which has a problem of its own.
+// A cut that begins again was given up by the radar.
+bool check_ends(const Volume& volume, ReportWriter& report) {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i + 1 < volume.sweeps.size(); ++i) {
+        const bool begins_again =
+            volume.sweeps[i].elevation_number == volume.sweeps[i + 1].elevation_number;
+        if (!begins_again && !ends_marked(volume.sweeps[i])) open.push_back(i);
+    }
+    if (open.empty()) return false;
+    const std::size_t named = std::min<std::size_t>(open.size(), most_named_sweeps);
+    report.add(Severity::warning, "unended_sweeps",
+               fmt::format("{} without a last radial: {}{}",
+                           open.size() == 1 ? "a sweep" : fmt::format("{} sweeps", open.size()),
+                           fmt::join(open.begin(), open.begin() + static_cast<long>(named), ", "),
+                           named < open.size() ? " ..." : ""));
+    return true;
+}
 
 // How many radials are missing.
 int check_missing(const Volume& volume, const std::vector<RadialGaps>& gaps, ReportWriter& report) {
@@ -92,7 +117,8 @@ bool check_radials(const Volume& volume, ReportWriter& report) {
                    fmt::format("the radials' numbers go back inside sweep {} (elevation number {})",
                                i, volume.sweeps[i].elevation_number));
     }
-    return missing > 0;
+    const bool ends_missing = check_ends(volume, report);
+    return missing > 0 || ends_missing;
 }
 
 }  // namespace
@@ -134,6 +160,12 @@ bool check_volume(const Volume& volume, const VolumeFacts& facts, ReportWriter r
                    fmt::format("the radar reports: {}", fmt::join(troubles, ", ")));
     }
     return missing;
+}
+
+bool is_complete(const Volume& volume) {
+    DecodeReport unused;
+    ReportWriter report{unused};
+    return has_ended(volume) && !check_radials(volume, report) && !check_cuts(volume, {}, report);
 }
 
 }  // namespace stormcellar::level2

@@ -26,6 +26,10 @@ struct VolumeFacts {
 [[nodiscard]] bool check_volume(const Volume& volume, const VolumeFacts& facts,
                                 ReportWriter report);
 
+// From its first cut to its last radial nothing of this one volume is missing, as far as the
+// radials show; bytes that were dropped without a trace in their numbers are in the report only.
+[[nodiscard]] bool is_complete(const Volume& volume);
+
 // Radials of a sweep are numbered from 1; 0 stands for no number.
 struct RadialGaps {
     int missing = 0;

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/station_table.h"
+#include "level2/volume_checks.h"
 
 namespace stormcellar::pipeline {
 
@@ -31,7 +32,7 @@ catalog::VolumeFacts facts_of(const level2::Volume& volume) {
     facts.vcp = volume.vcp;
     facts.sweep_count = static_cast<int>(volume.sweeps.size());
     facts.radial_count = static_cast<int>(volume.radial_count());
-    facts.complete = level2::has_ended(volume);
+    facts.complete = level2::is_complete(volume);
     for (const level2::Sweep& sweep : volume.sweeps) {
         for (const level2::Radial& radial : sweep.radials) {
             if (!level2::is_plausible(radial.time)) continue;

@@ -13,6 +13,7 @@
 #include "cache/grid_file.h"
 #include "grid/brick_grid.h"
 #include "level2/decode.h"
+#include "level2/volume_checks.h"
 #include "pipeline/file_facts.h"
 #include "pipeline/geometry_cache.h"
 
@@ -97,9 +98,10 @@ struct Ingestor::Impl {
     Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
                                   IngestOutcome outcome);
     Result<IngestOutcome> grid_all(const FileFacts& facts,
-                                   const std::vector<level2::Volume>& volumes,
+                                   const std::vector<level2::Volume>& volumes, bool damaged,
                                    IngestOutcome outcome);
-    Status grid_one(const FileFacts& facts, const level2::Volume& volume, IngestOutcome& outcome);
+    Status grid_one(const FileFacts& facts, const level2::Volume& volume, bool damaged,
+                    IngestOutcome& outcome);
     Result<fs::path> commit(const grid::Grid& made, IngestOutcome& outcome);
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
 };
@@ -123,7 +125,8 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string
 }
 
 // Grids one volume and commits it. A volume whose radar nobody can place has no grid.
-Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& volume,
+// `damaged`: bytes of the file are lost, in this volume or in another one.
+Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& volume, bool damaged,
                                 IngestOutcome& outcome) {
     const auto antenna = level2::antenna_position(volume);
     if (!antenna || volume.station.empty()) {
@@ -149,7 +152,7 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
     if (!made) return pass_on(made);
     made->provenance.source_files = {facts.path.filename().string()};
     made->provenance.source_modified_ns = facts.modified_ns;
-    made->provenance.partial = !level2::has_ended(volume) || facts.state != FileState::complete;
+    made->provenance.partial = damaged || !level2::is_complete(volume);
     if (antenna->disagreement) made->provenance.notes.push_back(*antenna->disagreement);
     outcome.grid_s += seconds_since(start);
     outcome.partial = outcome.partial || made->provenance.partial;
@@ -179,11 +182,11 @@ Result<fs::path> Ingestor::Impl::commit(const grid::Grid& made, IngestOutcome& o
 // again, never lost.
 Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
                                                const std::vector<level2::Volume>& volumes,
-                                               IngestOutcome outcome) {
+                                               bool damaged, IngestOutcome outcome) {
     outcome.result = IngestResult::no_moment;
     for (const level2::Volume& volume : volumes) {
         if (!has_moment(volume, options.moment)) continue;
-        if (const Status gridded = grid_one(facts, volume, outcome); !gridded) {
+        if (const Status gridded = grid_one(facts, volume, damaged, outcome); !gridded) {
             if (!is_of_the_data(gridded.error())) return pass_on(gridded);
             return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
         }
@@ -199,6 +202,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
                                               bool finish_partial, IngestOutcome outcome) {
     facts.reason = reason_of(decoded.report);
     const bool complete = decoded.report.complete;
+    const bool damaged = decoded.report.bytes_dropped > 0;
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     for (const level2::Volume& volume : volumes)
         facts.volumes.push_back(facts_of(volume));
@@ -219,7 +223,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         return outcome;
     }
     facts.state = complete ? FileState::complete : FileState::partial;
-    return grid_all(facts, volumes, std::move(outcome));
+    return grid_all(facts, volumes, damaged, std::move(outcome));
 }
 
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {

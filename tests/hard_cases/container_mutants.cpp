@@ -131,7 +131,6 @@ Mutant ContainerMutants::rearranged(Random& random) const {
         mutant.file.insert(mutant.file.end(), bytes.begin(), bytes.end());
     }
     mutant.expected = expect(order, std::nullopt);
-    mutant.shows = false;
     return mutant;
 }
 

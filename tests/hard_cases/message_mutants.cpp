@@ -135,8 +135,6 @@ void MessageMutants::field(Draft& draft, Random& random) const {
     const std::uint32_t is = extreme(was, field.width, random);
     write(bytes, field, is);
     draft.fates[number] = Fate::damaged;
-    // Of another type a message may be quite in order.
-    if (field.at == header_fields[1].at) draft.mutant.shows = false;
     draft.mutant.kind = of_header ? "field of a message header" : "field of a message";
     draft.mutant.what +=
         fmt::format(" message {}: {} {:#x} becomes {:#x}", number, field.name, was, is);
@@ -173,7 +171,6 @@ void MessageMutants::rearranged(Draft& draft, Random& random) const {
     if (kind == 2) std::swap(order[a], order[b]);
     draft.mutant.kind = kinds[kind];
     draft.mutant.what += fmt::format(" messages {} and {}", a, b);
-    draft.mutant.shows = false;
 }
 
 // A radial that has lost bytes never comes out: never half a radial.
@@ -209,7 +206,6 @@ void MessageMutants::flipped(Draft& draft, Random& random) const {
             random() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 120) : bytes.size();
         const std::size_t at = below(random, most);
         bytes[at] ^= static_cast<std::byte>(1U << (random() % 8));
-        if (at == header_fields[1].at) draft.mutant.shows = false;
         where += fmt::format(" {}", at);
     }
     draft.fates[number] = Fate::damaged;
@@ -233,8 +229,6 @@ void MessageMutants::overwritten(Draft& draft, Random& random) const {
             at = 0;
         }
     }
-    // Zeros for a whole message of a frame's length are a frame that fills up.
-    draft.mutant.shows = !zeros;
     draft.mutant.kind = zeros ? "zeros over messages" : "noise over messages";
     draft.mutant.what += fmt::format(" {} bytes from message {} on", count, first);
 }

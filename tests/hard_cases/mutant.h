@@ -28,9 +28,6 @@ struct Mutant {
     std::string what;  // for a person who has to repeat it
     wire::Bytes file;
     std::vector<ExpectedRadial> expected;  // in the order of the file
-    // Whether the bytes show that something is missing, so that the report must name it. A whole
-    // record or message that is gone, doubled or moved leaves no trace in those that remain.
-    bool shows = true;
     // Whether a changed length or type lies in the damage, which the report must name even where
     // every radial is kept.
     bool always_named = false;

@@ -26,7 +26,6 @@ struct KindFigures {
     std::uint64_t fallen = 0;   // radials in the damage, or guarded with it, that have not come out
     std::uint64_t beside = 0;   // radials right behind the damage that have not come out
     std::uint64_t changed = 0;  // radials whose own damage shows in them
-    std::uint64_t unnamed = 0;  // mutants that lost radials without a trace in their bytes
 };
 
 class Oracle {

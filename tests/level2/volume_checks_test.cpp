@@ -15,6 +15,7 @@ Volume volume_of(const std::vector<std::vector<int>>& azimuth_numbers) {
             Radial& radial = sweep.radials.emplace_back();
             radial.azimuth_number = static_cast<std::uint16_t>(number);
         }
+        sweep.radials.back().status = 2;
     }
     return volume;
 }
@@ -63,6 +64,17 @@ TEST(VolumeChecks, ManySweepsWithGapsAreSummedUp) {
         check(volume_of(std::vector<std::vector<int>>(50, {1, 3})), "missing_radials");
     EXPECT_EQ(outcome.messages.size(), 9U);
     EXPECT_EQ(outcome.messages.back(), "42 further sweeps lack 42 radials");
+}
+
+TEST(VolumeChecks, SweepsWithoutALastRadialAreNamed) {
+    Volume volume = volume_of({{1, 2}, {1, 2}, {1, 2}, {1, 2}});
+    for (Sweep& sweep : volume.sweeps)
+        sweep.radials.back().status = 1;
+    volume.sweeps[2].elevation_number = 2;  // the cut of sweep 1 began again
+    volume.sweeps[3].elevation_number = 3;
+    const Outcome outcome = check(volume, "unended_sweeps");
+    EXPECT_TRUE(outcome.missing);
+    EXPECT_EQ(outcome.messages, std::vector<std::string>{"2 sweeps without a last radial: 0, 2"});
 }
 
 TEST(VolumeChecks, CutsThatAreMissingAreNamed) {
