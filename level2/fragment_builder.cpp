@@ -28,6 +28,10 @@ bool FragmentBuilder::begins_piece(const RadialMessage& message) const {
 }
 
 void FragmentBuilder::begin_piece(const RadialMessage& message) {
+    // Whole sweeps one behind the other: make room for the next at once.
+    if (!fragment_.pieces.empty()) {
+        expected_rows_ = std::max(expected_rows_, fragment_.pieces.back().sweep.radials.size());
+    }
     Fragment::Piece& piece = fragment_.pieces.emplace_back();
     piece.before = std::exchange(marks_, {});
     piece.vcp = message.vcp.value_or(0);
