@@ -14,6 +14,11 @@ bool begins_sweep(const Radial& radial) {
            status == RadialStatus::start_of_last_elevation;
 }
 
+bool ends_sweep(const Radial& radial) {
+    const RadialStatus status = status_of(radial);
+    return status == RadialStatus::end_of_elevation || status == RadialStatus::end_of_volume;
+}
+
 bool FragmentBuilder::take_room(std::uint64_t bytes) {
     if (bytes > limit_bytes_ - taken_bytes_) return false;
     taken_bytes_ += bytes;

@@ -21,6 +21,8 @@ inline constexpr std::ptrdiff_t most_kinds_of_a_moment = 16;
 
 // Whether the radial's status begins a sweep: 0, 3 or 5.
 [[nodiscard]] bool begins_sweep(const Radial& radial);
+// Whether it ends one: 2 or 4.
+[[nodiscard]] bool ends_sweep(const Radial& radial);
 
 class FragmentBuilder {
   public:

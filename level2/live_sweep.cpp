@@ -7,10 +7,8 @@ namespace stormcellar::level2 {
 
 bool is_whole(const Sweep& sweep) {
     if (sweep.radials.empty() || !begins_sweep(sweep.radials.front())) return false;
-    const RadialStatus last = status_of(sweep.radials.back());
     const RadialGaps gaps = gaps_of(sweep);
-    return (last == RadialStatus::end_of_elevation || last == RadialStatus::end_of_volume) &&
-           gaps.missing == 0 && gaps.repeated == 0;
+    return ends_sweep(sweep.radials.back()) && gaps.missing == 0 && gaps.repeated == 0;
 }
 
 }  // namespace stormcellar::level2

@@ -146,47 +146,61 @@ Volume LiveVolume::facts() const {
     return builder.facts(options_.decode.fallback_station);
 }
 
-// Which pieces make a sweep, by the rule of the VolumeBuilder.
-std::vector<LiveVolume::OpenSweep> LiveVolume::sweeps_by_piece() const {
-    std::vector<OpenSweep> sweeps;
-    std::optional<Vcp> pattern;
-    PieceId pattern_id{};  // the chunk that gave the pattern, if any
-    const Fragment::Piece* previous = nullptr;
-    bool header_between = false;
-    bool first_chunk = true;
-    const auto note_marks = [&](const FragmentMarks& marks, std::uint64_t serial) {
+// Which pieces make a sweep, by the rule of the VolumeBuilder, from piece to piece in their order.
+class LiveVolume::Grouper {
+  public:
+    void begin_chunk(const Chunk& chunk) {
+        header_between_ = header_between_ || (chunk.header && !first_chunk_);
+        first_chunk_ = false;
+        serial_ = chunk.serial;
+        place_ = 0;
+    }
+    void note(const FragmentMarks& marks) {
         if (!marks.patterns.empty()) {
-            pattern = marks.patterns.back();
-            pattern_id = {serial + 1, 0};
+            pattern_ = marks.patterns.back();
+            pattern_id_ = {serial_ + 1, 0};
         }
-        header_between = header_between || marks.header.has_value();
-    };
+        header_between_ = header_between_ || marks.header.has_value();
+    }
+    void add(const Fragment::Piece& piece) {
+        note(piece.before);
+        const bool continues =
+            previous_ != nullptr && !header_between_ && continues_sweep(*previous_, piece);
+        if (!continues && !sweeps_.empty()) sweeps_.back().closed = true;
+        previous_ = &piece;
+        header_between_ = false;
+        const PieceId id{serial_, place_++};
+        if (piece.left_out) return;
+        if (!continues) sweeps_.push_back({{}, {pattern_id_}, pattern_, false});
+        OpenSweep& sweep = sweeps_.back();
+        sweep.pieces.push_back(&piece);
+        sweep.ids.push_back(id);
+        sweep.closed = ends_sweep(piece.sweep.radials.back());
+    }
+    [[nodiscard]] std::vector<OpenSweep> take() { return std::move(sweeps_); }
+
+  private:
+    std::vector<OpenSweep> sweeps_;
+    std::optional<Vcp> pattern_;
+    PieceId pattern_id_{};  // the chunk that gave the pattern, if any
+    const Fragment::Piece* previous_ = nullptr;
+    bool header_between_ = false;
+    bool first_chunk_ = true;
+    std::uint64_t serial_ = 0;
+    std::size_t place_ = 0;
+};
+
+std::vector<LiveVolume::OpenSweep> LiveVolume::sweeps_by_piece() const {
+    Grouper grouper;
     for (const auto& [number, chunk] : chunks_) {
-        header_between = header_between || (chunk.header && !first_chunk);
-        first_chunk = false;
-        std::size_t place = 0;
-        const std::uint64_t serial = chunk.serial;
+        grouper.begin_chunk(chunk);
         for (const Fragment& fragment : chunk.fragments) {
-            for (const Fragment::Piece& piece : fragment.pieces) {
-                note_marks(piece.before, serial);
-                const bool continues =
-                    previous != nullptr && !header_between && continues_sweep(*previous, piece);
-                if (!continues && !sweeps.empty()) sweeps.back().closed = true;
-                previous = &piece;
-                header_between = false;
-                const PieceId id{serial, place++};
-                if (piece.left_out) continue;
-                if (!continues) sweeps.push_back({{}, {pattern_id}, pattern, false});
-                sweeps.back().pieces.push_back(&piece);
-                sweeps.back().ids.push_back(id);
-                const RadialStatus last = status_of(piece.sweep.radials.back());
-                sweeps.back().closed =
-                    last == RadialStatus::end_of_elevation || last == RadialStatus::end_of_volume;
-            }
-            note_marks(fragment.behind, serial);
+            for (const Fragment::Piece& piece : fragment.pieces)
+                grouper.add(piece);
+            grouper.note(fragment.behind);
         }
     }
-    return sweeps;
+    return grouper.take();
 }
 
 Sweep LiveVolume::join(const OpenSweep& open) const {

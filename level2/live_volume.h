@@ -97,6 +97,7 @@ class LiveVolume {
         bool closed = false;
     };
 
+    class Grouper;
     [[nodiscard]] Result<Chunk> read_chunk(std::span<const std::byte> bytes) const;
     [[nodiscard]] std::vector<OpenSweep> sweeps_by_piece() const;
     [[nodiscard]] Sweep join(const OpenSweep& sweep) const;

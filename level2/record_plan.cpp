@@ -27,11 +27,6 @@ std::optional<Vcp> pattern_in(const LdmPart& part) {
     return fragment.behind.patterns.front();
 }
 
-bool ends_sweep(const Radial& radial) {
-    const RadialStatus status = status_of(radial);
-    return status == RadialStatus::end_of_elevation || status == RadialStatus::end_of_volume;
-}
-
 }  // namespace
 
 std::optional<RecordPlan> RecordPlan::make(std::span<const std::byte> bytes,

@@ -243,10 +243,8 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
         end_sweep();
     }
     Sweep& from = piece.sweep;
-    const RadialStatus last = status_of(from.radials.back());
-    const bool ended_volume = last == RadialStatus::end_of_volume;
-    previous_ = Previous{from.elevation_number, from.message_type,
-                         ended_volume || last == RadialStatus::end_of_elevation, ended_volume};
+    previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(from.radials.back()),
+                         status_of(from.radials.back()) == RadialStatus::end_of_volume};
     if (piece.left_out) {
         if (begins) ++report_.sweeps_left_out;
         return true;

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "level2/fragment_builder.h"
+
 namespace stormcellar::level2 {
 namespace {
 
@@ -32,11 +34,6 @@ void check_time(const Volume& volume, ReportWriter& report) {
 // Sweeps that lack radials are named one by one as far as a person reads on.
 constexpr int most_named_sweeps = 8;
 
-bool ends_marked(const Sweep& sweep) {
-    const RadialStatus last = status_of(sweep.radials.back());
-    return last == RadialStatus::end_of_elevation || last == RadialStatus::end_of_volume;
-}
-
 // Sweeps whose last radials are lost, but for the last sweep, which has a problem of its own.
 // A cut that begins again was given up by the radar.
 bool check_ends(const Volume& volume, ReportWriter& report) {
@@ -44,7 +41,7 @@ bool check_ends(const Volume& volume, ReportWriter& report) {
     for (std::size_t i = 0; i + 1 < volume.sweeps.size(); ++i) {
         const bool begins_again =
             volume.sweeps[i].elevation_number == volume.sweeps[i + 1].elevation_number;
-        if (!begins_again && !ends_marked(volume.sweeps[i])) open.push_back(i);
+        if (!begins_again && !ends_sweep(volume.sweeps[i].radials.back())) open.push_back(i);
     }
     if (open.empty()) return false;
     const std::size_t named = std::min<std::size_t>(open.size(), most_named_sweeps);
