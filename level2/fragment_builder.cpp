@@ -119,7 +119,7 @@ FragmentBuilder::Added FragmentBuilder::add(const RadialMessage& message) {
 Fragment FragmentBuilder::take() {
     Fragment fragment = std::exchange(fragment_, {});
     fragment.behind = std::exchange(marks_, {});
-    taken_bytes_ = 0;
+    fragment.array_bytes = std::exchange(taken_bytes_, 0);
     return fragment;
 }
 

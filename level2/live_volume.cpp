@@ -65,6 +65,8 @@ Result<LiveVolume::Chunk> LiveVolume::read_chunk(std::span<const std::byte> byte
         if (fragment.failure != Fragment::Failure::none) {
             return fail(ErrorCode::unsupported, "the chunk takes more memory than it may");
         }
+        chunk.output_bytes += fragment.output_bytes;
+        chunk.array_bytes += fragment.array_bytes;
         anything = anything || holds_messages(fragment.report);
         is_cut = is_cut || fragment.cut;
         for (const Fragment::Piece& piece : fragment.pieces) {
@@ -80,6 +82,18 @@ Result<LiveVolume::Chunk> LiveVolume::read_chunk(std::span<const std::byte> byte
     chunk.bytes = bytes.size();
     chunk.checksum = xxh3_64(bytes);
     return chunk;
+}
+
+// Beside all others, instead of the one that has its number now.
+bool LiveVolume::has_room_for(const Chunk& chunk, int number) const {
+    std::uint64_t output_bytes = chunk.output_bytes;
+    std::uint64_t array_bytes = chunk.array_bytes;
+    for (const auto& [other_number, other] : chunks_) {
+        if (other_number == number) continue;
+        output_bytes += other.output_bytes;
+        array_bytes += other.array_bytes;
+    }
+    return std::max(output_bytes, array_bytes) <= options_.decode.output_limit_bytes;
 }
 
 Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
@@ -101,6 +115,10 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
         }
         const auto worth = [](const Chunk& c) { return std::tie(c.radials, c.bytes, c.checksum); };
         if (worth(chunk) < worth(old)) return Added::worse;
+    }
+    if (!has_room_for(chunk, number)) {
+        return fail(ErrorCode::unsupported, "the chunks take more than the limit of {} bytes",
+                    options_.decode.output_limit_bytes);
     }
     last_arrival_ = now;
     chunk.serial = next_serial_++;
@@ -257,19 +275,6 @@ Result<Decoded> LiveVolume::finish() {
     chunks_.clear();
     handed_out_.clear();
     return builder.finish(options.fallback_station);
-}
-
-Result<Decoded> decode_chunks(std::span<const std::vector<std::byte>> chunks,
-                              const DecodeOptions& options) {
-    LiveOptions live;
-    live.decode = options;
-    LiveVolume volume{live};
-    int number = 0;
-    for (const auto& chunk : chunks) {
-        const auto added = volume.add(++number, ChunkKind::intermediate, chunk, {});
-        if (!added && added.error().code == ErrorCode::unsupported) return pass_on(added);
-    }
-    return volume.finish();
 }
 
 }  // namespace stormcellar::level2

@@ -8,6 +8,8 @@
 // does not depend on the order either. A start chunk of another volume shows that the radar has
 // begun again: it is refused, and what there is can be finished.
 // After a restart of the program the chunks that lie there are added again.
+// Memory: the arrays of all chunks together, and their decompressed bytes, stay under the decoder's
+// output limit; a chunk that would go beyond is refused.
 // Thread contract: one thread at a time.
 #pragma once
 
@@ -84,6 +86,8 @@ class LiveVolume {
         bool ended_volume = false;           // a radial says so
         std::size_t radials = 0;
         std::size_t bytes = 0;
+        std::uint64_t output_bytes = 0;
+        std::uint64_t array_bytes = 0;
         std::uint64_t checksum = 0;
         ChunkKind kind = ChunkKind::intermediate;
         std::uint64_t serial = 0;  // of its arrival
@@ -99,6 +103,7 @@ class LiveVolume {
 
     class Grouper;
     [[nodiscard]] Result<Chunk> read_chunk(std::span<const std::byte> bytes) const;
+    [[nodiscard]] bool has_room_for(const Chunk& chunk, int number) const;
     [[nodiscard]] std::vector<OpenSweep> sweeps_by_piece() const;
     [[nodiscard]] Sweep join(const OpenSweep& sweep) const;
 
@@ -108,9 +113,5 @@ class LiveVolume {
     Clock::time_point last_arrival_;
     std::set<std::vector<PieceId>> handed_out_;
 };
-
-// The chunks as one volume, in the order given, which is that of their numbers.
-[[nodiscard]] Result<Decoded> decode_chunks(std::span<const std::vector<std::byte>> chunks,
-                                            const DecodeOptions& options = {});
 
 }  // namespace stormcellar::level2

@@ -271,6 +271,25 @@ TEST(LiveVolume, WhatIsNoChunkIsRefusedAndChangesNothing) {
     EXPECT_EQ(volume.finish().error().code, ErrorCode::empty);
 }
 
+TEST(LiveVolume, BeyondTheLimitAChunkIsRefused) {
+    LiveOptions options;
+    options.decode.output_limit_bytes = 10'000;
+    LiveVolume volume{options};
+    const auto chunks = simple_chunks(5);
+    int taken = 0;
+    for (const ChunkFile& chunk : chunks) {
+        const auto added = add(volume, chunk);
+        if (added) {
+            ++taken;
+        } else {
+            EXPECT_EQ(added.error().code, ErrorCode::unsupported);
+        }
+    }
+    EXPECT_GT(taken, 1);
+    EXPECT_LT(taken, static_cast<int>(chunks.size()));
+    EXPECT_TRUE(volume.finish()) << "what was taken can be had";
+}
+
 TEST(LiveVolume, FactsAreKnownFromTheFirstChunksOn) {
     const auto chunks = simple_chunks(1);
     LiveVolume volume;
