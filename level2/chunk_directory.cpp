@@ -54,7 +54,7 @@ Result<Found> find_chunks(const fs::path& directory) {
 std::string station_of(const fs::path& directory) {
     const fs::path path = directory.lexically_normal();
     for (const fs::path& part : {path.filename(), path.parent_path().filename()}) {
-        const std::string name = part.string().substr(0, 4);
+        std::string name = part.string().substr(0, 4);
         if (find_station(name)) return name;
     }
     return {};
