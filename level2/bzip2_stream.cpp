@@ -172,7 +172,9 @@ BzipResult bunzip(std::span<const std::byte> stream, std::vector<std::byte>& buf
     if (buffer.empty()) buffer.resize(std::min(limit, first_buffer_bytes));
     std::size_t made = 0;
     for (;;) {
-        made += reader.read(std::span{buffer}.subspan(made));
+        // The buffer may be larger than the limit, from an earlier stream.
+        const std::size_t room = std::min(buffer.size(), limit);
+        made += reader.read(std::span{buffer}.first(room).subspan(made));
         if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
         if (made >= limit) return {BzipStatus::too_large, made, reader.input_bytes()};
         if (made == buffer.size()) buffer.resize(std::min(limit, 2 * buffer.size()));

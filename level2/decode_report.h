@@ -40,6 +40,7 @@ struct DecodeReport {
     std::vector<Problem> problems;    // the first max_problems
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
+    std::uint64_t errors = 0;  // problems of that severity, listed or not
     // Where a message was first due and none was, as in the golden files; none for an undamaged
     // stream. What was dropped for it may begin earlier: a problem has that.
     struct Corruption {

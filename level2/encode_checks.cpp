@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/station_table.h"
+
 namespace stormcellar::level2 {
 namespace {
 
@@ -137,8 +139,8 @@ Status check_encodable(const Volume& volume) {
     }
     const auto is_31 = [](const Sweep& sweep) { return sweep.message_type == 31; };
     if (std::any_of(volume.sweeps.begin(), volume.sweeps.end(), is_31)) {
-        if (volume.station.size() != 4) {
-            return refuse("the station '{}' is not four characters", volume.station);
+        if (!is_icao(volume.station)) {
+            return refuse("the station '{}' is no ICAO identifier", volume.station);
         }
         if (!volume.block) return refuse("no position: the volume data block is missing");
     }

@@ -7,6 +7,11 @@
 #include "level2/sweep_rows.h"
 
 namespace stormcellar::level2 {
+namespace {
+
+constexpr std::size_t most_rows = 720;  // to make room for
+
+}  // namespace
 
 bool begins_sweep(const Radial& radial) {
     const RadialStatus status = status_of(radial);
@@ -35,7 +40,8 @@ bool FragmentBuilder::begins_piece(const RadialMessage& message) const {
 void FragmentBuilder::begin_piece(const RadialMessage& message) {
     // Whole sweeps one behind the other: make room for the next at once.
     if (!fragment_.pieces.empty()) {
-        expected_rows_ = std::max(expected_rows_, fragment_.pieces.back().sweep.radials.size());
+        const std::size_t newest = fragment_.pieces.back().sweep.radials.size();
+        expected_rows_ = std::clamp(newest, expected_rows_, std::max(expected_rows_, most_rows));
     }
     Fragment::Piece& piece = fragment_.pieces.emplace_back();
     piece.before = std::exchange(marks_, {});
@@ -44,7 +50,6 @@ void FragmentBuilder::begin_piece(const RadialMessage& message) {
     piece.sweep.elevation_number = message.elevation_number;
     piece.sweep.message_type = message.message_type;
     piece.sweep.azimuth_spacing_deg = message.azimuth_spacing_deg;
-    if (!piece.left_out) piece.sweep.radials.reserve(expected_rows_);
 }
 
 void FragmentBuilder::note_volume_facts(const RadialMessage& message) {
@@ -61,11 +66,8 @@ bool FragmentBuilder::add_moment(Sweep& sweep, const MomentBlock& block) {
     const auto same = [&](const SweepMoment& moment) { return rows::same_kind(moment, block); };
     auto moment = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
     if (moment == sweep.moments.end()) {
-        // Room is made for the first kind of a moment: another one is rare and most often short.
-        const bool first = sweep.find(block.moment) == nullptr;
         sweep.moments.push_back(rows::empty_like(block));
         moment = sweep.moments.end() - 1;
-        if (first) rows::reserve(*moment, expected_rows_);
         if (!take_room(count * rows::bytes_per_row(*moment))) return false;
     }
     if (block.gates > moment->gate_stride) {
@@ -91,6 +93,12 @@ bool FragmentBuilder::has_too_many_kinds(const Sweep& sweep, const RadialMessage
     return false;
 }
 
+void FragmentBuilder::make_room(Sweep& sweep) const {
+    sweep.radials.reserve(expected_rows_);
+    for (SweepMoment& moment : sweep.moments)
+        rows::reserve(moment, expected_rows_);
+}
+
 FragmentBuilder::Added FragmentBuilder::add_rows(Sweep& sweep, const RadialMessage& message) {
     sweep.radials.push_back(message.radial);
     for (const MomentBlock& block : message.moments()) {
@@ -110,7 +118,11 @@ FragmentBuilder::Added FragmentBuilder::add(const RadialMessage& message) {
     if (begins) begin_piece(message);
     note_volume_facts(message);
     Fragment::Piece& piece = fragment_.pieces.back();
-    if (!piece.left_out) return add_rows(piece.sweep, message);
+    if (!piece.left_out) {
+        // Room is made with the second radial: a piece of one stays small.
+        if (piece.sweep.radials.size() == 1) make_room(piece.sweep);
+        return add_rows(piece.sweep, message);
+    }
     if (piece.sweep.radials.size() == 2) piece.sweep.radials.pop_back();
     piece.sweep.radials.push_back(message.radial);
     return Added::added;

@@ -46,6 +46,7 @@ class FragmentBuilder {
     [[nodiscard]] bool begins_piece(const RadialMessage& message) const;
     void begin_piece(const RadialMessage& message);
     void note_volume_facts(const RadialMessage& message);
+    void make_room(Sweep& sweep) const;
     [[nodiscard]] Added add_rows(Sweep& sweep, const RadialMessage& message);
     [[nodiscard]] bool add_moment(Sweep& sweep, const MomentBlock& block);
     [[nodiscard]] bool has_too_many_kinds(const Sweep& sweep, const RadialMessage& message) const;

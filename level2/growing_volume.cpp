@@ -123,6 +123,7 @@ Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
 
 std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     std::vector<LiveSweep> closed;
+    if (!failed_) return closed;  // what there is may be half done
     const std::size_t count = volume_.close_sweeps();
     handed_out_.resize(std::max(count, handed_out_.size()), 0);
     for (std::size_t i = 0; i < count; ++i) {

@@ -72,6 +72,20 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
     return part;
 }
 
+// A stream before which bytes of the control word are lost.
+std::optional<LdmPart> LdmStreamFramer::record_without_length(std::span<const std::byte> rest,
+                                                              std::size_t stream, bool last) {
+    const auto next = find_bzip2(rest, stream + bzip2_mark_bytes + control_word_bytes);
+    if (!next && !last) return std::nullopt;
+    LdmPart part;
+    part.position = at_;
+    part.bad_length = true;
+    const std::size_t end = next ? *next - control_word_bytes : rest.size();
+    part.bytes = rest.subspan(stream, end - stream);
+    end_part(end);
+    return part;
+}
+
 std::optional<LdmPart> LdmStreamFramer::next(std::span<const std::byte> rest, bool last) {
     if (rest.empty() || (rest.size() < archive_header_bytes && !last && !is_ldm_record(rest))) {
         return std::nullopt;
@@ -85,8 +99,9 @@ std::optional<LdmPart> LdmStreamFramer::next(std::span<const std::byte> rest, bo
         return part;
     }
     if (is_ldm_record(rest)) return record(rest, last);
-    const auto stream = find_stream(rest, control_word_bytes + 1);
+    const auto stream = find_stream(rest, 0);
     if (!stream && !last) return std::nullopt;
+    if (stream && *stream < control_word_bytes) return record_without_length(rest, *stream, last);
     part.bytes = stream ? rest.first(*stream - control_word_bytes) : rest;
     part.kind = all_zero(part.bytes) ? LdmPart::Kind::padding : LdmPart::Kind::garbage;
     end_part(part.bytes.size());

@@ -41,6 +41,8 @@ class LdmStreamFramer {
 
   private:
     [[nodiscard]] std::optional<LdmPart> record(std::span<const std::byte> rest, bool last);
+    [[nodiscard]] std::optional<LdmPart> record_without_length(std::span<const std::byte> rest,
+                                                               std::size_t stream, bool last);
     [[nodiscard]] std::optional<std::size_t> find_stream(std::span<const std::byte> rest,
                                                          std::size_t from);
     void end_part(std::size_t bytes);

@@ -14,6 +14,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t rows_of_a_chunk = 120;
+constexpr int largest_number = 999;  // names have three digits
 
 Fragment read_messages(std::span<const std::byte> bytes, const DecodeOptions& options) {
     FragmentBuilder builder{options.output_limit_bytes, rows_of_a_chunk, options.selection};
@@ -98,7 +99,10 @@ bool LiveVolume::has_room_for(const Chunk& chunk, int number) const {
 
 Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
                                           std::span<const std::byte> bytes, Clock::time_point now) {
-    if (number < 1) return fail(ErrorCode::bad_argument, "chunks are numbered from 1");
+    if (number < 1 || number > largest_number) {
+        return fail(ErrorCode::bad_argument, "chunks are numbered from 1 to {}, not {}",
+                    largest_number, number);
+    }
     Result<Chunk> read = read_chunk(bytes);
     if (!read) return pass_on(read);
     Chunk& chunk = *read;
@@ -240,6 +244,7 @@ std::vector<LiveSweep> LiveVolume::take_sweeps() {
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
         if (!sweeps[i].closed || !handed_out_.insert(sweeps[i].ids).second) continue;
         Sweep sweep = join(sweeps[i]);
+        if (sweep.radials.empty()) continue;  // joined they exceed the limit
         const bool whole = level2::is_whole(sweep);
         changed.push_back({std::move(sweep), i, whole});
     }
@@ -249,11 +254,13 @@ std::vector<LiveSweep> LiveVolume::take_sweeps() {
 Result<Decoded> LiveVolume::finish() {
     VolumeBuilder builder{options_.decode.output_limit_bytes};
     if (chunks_.empty()) return fail(ErrorCode::empty, "no chunk has come");
+    std::map<int, Chunk> chunks = std::exchange(chunks_, {});
+    handed_out_.clear();
     const DecodeOptions& options = options_.decode;
     PartDecoder decoder{options.output_limit_bytes, options.selection};
     DecodeReport& report = builder.report_data();
     bool first = true;
-    for (auto& [number, chunk] : chunks_) {
+    for (auto& [number, chunk] : chunks) {
         if (first) {
             report.container = chunk.has_records ? "ldm-bzip2" : "uncompressed";
             if (chunk.header) {
@@ -272,8 +279,6 @@ Result<Decoded> LiveVolume::finish() {
         }
         chunk.fragments.clear();
     }
-    chunks_.clear();
-    handed_out_.clear();
     return builder.finish(options.fallback_station);
 }
 

@@ -1,6 +1,7 @@
 #include "level2/record_queue.h"
 
 #include <algorithm>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -17,12 +18,14 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
         const std::lock_guard lock{mutex_};
         fill();
     }
-    for (int i = 1; i < threads; ++i) {
-        try {
+    try {
+        workers_.reserve(slots_.size());
+        for (int i = 1; i < threads; ++i)
             workers_.emplace_back(&RecordQueue::run, this);
-        } catch (const std::system_error&) {
-            break;  // the system has no more threads: those there are do the work
-        }
+    } catch (const std::system_error&) {
+        // The system has no more threads: those there are do the work.
+    } catch (const std::bad_alloc&) {
+        // The same.
     }
 }
 

@@ -32,6 +32,7 @@ std::string Problem::text() const {
 }
 
 void ReportWriter::add(Problem problem) {
+    if (problem.severity == Severity::error) ++report_.errors;
     std::vector<Problem>& problems = report_.problems;
     if (problems.size() >= DecodeReport::max_problems) {
         ++report_.problems_left_out;
@@ -59,11 +60,13 @@ void ReportWriter::damage(std::string_view code, std::string reason, std::uint64
 
 void ReportWriter::append(DecodeReport next) {
     const std::uint64_t offset = report_.message_bytes;
+    const std::uint64_t errors = report_.errors + next.errors;
     for (Problem& problem : next.problems) {
         if (problem.offset) *problem.offset += offset;
         if (problem.ldm_record) *problem.ldm_record += report_.ldm_records.value_or(0);
         add(std::move(problem));
     }
+    report_.errors = errors;
     report_.problems_left_out += next.problems_left_out;
     if (!report_.corruption && next.corruption) {
         report_.corruption = {next.corruption->offset + offset, std::move(next.corruption->reason)};

@@ -226,11 +226,14 @@ bool VolumeBuilder::append_moment(Sweep& sweep, std::size_t radials_before,
 
 bool VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
+    const std::uint64_t own_bytes = rows::bytes_per_row(from);
+    if (!take_room(from.radials.size() * (sizeof(Radial) + own_bytes))) return false;
     sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());
     for (const SweepMoment& moment : from.moments) {
         if (!append_moment(sweep, before, moment)) return false;
     }
-    return take_room(from.radials.size() * (sizeof(Radial) + rows::bytes_per_row(sweep)));
+    // The kinds that these radials lack get rows all the same.
+    return take_room(from.radials.size() * (rows::bytes_per_row(sweep) - own_bytes));
 }
 
 bool VolumeBuilder::append_piece(Fragment::Piece piece) {
@@ -342,6 +345,7 @@ Status VolumeBuilder::append(Fragment fragment) {
 }
 
 Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
+    const bool last_is_newest = sweep_is_open_;
     end_sweep();
     const auto& counts = report_.message_counts;
     const bool anything = std::any_of(counts.begin(), counts.end(),
@@ -354,10 +358,11 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     volume_.station = station(fallback_station);
     const bool ended = volume_has_ended();
     const bool all_cuts = report_.sweeps_left_out == 0 && report_.records_skipped == 0;
-    const VolumeFacts facts{previous_.has_value(), ended, all_cuts, report_.further_volume_starts,
-                            report_.rda_status};
+    const VolumeFacts facts{
+        previous_.has_value(), ended, all_cuts, last_is_newest, report_.further_volume_starts,
+        report_.rda_status};
     const bool gaps = check_volume(volume_, facts, report());
-    report_.complete = ended && !gaps && report_.bytes_dropped == 0;
+    report_.complete = ended && !gaps && report_.bytes_dropped == 0 && report_.errors == 0;
     report().finish();
     return Decoded{std::move(volume_), std::move(report_)};
 }

@@ -36,11 +36,13 @@ constexpr int most_named_sweeps = 8;
 
 // Sweeps whose last radials are lost, but for the last sweep, which has a problem of its own.
 // A cut that begins again was given up by the radar.
-bool check_ends(const Volume& volume, ReportWriter& report) {
+bool check_ends(const Volume& volume, bool last_is_newest, ReportWriter& report) {
     std::vector<std::size_t> open;
-    for (std::size_t i = 0; i + 1 < volume.sweeps.size(); ++i) {
+    for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
+        const bool is_last = i + 1 == volume.sweeps.size();
+        if (is_last && last_is_newest) break;
         const bool begins_again =
-            volume.sweeps[i].elevation_number == volume.sweeps[i + 1].elevation_number;
+            !is_last && volume.sweeps[i].elevation_number == volume.sweeps[i + 1].elevation_number;
         if (!begins_again && !ends_sweep(volume.sweeps[i].radials.back())) open.push_back(i);
     }
     if (open.empty()) return false;
@@ -54,10 +56,11 @@ bool check_ends(const Volume& volume, ReportWriter& report) {
 }
 
 // How many radials are missing.
-int check_missing(const Volume& volume, const std::vector<RadialGaps>& gaps, ReportWriter& report) {
-    int missing = 0;
+std::int64_t check_missing(const Volume& volume, const std::vector<RadialGaps>& gaps,
+                           ReportWriter& report) {
+    std::int64_t missing = 0;
     int sweeps = 0;
-    int missing_elsewhere = 0;
+    std::int64_t missing_elsewhere = 0;
     for (std::size_t i = 0; i < gaps.size(); ++i) {
         if (gaps[i].missing == 0) continue;
         missing += gaps[i].missing;
@@ -103,18 +106,18 @@ bool check_cuts(const Volume& volume, const std::vector<std::size_t>& volume_sta
     return missing;
 }
 
-bool check_radials(const Volume& volume, ReportWriter& report) {
+bool check_radials(const Volume& volume, bool last_is_newest, ReportWriter& report) {
     std::vector<RadialGaps> gaps;
     for (const Sweep& sweep : volume.sweeps)
         gaps.push_back(gaps_of(sweep));
-    const int missing = check_missing(volume, gaps, report);
+    const std::int64_t missing = check_missing(volume, gaps, report);
     for (std::size_t i = 0; i < gaps.size(); ++i) {
         if (gaps[i].repeated == 0) continue;
         report.add(Severity::warning, "repeated_radials",
                    fmt::format("the radials' numbers go back inside sweep {} (elevation number {})",
                                i, volume.sweeps[i].elevation_number));
     }
-    const bool ends_missing = check_ends(volume, report);
+    const bool ends_missing = check_ends(volume, last_is_newest, report);
     return missing > 0 || ends_missing;
 }
 
@@ -138,7 +141,7 @@ RadialGaps gaps_of(const Sweep& sweep) {
 }
 
 bool check_volume(const Volume& volume, const VolumeFacts& facts, ReportWriter report) {
-    const bool missing_radials = check_radials(volume, report);
+    const bool missing_radials = check_radials(volume, facts.last_sweep_is_newest, report);
     // Where only some cuts were asked for, others are bound to be missing.
     const bool missing_cuts = facts.all_cuts && check_cuts(volume, facts.volume_starts, report);
     const bool missing = missing_radials || missing_cuts;
@@ -162,7 +165,8 @@ bool check_volume(const Volume& volume, const VolumeFacts& facts, ReportWriter r
 bool is_complete(const Volume& volume) {
     DecodeReport unused;
     ReportWriter report{unused};
-    return has_ended(volume) && !check_radials(volume, report) && !check_cuts(volume, {}, report);
+    return has_ended(volume) && !check_radials(volume, true, report) &&
+           !check_cuts(volume, {}, report);
 }
 
 }  // namespace stormcellar::level2

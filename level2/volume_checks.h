@@ -1,6 +1,7 @@
 // level2/volume_checks.h -- what a whole volume lacks, and where it contradicts itself.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct VolumeFacts {
     bool has_radials = true;  // also when they are of cuts that were not asked for
     bool has_ended = true;    // the last radial was marked as the volume's last
     bool all_cuts = true;     // none was left out because it was not asked for
+    // No radial came after the last sweep, not even one that was not asked for.
+    bool last_sweep_is_newest = true;
     std::vector<std::size_t> volume_starts = {};  // sweeps at which a further volume begins
     std::optional<RdaStatus> status = {};
 };
@@ -32,9 +35,9 @@ struct VolumeFacts {
 
 // Radials of a sweep are numbered from 1; 0 stands for no number.
 struct RadialGaps {
-    int missing = 0;
+    std::int64_t missing = 0;
     int first_missing = 0;
-    int repeated = 0;
+    std::int64_t repeated = 0;
 };
 [[nodiscard]] RadialGaps gaps_of(const Sweep& sweep);
 

@@ -145,5 +145,14 @@ TEST(FindBzip2, FindsStreamsOnly) {
     EXPECT_EQ(find_bzip2(all, 14), std::nullopt);
 }
 
+// The buffer is larger than the limit where an earlier stream needed it.
+TEST(Bunzip, TheLimitHoldsWhateverTheBufferHas) {
+    const wire::Bytes packed = wire::bzip2(wire::Bytes(100'000));
+    std::vector<std::byte> buffer(200'000);
+    const BzipResult result = bunzip(packed, buffer, 50'000);
+    EXPECT_EQ(result.status, BzipStatus::too_large);
+    EXPECT_EQ(result.output_bytes, 50'000U);
+}
+
 }  // namespace
 }  // namespace stormcellar::level2

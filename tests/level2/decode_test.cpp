@@ -156,6 +156,7 @@ TEST(Decode, ABadGzipChecksumIsReportedAndLosesNothing) {
     ASSERT_TRUE(decoded);
     EXPECT_EQ(decoded->volume.radial_count(), 9);
     EXPECT_EQ(decoded->report.problems.at(0).code, "gzip_checksum");
+    EXPECT_FALSE(decoded->report.complete) << "no volume with an error is";
 }
 
 TEST(DecodeFile, ErrorsNameTheFile) {

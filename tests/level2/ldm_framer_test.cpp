@@ -94,5 +94,19 @@ TEST(LdmFramer, GarbageBetweenRecordsIsSteppedOver) {
                 parts[0].bytes.size() == one.size() - 4 + garbage.size());
 }
 
+TEST(LdmFramer, AControlWordThatLostBytesCostsNothing) {
+    for (std::ptrdiff_t lost = 1; lost <= 4; ++lost) {
+        wire::Bytes bytes = wire::join({one, one, one});
+        const auto second = bytes.begin() + static_cast<std::ptrdiff_t>(one.size());
+        bytes.erase(second, second + lost);
+        const auto parts = parts_of(bytes);
+        ASSERT_EQ(parts.size(), 3U) << lost;
+        EXPECT_TRUE(parts[1].bad_length) << lost;
+        EXPECT_TRUE(std::equal(parts[1].bytes.begin(), parts[1].bytes.end(), one.begin() + 4))
+            << lost;
+        EXPECT_FALSE(parts[2].bad_length) << lost;
+    }
+}
+
 }  // namespace
 }  // namespace stormcellar::level2

@@ -290,6 +290,16 @@ TEST(LiveVolume, BeyondTheLimitAChunkIsRefused) {
     EXPECT_TRUE(volume.finish()) << "what was taken can be had";
 }
 
+TEST(LiveVolume, NumbersHaveThreeDigits) {
+    LiveVolume volume;
+    const Bytes bytes = simple_chunks(1)[1].bytes;
+    for (const int number : {-1, 0, 1000, 200'000'000}) {
+        const auto added = volume.add(number, ChunkKind::intermediate, bytes, {});
+        ASSERT_FALSE(added) << number;
+        EXPECT_EQ(added.error().code, ErrorCode::bad_argument);
+    }
+}
+
 TEST(LiveVolume, FactsAreKnownFromTheFirstChunksOn) {
     const auto chunks = simple_chunks(1);
     LiveVolume volume;

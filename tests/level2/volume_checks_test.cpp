@@ -49,6 +49,15 @@ TEST(VolumeChecks, LostRadialsAreCountedAndTheFirstIsNamed) {
                                     "on"});
 }
 
+TEST(VolumeChecks, MissingRadialsAreCountedBeyond32Bits) {
+    std::vector<int> numbers;
+    for (int i = 0; i < 80'000; ++i)
+        numbers.push_back(i % 2 == 0 ? 65'535 : 1);
+    const Outcome outcome = check(volume_of({numbers}), "missing_radials");
+    EXPECT_TRUE(outcome.missing);
+    EXPECT_EQ(outcome.messages.at(0).find('-'), std::string::npos) << outcome.messages.at(0);
+}
+
 TEST(VolumeChecks, RadialsWithoutANumberAreNotMissed) {
     EXPECT_FALSE(check(volume_of({{0, 0, 0}}), "missing_radials").missing);
 }
