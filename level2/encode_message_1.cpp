@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t legacy_channel = 0;
 constexpr std::size_t data_at = 100;  // behind the header: the first gate
-constexpr std::size_t body_bytes = frame_bytes - 28;
+constexpr std::size_t body_bytes = frame_bytes - message_header_bytes;
 constexpr double code_per_degree = 32768.0 / 180.0;
 
 std::uint16_t angle_code(float angle_deg) {

@@ -8,7 +8,6 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t communications_header_bytes = 12;
-constexpr std::size_t message_header_bytes = 16;
 constexpr std::size_t frame_body_bytes = 2400;  // 1,208 halfwords with the header
 constexpr std::uint8_t orda_channel = 8;        // single channel, open RDA
 // Stands for a number that the radar does not know, inside a block that it does send.

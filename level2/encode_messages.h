@@ -10,11 +10,11 @@
 
 #include "base/result.h"
 #include "level2/byte_writer.h"
+#include "level2/message_header.h"
 #include "level2/volume.h"
 
 namespace stormcellar::level2 {
 
-inline constexpr std::size_t frame_bytes = 2432;
 // The metadata record of a volume always holds this many frames, most of them empty.
 inline constexpr std::size_t metadata_frames = 134;
 

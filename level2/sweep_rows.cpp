@@ -38,42 +38,21 @@ std::uint16_t native_from_big_endian(std::uint16_t number) {
     return static_cast<std::uint16_t>((number >> 8) | (number << 8));
 }
 
-}  // namespace
-
-bool same_kind(const SweepMoment& moment, const MomentBlock& block) {
-    return moment.moment == block.moment && moment.first_gate_m == block.first_gate_m &&
-           moment.gate_spacing_m == block.gate_spacing_m &&
-           moment.word_size_bits == block.word_size_bits && moment.scale == block.scale &&
-           moment.offset == block.offset;
-}
-
-bool same_kind(const SweepMoment& a, const SweepMoment& b) {
+// A block and a moment describe their gates by the same names.
+template <class Described>
+bool is_same_kind(const SweepMoment& a, const Described& b) {
     return a.moment == b.moment && a.first_gate_m == b.first_gate_m &&
            a.gate_spacing_m == b.gate_spacing_m && a.word_size_bits == b.word_size_bits &&
            a.scale == b.scale && a.offset == b.offset;
 }
 
-SweepMoment empty_like(const MomentBlock& block) {
-    SweepMoment moment;
-    moment.moment = block.moment;
-    moment.first_gate_m = block.first_gate_m;
-    moment.gate_spacing_m = block.gate_spacing_m;
-    moment.gate_stride = block.gates;
-    moment.word_size_bits = block.word_size_bits;
-    moment.scale = block.scale;
-    moment.offset = block.offset;
-    moment.control_flags = block.control_flags;
-    moment.snr_threshold_db = block.snr_threshold_db;
-    moment.folding_threshold_db = block.folding_threshold_db;
-    return moment;
-}
-
-SweepMoment empty_like(const SweepMoment& from) {
+template <class Described>
+SweepMoment described_by(const Described& from, std::int32_t stride) {
     SweepMoment moment;
     moment.moment = from.moment;
     moment.first_gate_m = from.first_gate_m;
     moment.gate_spacing_m = from.gate_spacing_m;
-    moment.gate_stride = from.gate_stride;
+    moment.gate_stride = stride;
     moment.word_size_bits = from.word_size_bits;
     moment.scale = from.scale;
     moment.offset = from.offset;
@@ -81,6 +60,24 @@ SweepMoment empty_like(const SweepMoment& from) {
     moment.snr_threshold_db = from.snr_threshold_db;
     moment.folding_threshold_db = from.folding_threshold_db;
     return moment;
+}
+
+}  // namespace
+
+bool same_kind(const SweepMoment& moment, const MomentBlock& block) {
+    return is_same_kind(moment, block);
+}
+
+bool same_kind(const SweepMoment& a, const SweepMoment& b) {
+    return is_same_kind(a, b);
+}
+
+SweepMoment empty_like(const MomentBlock& block) {
+    return described_by(block, block.gates);
+}
+
+SweepMoment empty_like(const SweepMoment& moment) {
+    return described_by(moment, moment.gate_stride);
 }
 
 std::uint64_t bytes_per_code(const SweepMoment& moment) {
