@@ -11,7 +11,6 @@
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "level2/live_volume.h"
-#include "level2/report_writer.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -19,9 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Found {
-    std::map<int, std::pair<ChunkName, fs::path>> chunks;
+    // By number; where a number comes twice, LiveVolume takes the better one.
+    std::multimap<int, std::pair<ChunkName, fs::path>> chunks;
     std::set<std::string> volumes;
 };
+
+// A file that its sender has not finished.
+bool is_temporary(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with('.') || name.ends_with(".part") || name.ends_with(".tmp") ||
+           name.ends_with('~');
+}
 
 Result<Found> find_chunks(const fs::path& directory) {
     std::error_code error;
@@ -33,12 +40,14 @@ Result<Found> find_chunks(const fs::path& directory) {
     }
     Found found;
     for (; entry != fs::directory_iterator{}; entry.increment(error)) {
-        if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
+        std::error_code ignored;
         const auto name = parse_chunk_name(entry->path().filename().string());
-        if (!name || !entry->is_regular_file(error)) continue;
+        if (!name || is_temporary(entry->path()) || !entry->is_regular_file(ignored)) continue;
         found.volumes.insert(name->volume);
-        found.chunks.try_emplace(name->number, *name, entry->path());
+        found.chunks.emplace(name->number, std::pair{*name, entry->path()});
     }
+    // An error ends the loop too.
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.string(), error.message());
     if (found.chunks.empty()) {
         return fail(ErrorCode::not_found,
                     "{}: holds no chunks (files named like 20220317-000842-001-S)",
@@ -69,33 +78,21 @@ Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOp
     live.decode = options;
     if (live.decode.fallback_station.empty()) live.decode.fallback_station = station_of(directory);
     LiveVolume volume{live};
-    std::vector<Problem> problems;
     for (const auto& [number, chunk] : found->chunks) {
         const auto& [name, path] = chunk;
         const auto bytes = read_file(path);
         if (!bytes) return pass_on(bytes);
         const auto added = volume.add(number, name.kind, *bytes, {});
-        if (added) continue;
-        problems.push_back({Severity::error, "bad_chunk",
-                            fmt::format("chunk {}: {}", to_string(name), added.error().message),
-                            std::nullopt, std::nullopt});
+        if (added == LiveVolume::Added::another_volume) {
+            return fail(ErrorCode::bad_argument, "{}: chunk {} is of another volume",
+                        directory.string(), to_string(name));
+        }
+        // One that is not taken is named by the volume's report.
     }
-    if (volume.is_empty()) {
-        return fail(ErrorCode::corrupt, "{}: {}", directory.string(), problems.front().message);
-    }
-    const std::vector<int> missing = volume.missing_numbers();
     auto decoded = volume.finish();
     if (!decoded) {
         return fail(decoded.error().code, "{}: {}", directory.string(), decoded.error().message);
     }
-    if (!missing.empty()) {
-        problems.push_back({Severity::warning, "missing_chunks",
-                            fmt::format("missing chunks: {}", fmt::join(missing, ", ")),
-                            std::nullopt, std::nullopt});
-    }
-    for (Problem& problem : problems)
-        ReportWriter{decoded->report}.add(std::move(problem));
-    decoded->report.complete = decoded->report.complete && problems.empty();
     return decoded;
 }
 

@@ -23,8 +23,6 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
-// Something compressed inside something compressed is held whole; no volume comes near this.
-constexpr std::size_t inner_limit_bytes = std::size_t{256} << 20;
 // Messages are read, and their radials handed on, so many bytes at a time.
 constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
 constexpr std::size_t rows_of_a_stretch = 128;
@@ -32,8 +30,9 @@ constexpr std::size_t rows_of_a_stretch = 128;
 // What comes out of a compressed layer: messages, read at once, or something to peel further, which
 // is held until it is whole.
 struct LayerOutput {
-    explicit LayerOutput(const DecodeOptions& options)
-        : builder(options.output_limit_bytes, rows_of_a_stretch, options.selection) {}
+    LayerOutput(std::uint64_t limit_bytes, const Selection& selection)
+        : room(limit_bytes), builder(room, rows_of_a_stretch, selection) {}
+    ArrayRoom room;
     FragmentBuilder builder;
     MessageReader reader{builder};
     MessageFeed feed{reader};
@@ -84,7 +83,9 @@ Status Decoder::flush(LayerOutput& output) {
         fragment.emplace();
     }
     if (full) fragment->failure = Fragment::Failure::too_large_arrays;
-    return builder_.append(std::move(*fragment));
+    Status taken = builder_.append(std::move(*fragment));
+    output.room.set_limit(builder_.arrays_left());
+    return taken;
 }
 
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
@@ -123,7 +124,7 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
 }
 
 Status Decoder::read_messages(std::span<const std::byte> bytes) {
-    LayerOutput output{options_};
+    LayerOutput output{builder_.arrays_left(), options_.selection};
     for (std::size_t at = 0; at < bytes.size(); at += stretch_bytes) {
         output.feed.append(bytes.subspan(at, std::min(stretch_bytes, bytes.size() - at)));
         if (Status flushed = flush(output); !flushed) return flushed;
@@ -145,10 +146,11 @@ Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piec
         output.feed.append(piece);
         return flush(output);
     }
-    if (output.inner.size() + piece.size() > inner_limit_bytes) {
+    if (output.inner.size() + piece.size() > most_packed_bytes) {
         return fail(ErrorCode::not_level2, "holds more than {} bytes that are not messages",
-                    inner_limit_bytes);
+                    most_packed_bytes);
     }
+    if (Status held = builder_.hold(piece.size()); !held) return held;
     output.inner.insert(output.inner.end(), piece.begin(), piece.end());
     return {};
 }
@@ -188,7 +190,7 @@ void Decoder::report_container(const LayerOutput& output, Severity severity, std
 
 Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
     GzipStream gzip{bytes};
-    LayerOutput output{options_};
+    LayerOutput output{builder_.arrays_left(), options_.selection};
     if (Status taken = take_all(gzip, output); !taken) return taken;
     report_gzip_end(gzip, output);
     return end_output(output, depth);
@@ -196,7 +198,7 @@ Status Decoder::read_gzip(std::span<const std::byte> bytes, int depth) {
 
 Status Decoder::read_compress(std::span<const std::byte> bytes, int depth) {
     CompressStream stream{bytes};
-    LayerOutput output{options_};
+    LayerOutput output{builder_.arrays_left(), options_.selection};
     if (Status taken = take_all(stream, output); !taken) return taken;
     if (stream.end() != CompressEnd::whole) {
         if (stream.end() == CompressEnd::truncated) builder_.set_cut();
@@ -234,7 +236,7 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
 
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     BzipBlocks blocks{bytes};
-    LayerOutput output{options_};
+    LayerOutput output{builder_.arrays_left(), options_.selection};
     for (;;) {
         const double begin_s = thread_cpu_s();
         const auto block = blocks.next(static_cast<std::size_t>(builder_.output_left()));
@@ -267,7 +269,7 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
 Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
                                  const std::function<bool(const Fragment&)>& check) {
     RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
-    while (auto fragment = queue.next()) {
+    while (auto fragment = queue.next(builder_.arrays_left())) {
         if (!check(*fragment)) return false;
         if (Status taken = builder_.append(std::move(*fragment)); !taken) return pass_on(taken);
     }
@@ -310,7 +312,7 @@ Result<Decoded> decode(std::span<const std::byte> bytes, const DecodeOptions& op
         Decoder decoder{options};
         return decoder.run(bytes);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::unsupported, "it takes more memory than there is");
+        return no_memory();
     }
 }
 

@@ -23,8 +23,12 @@
 
 namespace stormcellar::level2 {
 
+// What is compressed inside something compressed is held whole; no volume comes near this.
+inline constexpr std::size_t most_packed_bytes = std::size_t{64} << 20;
+
 struct DecodeOptions {
     int threads = 1;
+    // Of the decompressed messages, and again of all that is made of them.
     std::uint64_t output_limit_bytes = std::uint64_t{512} << 20;
     // Arrays are made only for these; a cut that is not asked for gives no sweep.
     Selection selection;

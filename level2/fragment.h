@@ -39,7 +39,7 @@ struct Fragment {
     // Offsets count from where the fragment begins, LDM records from 1.
     DecodeReport report;
     std::uint64_t output_bytes = 0;  // decompressed, whether messages or not
-    std::uint64_t array_bytes = 0;   // what radials and rows take
+    std::uint64_t array_bytes = 0;   // what radials, rows and patterns take, see ArrayRoom
     bool cut = false;                // the input ends too early
     enum class Failure : std::uint8_t { none, no_memory, too_much_output, too_large_arrays };
     Failure failure = Failure::none;  // the fragment is not whole, for want of room

@@ -24,14 +24,16 @@ bool ends_sweep(const Radial& radial) {
     return status == RadialStatus::end_of_elevation || status == RadialStatus::end_of_volume;
 }
 
-bool FragmentBuilder::take_room(std::uint64_t bytes) {
-    if (bytes > limit_bytes_ - taken_bytes_) return false;
-    taken_bytes_ += bytes;
+bool FragmentBuilder::add_pattern(Vcp vcp) {
+    if (!room_.add(bytes_of(vcp))) return false;
+    marks_.patterns.push_back(std::move(vcp));
     return true;
 }
 
-bool FragmentBuilder::begins_piece(const RadialMessage& message) const {
-    if (fragment_.pieces.empty() || marks_.header || begins_sweep(message.radial)) return true;
+// Whether the radial begins a sweep, whatever stood before the fragment.
+bool FragmentBuilder::begins_sweep_here(const RadialMessage& message) const {
+    if (fragment_.pieces.empty()) return false;
+    if (marks_.header || begins_sweep(message.radial)) return true;
     const Sweep& sweep = fragment_.pieces.back().sweep;
     return sweep.elevation_number != message.elevation_number ||
            sweep.message_type != message.message_type;
@@ -43,6 +45,7 @@ void FragmentBuilder::begin_piece(const RadialMessage& message) {
         const std::size_t newest = fragment_.pieces.back().sweep.radials.size();
         expected_rows_ = std::clamp(newest, expected_rows_, std::max(expected_rows_, most_rows));
     }
+    room_.begin_sweep();
     Fragment::Piece& piece = fragment_.pieces.emplace_back();
     piece.before = std::exchange(marks_, {});
     piece.vcp = message.vcp.value_or(0);
@@ -60,21 +63,19 @@ void FragmentBuilder::note_volume_facts(const RadialMessage& message) {
     if (fragment_.vcp == 0) fragment_.vcp = message.vcp.value_or(0);
 }
 
-// Adds the row of the piece's newest radial. Its bytes are taken already where the kind was there.
+// Adds the row of the piece's newest radial.
 bool FragmentBuilder::add_moment(Sweep& sweep, const MomentBlock& block) {
     const std::size_t count = sweep.radials.size();
     const auto same = [&](const SweepMoment& moment) { return rows::same_kind(moment, block); };
     auto moment = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
+    const auto number = static_cast<std::size_t>(moment - sweep.moments.begin());
+    if (!room_.widen(number, block.gates, block.word_size_bits == 8 ? 1 : 2)) return false;
     if (moment == sweep.moments.end()) {
         sweep.moments.push_back(rows::empty_like(block));
         moment = sweep.moments.end() - 1;
-        if (!take_room(count * rows::bytes_per_row(*moment))) return false;
     }
     if (block.gates > moment->gate_stride) {
-        const std::int32_t stride = rows::grown_stride(*moment, block.gates);
-        const auto more = static_cast<std::uint64_t>(stride - moment->gate_stride);
-        if (!take_room(count * more * rows::bytes_per_code(*moment))) return false;
-        rows::set_stride(*moment, stride);
+        rows::set_stride(*moment, rows::grown_stride(*moment, block.gates));
     }
     rows::pad(*moment, count - 1);
     rows::append(*moment, block);
@@ -93,45 +94,45 @@ bool FragmentBuilder::has_too_many_kinds(const Sweep& sweep, const RadialMessage
     return false;
 }
 
-void FragmentBuilder::make_room(Sweep& sweep) const {
+void FragmentBuilder::reserve_rows(Sweep& sweep) const {
     sweep.radials.reserve(expected_rows_);
     for (SweepMoment& moment : sweep.moments)
         rows::reserve(moment, expected_rows_);
 }
 
-FragmentBuilder::Added FragmentBuilder::add_rows(Sweep& sweep, const RadialMessage& message) {
+bool FragmentBuilder::add_rows(Sweep& sweep, const RadialMessage& message) {
+    if (!room_.add_radials(1)) return false;
     sweep.radials.push_back(message.radial);
     for (const MomentBlock& block : message.moments()) {
-        if (selection_.wants(block.moment) && !add_moment(sweep, block)) return Added::full;
+        if (selection_.wants(block.moment) && !add_moment(sweep, block)) return false;
     }
-    return Added::added;
+    return true;
 }
 
-FragmentBuilder::Added FragmentBuilder::add(const RadialMessage& message) {
-    const bool begins = begins_piece(message);
-    if (!begins && has_too_many_kinds(fragment_.pieces.back().sweep, message)) {
-        return Added::refused;
+bool FragmentBuilder::add(const RadialMessage& message) {
+    const bool begins = begins_sweep_here(message);
+    if (begins && !room_.add(empty_sweep_bytes)) return false;
+    if (begins || fragment_.pieces.empty() ||
+        has_too_many_kinds(fragment_.pieces.back().sweep, message)) {
+        begin_piece(message);
     }
-    const std::uint64_t bytes =
-        begins ? sizeof(Fragment::Piece) : rows::bytes_per_row(fragment_.pieces.back().sweep);
-    if (!take_room(sizeof(Radial) + bytes)) return Added::full;
-    if (begins) begin_piece(message);
     note_volume_facts(message);
     Fragment::Piece& piece = fragment_.pieces.back();
     if (!piece.left_out) {
         // Room is made with the second radial: a piece of one stays small.
-        if (piece.sweep.radials.size() == 1) make_room(piece.sweep);
+        if (piece.sweep.radials.size() == 1) reserve_rows(piece.sweep);
         return add_rows(piece.sweep, message);
     }
     if (piece.sweep.radials.size() == 2) piece.sweep.radials.pop_back();
     piece.sweep.radials.push_back(message.radial);
-    return Added::added;
+    return true;
 }
 
 Fragment FragmentBuilder::take() {
     Fragment fragment = std::exchange(fragment_, {});
     fragment.behind = std::exchange(marks_, {});
-    fragment.array_bytes = std::exchange(taken_bytes_, 0);
+    fragment.array_bytes = room_.taken_bytes();
+    room_.clear();
     return fragment;
 }
 

@@ -1,5 +1,7 @@
 #include "level2/growing_volume.h"
 
+#include <algorithm>
+#include <new>
 #include <utility>
 
 #include "level2/archive_header.h"
@@ -17,6 +19,8 @@ constexpr std::size_t decide_container_bytes = archive_header_bytes + 16;
 constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
 constexpr std::size_t rows_of_a_stretch = 128;
+// What is appended is read so many bytes at a time, so that little of it is held.
+constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
 
 }  // namespace
 
@@ -31,10 +35,13 @@ class GrowingVolume::Reader {
     Volume facts() const;
     bool has_ended() const;
     Result<Decoded> finish();
+    // There is no memory for it.
+    Status give_up() { return failed_ = no_memory(); }
 
   private:
     enum class Kind : std::uint8_t { undecided, records, messages, held };
     void decide();
+    Status append_stretch(std::span<const std::byte> bytes);
     Status hold(std::span<const std::byte> bytes);
     Status read_records(bool last);
     Status read_messages(std::span<const std::byte> bytes, bool last);
@@ -47,10 +54,12 @@ class GrowingVolume::Reader {
     LdmStreamFramer framer_;
     PartDecoder parts_{options_.output_limit_bytes, options_.selection};
     bool last_is_negative_ = false;
-    FragmentBuilder fragment_{options_.output_limit_bytes, rows_of_a_stretch, options_.selection};
+    ArrayRoom room_{options_.output_limit_bytes};
+    FragmentBuilder fragment_{room_, rows_of_a_stretch, options_.selection};
     MessageReader reader_{fragment_};
     MessageFeed feed_{reader_};
-    std::vector<std::size_t> handed_out_;  // of each sweep: how many radials it had then
+    std::size_t next_sweep_ = 0;      // those before it are closed and handed out
+    std::size_t radials_handed_ = 0;  // of that sweep
 };
 
 void GrowingVolume::Reader::decide() {
@@ -79,7 +88,8 @@ Status GrowingVolume::Reader::read_records(bool last) {
     while (const auto part = framer_.next(std::span{held_}.subspan(done), last)) {
         done += framer_.position() - part->position;
         if (part->kind == LdmPart::Kind::record) last_is_negative_ = part->negative;
-        if (Status taken = volume_.append(parts_.decode(*part)); !taken) return taken;
+        Fragment fragment = parts_.decode(*part, ArrayRoom{volume_.arrays_left()});
+        if (Status taken = volume_.append(std::move(fragment)); !taken) return taken;
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
     return {};
@@ -95,43 +105,62 @@ Status GrowingVolume::Reader::read_messages(std::span<const std::byte> bytes, bo
         fragment.emplace();
     }
     if (full) fragment->failure = Fragment::Failure::too_large_arrays;
-    return volume_.append(std::move(*fragment));
+    Status taken = volume_.append(std::move(*fragment));
+    room_.set_limit(volume_.arrays_left());
+    return taken;
 }
 
 Status GrowingVolume::Reader::hold(std::span<const std::byte> bytes) {
-    if (bytes.size() > options_.output_limit_bytes - held_.size()) {
-        return fail(ErrorCode::unsupported, "holds more than the limit of {} bytes",
-                    options_.output_limit_bytes);
+    if (kind_ == Kind::held && bytes.size() > most_packed_bytes - held_.size()) {
+        return fail(ErrorCode::unsupported, "a compressed file of more than {} bytes",
+                    most_packed_bytes);
     }
     held_.insert(held_.end(), bytes.begin(), bytes.end());
     return {};
 }
 
-Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
-    if (!failed_) return failed_;
+Status GrowingVolume::Reader::append_stretch(std::span<const std::byte> bytes) {
     const bool was_messages = kind_ == Kind::messages;
-    if (!was_messages) failed_ = hold(bytes);
-    if (failed_ && kind_ == Kind::undecided) decide();
-    if (!failed_) return failed_;
-    if (kind_ == Kind::records) failed_ = read_records(false);
-    if (kind_ == Kind::messages) {
-        failed_ = read_messages(was_messages ? bytes : std::span<const std::byte>{held_}, false);
-        held_.clear();
+    if (!was_messages) {
+        if (Status held = hold(bytes); !held) return held;
+    }
+    if (kind_ == Kind::undecided) decide();
+    if (kind_ == Kind::records) return read_records(false);
+    if (kind_ != Kind::messages) return {};
+    Status taken = read_messages(was_messages ? bytes : std::span<const std::byte>{held_}, false);
+    held_.clear();
+    return taken;
+}
+
+Status GrowingVolume::Reader::append(std::span<const std::byte> bytes) {
+    for (std::size_t at = 0; at < bytes.size() && failed_; at += stretch_bytes) {
+        failed_ = append_stretch(bytes.subspan(at, std::min(stretch_bytes, bytes.size() - at)));
     }
     return failed_;
 }
 
 std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
-    std::vector<LiveSweep> closed;
-    if (!failed_) return closed;  // what there is may be half done
-    const std::size_t count = volume_.close_sweeps();
-    handed_out_.resize(std::max(count, handed_out_.size()), 0);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Sweep& sweep = volume_.so_far().sweeps[i];
-        if (std::exchange(handed_out_[i], sweep.radials.size()) == sweep.radials.size()) continue;
-        closed.push_back({sweep, i, is_whole(sweep)});
+    std::vector<LiveSweep> taken;
+    if (!failed_) return taken;  // what there is may be half done
+    const std::size_t closed = volume_.closed_sweeps();
+    std::uint64_t bytes = 0;
+    const auto hand_out = [&](std::size_t index) {
+        Sweep sweep = volume_.whole_sweep(index);
+        bytes += bytes_of(sweep);
+        radials_handed_ = sweep.radials.size();
+        const bool whole = is_whole(sweep);
+        taken.push_back({std::move(sweep), index, whole});
+    };
+    const auto& sweeps = volume_.so_far().sweeps;
+    for (; next_sweep_ < closed && bytes < most_live_bytes; ++next_sweep_) {
+        if (sweeps[next_sweep_].radials.size() != radials_handed_) hand_out(next_sweep_);
+        radials_handed_ = 0;
     }
-    return closed;
+    if (next_sweep_ == closed && volume_.last_has_ended() && bytes < most_live_bytes) {
+        const std::size_t count = sweeps[closed].radials.size();
+        if (count > radials_handed_ + radials_handed_ / 4) hand_out(closed);
+    }
+    return taken;
 }
 
 Volume GrowingVolume::Reader::facts() const {
@@ -166,19 +195,36 @@ GrowingVolume& GrowingVolume::operator=(GrowingVolume&&) noexcept = default;
 GrowingVolume::~GrowingVolume() = default;
 
 Status GrowingVolume::append(std::span<const std::byte> bytes) {
-    return reader_->append(bytes);
+    try {
+        return reader_->append(bytes);
+    } catch (const std::bad_alloc&) {
+        return reader_->give_up();
+    }
 }
+
 std::vector<LiveSweep> GrowingVolume::take_sweeps() {
-    return reader_->take_sweeps();
+    try {
+        return reader_->take_sweeps();
+    } catch (const std::bad_alloc&) {
+        (void)reader_->give_up();
+        return {};
+    }
 }
+
 Volume GrowingVolume::facts() const {
     return reader_->facts();
 }
+
 bool GrowingVolume::has_ended() const {
     return reader_->has_ended();
 }
+
 Result<Decoded> GrowingVolume::finish() {
-    return reader_->finish();
+    try {
+        return reader_->finish();
+    } catch (const std::bad_alloc&) {
+        return pass_on(reader_->give_up());
+    }
 }
 
 }  // namespace stormcellar::level2

@@ -2,8 +2,9 @@
 //
 // Bytes are appended as they come, cut anywhere. Each LDM record, or each message of an
 // uncompressed file, is decoded as soon as it is whole, and the sweeps come out as they close.
-// What cannot be read before it is whole (gzip, bzip2, .Z around it) is held until the end.
-// finish() gives what decode() gives for the same bytes, bit for bit, also for damaged files.
+// What cannot be read before it is whole (gzip, bzip2, .Z around it) is held until the end, up to
+// most_packed_bytes. finish() gives what decode() gives for the same bytes, bit for bit, also for
+// damaged files.
 // After a restart of the program the file is appended again from its start.
 // Errors: those of decode(). Thread contract: one thread at a time.
 #pragma once
@@ -29,7 +30,9 @@ class GrowingVolume {
     // An error is final: no more is taken, and finish() gives it again.
     [[nodiscard]] Status append(std::span<const std::byte> bytes);
     // The sweeps that have closed since the last call, in the order of the file. A sweep is closed
-    // by its last radial's status or by the sweep that follows.
+    // by its last radial's status or by the sweep that follows. Where it goes on after its last
+    // radial it comes again when it has grown by a quarter, and when another one follows. Of more
+    // than most_live_bytes the rest comes with the next call.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
     // Station, position and pattern as far as they are known; without sweeps.
     [[nodiscard]] Volume facts() const;

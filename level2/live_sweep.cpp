@@ -5,6 +5,15 @@
 
 namespace stormcellar::level2 {
 
+std::uint64_t bytes_of(const Sweep& sweep) {
+    std::uint64_t bytes = sweep.radials.size() * sizeof(Radial);
+    for (const SweepMoment& moment : sweep.moments) {
+        bytes += moment.codes8.size() + sizeof(std::uint16_t) * moment.codes16.size();
+        bytes += sizeof(std::uint16_t) * moment.gate_counts.size();
+    }
+    return bytes;
+}
+
 bool is_whole(const Sweep& sweep) {
     if (sweep.radials.empty() || !begins_sweep(sweep.radials.front())) return false;
     const RadialGaps gaps = gaps_of(sweep);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "level2/volume.h"
 
@@ -14,6 +15,11 @@ struct LiveSweep {
     // when the chunks that it lacks have come.
     bool whole = false;
 };
+
+// Sweeps of so many bytes, and one more, are handed out at once.
+inline constexpr std::uint64_t most_live_bytes = std::uint64_t{64} << 20;
+// Its arrays and radials.
+[[nodiscard]] std::uint64_t bytes_of(const Sweep& sweep);
 
 // Whether the sweep has its first radial and its last by their status, and all between them.
 [[nodiscard]] bool is_whole(const Sweep& sweep);

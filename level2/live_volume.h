@@ -3,13 +3,13 @@
 // Each chunk is decoded when it comes and never again. Sweeps come out as they close, and again
 // when a late chunk makes them better. finish() gives what the chunks give in the order of their
 // numbers, bit for bit, whatever the order in which they came; for undamaged chunks that is what
-// decode() gives for them joined.
+// decode() gives for them joined, and the report names the chunks that are missing or bad.
 // A chunk that comes twice counts once. Where two differ, the one that holds more is kept, which
 // does not depend on the order either. A start chunk of another volume shows that the radar has
 // begun again: it is refused, and what there is can be finished.
 // After a restart of the program the chunks that lie there are added again.
-// Memory: the arrays of all chunks together, and their decompressed bytes, stay under the decoder's
-// output limit; a chunk that would go beyond is refused.
+// Memory: what is held of all chunks together, and their decompressed bytes, stay under the
+// decoder's output limit; a chunk that would go beyond is refused.
 // Thread contract: one thread at a time.
 #pragma once
 
@@ -20,6 +20,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,8 @@
 #include "level2/part_decoder.h"
 
 namespace stormcellar::level2 {
+
+class VolumeBuilder;
 
 struct LiveOptions {
     DecodeOptions decode;
@@ -55,11 +58,13 @@ class LiveVolume {
         another_volume,  // a start chunk with another header: not taken
     };
     // Errors: not_level2, empty, corrupt or truncated for a chunk that holds nothing whole;
-    // unsupported beyond the limits. The volume stays as it was.
+    // unsupported beyond the limits. The volume stays as it was; finish() names the chunk unless a
+    // good one of its number comes.
     [[nodiscard]] Result<Added> add(int number, ChunkKind kind, std::span<const std::byte> bytes,
                                     Clock::time_point now);
 
-    // The sweeps that have closed or changed since the last call, in the volume's order.
+    // The sweeps that have closed or changed since the last call, in the volume's order. Of more
+    // than most_live_bytes the rest comes with the next call.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
     // Station, position and pattern as far as they are known; without sweeps.
     [[nodiscard]] Volume facts() const;
@@ -74,7 +79,7 @@ class LiveVolume {
     [[nodiscard]] bool is_due(Clock::time_point now) const;
     [[nodiscard]] bool is_empty() const { return chunks_.empty(); }
 
-    // Gives up the volume; nothing is left. Errors: those of decode().
+    // Gives up the volume; nothing is left. Errors: those of decode(), empty where no chunk came.
     [[nodiscard]] Result<Decoded> finish();
 
   private:
@@ -87,7 +92,7 @@ class LiveVolume {
         std::size_t radials = 0;
         std::size_t bytes = 0;
         std::uint64_t output_bytes = 0;
-        std::uint64_t array_bytes = 0;
+        std::uint64_t held_bytes = 0;
         std::uint64_t checksum = 0;
         ChunkKind kind = ChunkKind::intermediate;
         std::uint64_t serial = 0;  // of its arrival
@@ -102,16 +107,32 @@ class LiveVolume {
     };
 
     class Grouper;
-    [[nodiscard]] Result<Chunk> read_chunk(std::span<const std::byte> bytes) const;
-    [[nodiscard]] bool has_room_for(const Chunk& chunk, int number) const;
+    // What the decoder may take for a chunk of this number.
+    struct Left {
+        std::uint64_t output_bytes = 0;
+        std::uint64_t held_bytes = 0;
+    };
+    [[nodiscard]] Left left_for(int number) const;
+    [[nodiscard]] Result<Chunk> read_chunk(std::span<const std::byte> bytes, Left left) const;
+    [[nodiscard]] Status read_records(std::span<const std::byte> body, Left left,
+                                      Chunk& chunk) const;
+    [[nodiscard]] Fragment read_messages(std::span<const std::byte> bytes,
+                                         std::uint64_t limit_bytes) const;
+    [[nodiscard]] Status keep(Fragment fragment, Left left, Chunk& chunk) const;
+    [[nodiscard]] Result<Added> keep_better(int number, Chunk chunk, Clock::time_point now);
     [[nodiscard]] std::vector<OpenSweep> sweeps_by_piece() const;
     [[nodiscard]] Sweep join(const OpenSweep& sweep) const;
+    [[nodiscard]] std::vector<LiveSweep> changed_sweeps();
+    [[nodiscard]] Result<Decoded> join_all();
+    void name_lost_chunks(VolumeBuilder& builder) const;
 
     LiveOptions options_;
     std::map<int, Chunk> chunks_;
+    std::map<int, VolumeHeader> headers_;  // of each number the first that came
+    std::map<int, std::string> refused_;   // numbers of which only bad chunks came, and why
     std::uint64_t next_serial_ = 0;
     Clock::time_point last_arrival_;
-    std::set<std::vector<PieceId>> handed_out_;
+    std::set<std::uint64_t> handed_out_;  // checksums of pieces
 };
 
 }  // namespace stormcellar::level2

@@ -15,7 +15,7 @@ namespace {
 // A radial's size has 16 bits and counts halfwords. Message 29 has been seen nowhere; its size has
 // 32 bits.
 constexpr std::size_t longest_radial_bytes = std::size_t{1} << 18;
-constexpr std::size_t longest_message_bytes = std::size_t{1} << 24;
+constexpr std::size_t longest_message_bytes = std::size_t{1} << 22;
 
 // Whether what stands behind a message leaves no doubt that the message ends there: another one, a
 // fill frame, a further volume header, or the end.
@@ -184,7 +184,7 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         const auto body = message.subspan(message_header_bytes);
         auto vcp = read_vcp(header.type, body);
         if (vcp) {
-            builder_.add_pattern(std::move(*vcp));
+            full_ = !builder_.add_pattern(std::move(*vcp));
         } else if (!all_zero(body.first(std::min(body.size(), vcp_header_bytes)))) {
             builder_.report().add(
                 Severity::warning, "bad_pattern",
@@ -222,14 +222,8 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
                                  message.size());
         return;
     }
-    const FragmentBuilder::Added added = builder_.add(*radial);
-    if (added == FragmentBuilder::Added::refused) {
-        builder_.report().damage("bad_radial", "no sweep holds so many kinds of a moment", offset_,
-                                 message.size());
-        return;
-    }
     ++builder_.report_data().message_counts[header.type];
-    full_ = added == FragmentBuilder::Added::full;
+    full_ = !builder_.add(*radial);
 }
 
 void MessageFeed::append(std::span<const std::byte> bytes) {

@@ -21,8 +21,6 @@ constexpr std::size_t piece_bytes = std::size_t{256} << 10;
 constexpr std::size_t rows_of_a_record = 120;
 constexpr std::size_t rows_of_a_sweep = 720;
 constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
-// Arrays of one record; those of a whole busy volume take 70 MB.
-constexpr std::uint64_t most_array_bytes = std::uint64_t{256} << 20;
 
 void add_record_problem(FragmentBuilder& builder, Severity severity, std::string_view code,
                         std::string message, std::optional<std::uint64_t> offset) {
@@ -46,10 +44,10 @@ double thread_cpu_s() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Fragment PartDecoder::read_record(const LdmPart& part) {
+std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom& room,
+                                                 bool& is_cut) {
     const bool large = part.bytes.size() > large_record_bytes;
-    FragmentBuilder builder{std::min(limit_bytes_, most_array_bytes),
-                            large ? rows_of_a_sweep : rows_of_a_record, selection_};
+    FragmentBuilder builder{room, large ? rows_of_a_sweep : rows_of_a_record, selection_};
     MessageReader reader{builder};
     BzipReader stream{part.bytes};
     auto failure = Fragment::Failure::none;
@@ -64,7 +62,8 @@ Fragment PartDecoder::read_record(const LdmPart& part) {
         cpu_s += thread_cpu_s() - begin_s;
         if (stream.status() == BzipStatus::no_memory) throw std::bad_alloc{};
         if (stream.status() != BzipStatus::whole) {
-            return read_blocks(part, part.cut || stream.status() == BzipStatus::truncated);
+            is_cut = part.cut || stream.status() == BzipStatus::truncated;
+            return std::nullopt;
         }
         output_bytes += made;
         if (output_bytes > limit_bytes_) failure = Fragment::Failure::too_much_output;
@@ -92,8 +91,8 @@ Fragment PartDecoder::read_record(const LdmPart& part) {
 }
 
 // A record that is damaged: its blocks have checksums of their own.
-Fragment PartDecoder::read_blocks(const LdmPart& part, bool is_cut) {
-    FragmentBuilder builder{std::min(limit_bytes_, most_array_bytes), rows_of_a_record, selection_};
+Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_cut) {
+    FragmentBuilder builder{room, rows_of_a_record, selection_};
     MessageReader reader{builder};
     MessageFeed feed{reader};
     BzipBlocks blocks{part.bytes};
@@ -132,14 +131,24 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, bool is_cut) {
     return fragment;
 }
 
-Fragment PartDecoder::decode_kind(const LdmPart& part) {
+Fragment PartDecoder::decode_record(const LdmPart& part, ArrayRoom& room) {
+    bool is_cut = false;
+    if (auto fragment = read_record(part, room, is_cut)) return std::move(*fragment);
+    room.clear();
+    if (room.ask_for_more()) return read_blocks(part, room, is_cut);
+    Fragment fragment;
+    fragment.failure = Fragment::Failure::too_large_arrays;
+    return fragment;
+}
+
+Fragment PartDecoder::decode_kind(const LdmPart& part, ArrayRoom& room) {
     if (part.kind == LdmPart::Kind::record) {
-        Fragment fragment = read_record(part);
+        Fragment fragment = decode_record(part, room);
         fragment.report.ldm_records = 1;
         fragment.report.negative_control_words = part.negative ? 1 : 0;
         return fragment;
     }
-    FragmentBuilder builder{limit_bytes_, 0, selection_};
+    FragmentBuilder builder{room, 0, selection_};
     if (part.kind == LdmPart::Kind::header) {
         builder.further_header(part.header);
         builder.report().add(Severity::note, "further_volume_header",
@@ -151,9 +160,9 @@ Fragment PartDecoder::decode_kind(const LdmPart& part) {
     return builder.take();
 }
 
-Fragment PartDecoder::decode(const LdmPart& part) {
+Fragment PartDecoder::decode(const LdmPart& part, ArrayRoom room) {
     try {
-        return decode_kind(part);
+        return decode_kind(part, room);
     } catch (const std::bad_alloc&) {
         Fragment fragment;
         fragment.failure = Fragment::Failure::no_memory;

@@ -2,14 +2,17 @@
 //
 // A record is decompressed and read in small pieces, so its messages are never held whole. Where
 // its checksum then proves wrong, all of that is thrown away and the record is read again block by
-// block, keeping the blocks that are whole.
+// block, keeping the blocks that are whole. A block is held whole, and there may be much in it, so
+// all room is asked for first.
 // Thread contract: one thread at a time; a decoder for each thread.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "level2/array_room.h"
 #include "level2/fragment.h"
 #include "level2/ldm_framer.h"
 #include "level2/selection.h"
@@ -22,13 +25,20 @@ class PartDecoder {
     PartDecoder(std::uint64_t output_limit_bytes, const Selection& selection)
         : limit_bytes_(output_limit_bytes), selection_(selection) {}
 
-    // Never throws for want of memory: the fragment says so.
-    [[nodiscard]] Fragment decode(const LdmPart& part);
+    // The fragment's arrays stay in the room. Never throws for want of memory: the fragment says
+    // so.
+    [[nodiscard]] Fragment decode(const LdmPart& part, ArrayRoom room);
+    [[nodiscard]] Fragment decode(const LdmPart& part) {
+        return decode(part, ArrayRoom{limit_bytes_});
+    }
 
   private:
-    [[nodiscard]] Fragment decode_kind(const LdmPart& part);
-    [[nodiscard]] Fragment read_record(const LdmPart& part);
-    [[nodiscard]] Fragment read_blocks(const LdmPart& part, bool is_cut);
+    [[nodiscard]] Fragment decode_kind(const LdmPart& part, ArrayRoom& room);
+    [[nodiscard]] Fragment decode_record(const LdmPart& part, ArrayRoom& room);
+    // None where the record is damaged; `is_cut` says whether its end is missing.
+    [[nodiscard]] std::optional<Fragment> read_record(const LdmPart& part, ArrayRoom& room,
+                                                      bool& is_cut);
+    [[nodiscard]] Fragment read_blocks(const LdmPart& part, ArrayRoom& room, bool is_cut);
 
     std::uint64_t limit_bytes_;
     const Selection& selection_;

@@ -49,25 +49,48 @@ void RecordQueue::fill() {
         Slot& slot = slots_[(head_ + used_) % slots_.size()];
         slot.part = std::move(*part);
         slot.state = State::waiting;
+        slot.large = false;
         ++used_;
     }
 }
 
-RecordQueue::Slot* RecordQueue::first_waiting() {
+bool RecordQueue::has_turn(const Slot& slot) const {
+    return turn_bytes_ && &slot == &slots_[head_];
+}
+
+RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
-        if (slot.state == State::waiting) return &slot;
+        const bool may = !slot.large || (who == Who::caller && has_turn(slot));
+        if (slot.state == State::waiting && may) return &slot;
     }
     return nullptr;
 }
 
-void RecordQueue::work(Slot& slot, PartDecoder& decoder, std::unique_lock<std::mutex>& lock) {
+// A worker waits for the slot's turn; the caller cannot, since it is the one who takes the head.
+std::uint64_t RecordQueue::more_for(Slot& slot, Who who) {
+    std::unique_lock lock{mutex_};
+    if (who == Who::worker) {
+        changed_.wait(lock, [&] { return stopping_ || has_turn(slot); });
+        if (!stopping_) return std::max<std::uint64_t>(*turn_bytes_, 1);
+    }
+    slot.large = true;
+    return 0;
+}
+
+void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
+                       std::unique_lock<std::mutex>& lock) {
     slot.state = State::working;
+    slot.large = false;
+    ArrayRoom room = has_turn(slot)
+                         ? ArrayRoom{*turn_bytes_}
+                         : ArrayRoom{share_bytes, [&, who] { return more_for(slot, who); }};
     lock.unlock();
-    Fragment fragment = decoder.decode(slot.part);
+    Fragment fragment = decoder.decode(slot.part, std::move(room));
+    if (slot.large) fragment = {};
     lock.lock();
     slot.fragment = std::move(fragment);
-    slot.state = State::ready;
+    slot.state = slot.large ? State::waiting : State::ready;
     changed_.notify_all();
 }
 
@@ -75,26 +98,29 @@ void RecordQueue::run() {
     PartDecoder decoder{limit_bytes_, selection_};
     std::unique_lock lock{mutex_};
     while (!stopping_) {
-        if (Slot* slot = first_waiting()) {
-            work(*slot, decoder, lock);
+        if (Slot* slot = first_waiting(Who::worker)) {
+            work(*slot, decoder, Who::worker, lock);
         } else {
             changed_.wait(lock);
         }
     }
 }
 
-std::optional<Fragment> RecordQueue::next() {
+std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     std::unique_lock lock{mutex_};
     if (used_ == 0) return std::nullopt;
+    turn_bytes_ = limit_bytes;
+    changed_.notify_all();
     Slot& head = slots_[head_];
     while (head.state != State::ready) {
-        if (Slot* slot = first_waiting()) {
-            work(*slot, own_decoder_, lock);
+        if (Slot* slot = first_waiting(Who::caller)) {
+            work(*slot, own_decoder_, Who::caller, lock);
         } else {
             changed_.wait(lock);
         }
     }
     Fragment fragment = std::exchange(head.fragment, {});
+    turn_bytes_.reset();
     head.state = State::empty;
     head_ = (head_ + 1) % slots_.size();
     --used_;

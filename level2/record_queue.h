@@ -1,7 +1,8 @@
 // level2/record_queue.h -- LDM records decoded ahead by threads, handed out in order.
 //
 // The caller of next() decodes too, so `threads` counts it. At most two fragments a thread are
-// held. What comes out does not depend on the number of threads.
+// held, and each is small: one that outgrows its share waits until it is the next to be handed out.
+// What comes out does not depend on the number of threads.
 // Thread contract: next() from one thread.
 #pragma once
 
@@ -32,19 +33,27 @@ class RecordQueue {
     RecordQueue& operator=(const RecordQueue&) = delete;
     ~RecordQueue();
 
-    // None after the last.
-    [[nodiscard]] std::optional<Fragment> next();
+    // None after the last. `limit_bytes`: what the fragment may take.
+    [[nodiscard]] std::optional<Fragment> next(std::uint64_t limit_bytes);
+
+    // Records of a live volume take 1 MB, the largest seen, of whole sweeps, 5.
+    static constexpr std::uint64_t share_bytes = std::uint64_t{8} << 20;
 
   private:
     enum class State : std::uint8_t { empty, waiting, working, ready };
+    enum class Who : std::uint8_t { caller, worker };
     struct Slot {
         State state = State::empty;
+        bool large = false;  // outgrew its share: it is decoded again, when its turn has come
         LdmPart part;
         Fragment fragment;
     };
-    void fill();                          // under mutex_
-    [[nodiscard]] Slot* first_waiting();  // under mutex_
-    void work(Slot& slot, PartDecoder& decoder, std::unique_lock<std::mutex>& lock);
+    // All but run() and more_for() under mutex_.
+    void fill();
+    [[nodiscard]] Slot* first_waiting(Who who);
+    [[nodiscard]] bool has_turn(const Slot& slot) const;
+    void work(Slot& slot, PartDecoder& decoder, Who who, std::unique_lock<std::mutex>& lock);
+    [[nodiscard]] std::uint64_t more_for(Slot& slot, Who who);
     void run();
 
     std::uint64_t limit_bytes_;
@@ -57,6 +66,8 @@ class RecordQueue {
     std::size_t head_ = 0;     // the slot that is handed out next
     std::size_t used_ = 0;
     bool source_ended_ = false;
+    // The caller waits for the head slot, which may take so much. Before, it holds the last one.
+    std::optional<std::uint64_t> turn_bytes_;
     bool stopping_ = false;
     std::vector<std::thread> workers_;
 };

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "level2/radial_message.h"
 #include "level2/volume.h"
@@ -21,9 +22,8 @@ namespace stormcellar::level2::rows {
 [[nodiscard]] SweepMoment empty_like(const SweepMoment& moment);
 
 [[nodiscard]] std::uint64_t bytes_per_code(const SweepMoment& moment);
-[[nodiscard]] std::uint64_t bytes_per_row(const SweepMoment& moment);
-// A row in every kind of the sweep.
-[[nodiscard]] std::uint64_t bytes_per_row(const Sweep& sweep);
+// The codes of one radial.
+[[nodiscard]] std::uint64_t bytes_of_radial(const Sweep& sweep, std::size_t radial);
 
 // Makes room for rows of the present length, at most 4 MiB.
 void reserve(SweepMoment& moment, std::size_t rows);
@@ -38,7 +38,15 @@ void pad(SweepMoment& moment, std::size_t rows);
 void append(SweepMoment& moment, const MomentBlock& block);
 // All rows of another moment of this kind, whose stride is at most this one's.
 void append(SweepMoment& moment, const SweepMoment& from);
-// Gives back what was reserved and is not in use.
-void release_unused(SweepMoment& moment);
+// A row for every radial in every moment, none longer than the longest; what was reserved and is
+// not in use is given back.
+void make_whole(Sweep& sweep);
+
+// Which radials of `next`, in their order, bring a sweep more than `most` kinds of a moment; empty
+// where none does.
+[[nodiscard]] std::vector<bool> with_surplus_kinds(const Sweep& sweep, const Sweep& next,
+                                                   std::ptrdiff_t most);
+// Drops radials with their rows, and the moments that then no radial has.
+void drop_radials(Sweep& sweep, const std::vector<bool>& drop);
 
 }  // namespace stormcellar::level2::rows

@@ -27,36 +27,6 @@ std::size_t expected_radials(float azimuth_spacing_deg) {
     return azimuth_spacing_deg == 0.5F ? radials_half_degree : radials_one_degree;
 }
 
-// Drops the radials for which `drop` holds, with their rows; the moments stay.
-void drop_radials(Sweep& sweep, const std::vector<bool>& drop) {
-    Sweep kept = sweep;
-    kept.radials.clear();
-    for (SweepMoment& moment : kept.moments)
-        moment = rows::empty_like(moment);
-    for (std::size_t i = 0; i < sweep.radials.size(); ++i) {
-        if (drop[i]) continue;
-        kept.radials.push_back(sweep.radials[i]);
-        for (std::size_t m = 0; m < sweep.moments.size(); ++m) {
-            const SweepMoment& from = sweep.moments[m];
-            SweepMoment row = rows::empty_like(from);
-            const auto stride = static_cast<std::ptrdiff_t>(from.gate_stride);
-            const auto at = static_cast<std::ptrdiff_t>(i) * stride;
-            row.gate_counts = {from.gate_counts[i]};
-            if (from.word_size_bits == 8) {
-                row.codes8.assign(from.codes8.begin() + at, from.codes8.begin() + at + stride);
-            } else {
-                row.codes16.assign(from.codes16.begin() + at, from.codes16.begin() + at + stride);
-            }
-            rows::append(kept.moments[m], row);
-        }
-    }
-    std::erase_if(kept.moments, [](const SweepMoment& moment) {
-        return std::all_of(moment.gate_counts.begin(), moment.gate_counts.end(),
-                           [](std::uint16_t gates) { return gates == 0; });
-    });
-    sweep = std::move(kept);
-}
-
 bool continues(int elevation_number, int message_type, const Sweep& next) {
     return !begins_sweep(next.radials.front()) && elevation_number == next.elevation_number &&
            message_type == next.message_type;
@@ -66,12 +36,6 @@ bool continues(int elevation_number, int message_type, const Sweep& next) {
 
 bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece) {
     return continues(previous.sweep.elevation_number, previous.sweep.message_type, piece.sweep);
-}
-
-bool VolumeBuilder::take_room(std::uint64_t bytes) {
-    if (bytes > limit_bytes_ - taken_bytes_) return false;
-    taken_bytes_ += bytes;
-    return true;
 }
 
 void VolumeBuilder::set_pattern(Vcp vcp) {
@@ -84,16 +48,19 @@ void VolumeBuilder::set_pattern(Vcp vcp) {
     vcp_is_new_ = true;
 }
 
-void VolumeBuilder::note_marks(FragmentMarks marks) {
-    for (Vcp& vcp : marks.patterns)
+bool VolumeBuilder::note_marks(FragmentMarks marks) {
+    for (Vcp& vcp : marks.patterns) {
+        if (!room_.add(bytes_of(vcp))) return false;
         set_pattern(std::move(vcp));
+    }
     if (marks.header) pending_header_ = std::move(marks.header);
+    return true;
 }
 
 void VolumeBuilder::note_facts(const Fragment& fragment) {
     for (const Fragment::Piece& piece : fragment.pieces)
-        note_marks(piece.before);
-    note_marks(fragment.behind);
+        (void)note_marks(piece.before);
+    (void)note_marks(fragment.behind);
     note_volume_facts(fragment);
 }
 
@@ -139,12 +106,18 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
            (previous_->ended_volume && piece.sweep.elevation_number == previous_->elevation_number);
 }
 
-void VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
+bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
+    DecodeReport::FurtherPattern pattern = pattern_of(piece);
+    const std::uint64_t pattern_bytes = pattern.message ? bytes_of(*pattern.message) : 0;
+    if (!room_.add(pattern_bytes + sizeof(pattern) + sizeof(DecodeReport::FurtherHeader))) {
+        return false;
+    }
     report_.further_volume_starts.push_back(volume_.sweeps.size());
-    report_.further_patterns.push_back(pattern_of(piece));
+    report_.further_patterns.push_back(std::move(pattern));
     if (pending_header_) {
         report_.further_headers.push_back({volume_.sweeps.size(), *pending_header_});
     }
+    return true;
 }
 
 Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
@@ -161,13 +134,7 @@ Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
 }
 
 void VolumeBuilder::tidy_last_sweep() {
-    if (!sweep_is_open_) return;
-    Sweep& sweep = volume_.sweeps.back();
-    for (SweepMoment& moment : sweep.moments) {
-        rows::pad(moment, sweep.radials.size());
-        rows::release_unused(moment);
-    }
-    if (sweep.radials.capacity() > 2 * sweep.radials.size()) sweep.radials.shrink_to_fit();
+    if (sweep_is_open_) rows::make_whole(volume_.sweeps.back());
 }
 
 void VolumeBuilder::end_sweep() {
@@ -175,75 +142,66 @@ void VolumeBuilder::end_sweep() {
     sweep_is_open_ = false;
 }
 
-// Each fragment holds few enough kinds of a moment, but together they can be too many.
-void VolumeBuilder::refuse_surplus_kinds(const Sweep& sweep, Sweep& from) {
-    std::vector<bool> drop(from.radials.size(), false);
-    std::vector<const SweepMoment*> accepted;
-    for (const SweepMoment& moment : sweep.moments)
-        accepted.push_back(&moment);
+void VolumeBuilder::refuse_surplus_kinds(const Sweep& sweep, Sweep& from, DecodeReport& report) {
+    const std::vector<bool> refused = rows::with_surplus_kinds(sweep, from, most_kinds_of_a_moment);
+    for (std::size_t i = 0; i < refused.size(); ++i) {
+        if (!refused[i]) continue;
+        const std::uint64_t bytes = rows::bytes_of_radial(from, i);
+        report_.bytes_dropped += bytes;
+        this->report().add(
+            Severity::error, "bad_radial",
+            fmt::format("no sweep holds so many kinds of a moment; {} bytes dropped", bytes));
+        std::uint64_t& count = report.message_counts[from.message_type];
+        if (--count == 0) report.message_counts.erase(from.message_type);
+    }
+    if (!refused.empty()) rows::drop_radials(from, refused);
+}
+
+// Counts what the open sweep takes with these radials too.
+bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
+    std::size_t next = sweep.moments.size();
     for (const SweepMoment& moment : from.moments) {
-        const auto is_same = [&](const SweepMoment* m) { return rows::same_kind(*m, moment); };
-        const auto of_moment = [&](const SweepMoment* m) { return m->moment == moment.moment; };
-        if (std::any_of(accepted.begin(), accepted.end(), is_same)) continue;
-        if (std::count_if(accepted.begin(), accepted.end(), of_moment) < most_kinds_of_a_moment) {
-            accepted.push_back(&moment);
-            continue;
-        }
-        for (std::size_t i = 0; i < moment.gate_counts.size(); ++i)
-            drop[i] = drop[i] || moment.gate_counts[i] != 0;
+        const auto same = [&](const SweepMoment& m) { return rows::same_kind(m, moment); };
+        const auto there = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
+        const std::size_t number = there == sweep.moments.end()
+                                       ? next++
+                                       : static_cast<std::size_t>(there - sweep.moments.begin());
+        const auto gates = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
+        if (!room_.widen(number, gates, rows::bytes_per_code(moment))) return false;
     }
-    if (std::find(drop.begin(), drop.end(), true) == drop.end()) return;
-    const std::uint64_t row_bytes = sizeof(Radial) + rows::bytes_per_row(from);
-    const auto dropped = static_cast<std::uint64_t>(std::count(drop.begin(), drop.end(), true));
-    for (SweepMoment& moment : from.moments)
-        rows::pad(moment, from.radials.size());
-    drop_radials(from, drop);
-    report().damage("bad_radial", "no sweep holds so many kinds of a moment", report_.message_bytes,
-                    dropped * row_bytes);
+    return room_.add_radials(from.radials.size());
 }
 
-bool VolumeBuilder::append_moment(Sweep& sweep, std::size_t radials_before,
-                                  const SweepMoment& from) {
-    const auto same = [&](const SweepMoment& moment) { return rows::same_kind(moment, from); };
-    auto moment = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
-    if (moment == sweep.moments.end()) {
-        const bool first = sweep.find(from.moment) == nullptr;
-        sweep.moments.push_back(rows::empty_like(from));
-        moment = sweep.moments.end() - 1;
-        if (first) rows::reserve(*moment, expected_radials(sweep.azimuth_spacing_deg));
-        if (!take_room(radials_before * rows::bytes_per_row(*moment))) return false;
-    }
-    if (from.gate_stride > moment->gate_stride) {
-        const std::int32_t stride = rows::grown_stride(*moment, from.gate_stride);
-        const auto more = static_cast<std::uint64_t>(stride - moment->gate_stride);
-        if (!take_room(radials_before * more * rows::bytes_per_code(*moment))) return false;
-        rows::set_stride(*moment, stride);
-    }
-    rows::pad(*moment, radials_before);
-    rows::append(*moment, from);
-    return true;
-}
-
-bool VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
+void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
-    const std::uint64_t own_bytes = rows::bytes_per_row(from);
-    if (!take_room(from.radials.size() * (sizeof(Radial) + own_bytes))) return false;
     sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());
     for (const SweepMoment& moment : from.moments) {
-        if (!append_moment(sweep, before, moment)) return false;
+        const auto same = [&](const SweepMoment& m) { return rows::same_kind(m, moment); };
+        auto to = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
+        if (to == sweep.moments.end()) {
+            const bool first = sweep.find(moment.moment) == nullptr;
+            sweep.moments.push_back(rows::empty_like(moment));
+            to = sweep.moments.end() - 1;
+            if (first) rows::reserve(*to, expected_radials(sweep.azimuth_spacing_deg));
+        }
+        if (moment.gate_stride > to->gate_stride) {
+            rows::set_stride(*to, rows::grown_stride(*to, moment.gate_stride));
+        }
+        rows::pad(*to, before);
+        rows::append(*to, moment);
     }
-    // The kinds that these radials lack get rows all the same.
-    return take_room(from.radials.size() * (rows::bytes_per_row(sweep) - own_bytes));
 }
 
-bool VolumeBuilder::append_piece(Fragment::Piece piece) {
-    note_marks(std::move(piece.before));
+bool VolumeBuilder::append_piece(Fragment::Piece piece, DecodeReport& report) {
+    if (!note_marks(std::move(piece.before))) return false;
     const bool begins = begins_sweep_here(piece);
     if (begins) {
-        if (begins_volume(piece)) begin_volume(piece);
+        if (begins_volume(piece) && !begin_volume(piece)) return false;
         pending_header_.reset();
         vcp_is_new_ = false;
         end_sweep();
+        room_.begin_sweep();
+        if (!room_.add(empty_sweep_bytes)) return false;
     }
     Sweep& from = piece.sweep;
     previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(from.radials.back()),
@@ -253,19 +211,17 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
         return true;
     }
     sweep_is_open_ = true;
-    if (!begins) {
-        refuse_surplus_kinds(volume_.sweeps.back(), from);
-        return append_rows(volume_.sweeps.back(), from);
+    Sweep& sweep = begins ? begin_sweep(from) : volume_.sweeps.back();
+    if (!begins) refuse_surplus_kinds(sweep, from, report);
+    if (!make_room_for(sweep, from)) return false;
+    if (begins && 2 * from.radials.size() >= expected_radials(from.azimuth_spacing_deg)) {
+        // Nearly all of the sweep already: its arrays are taken as they are.
+        sweep.radials = std::move(from.radials);
+        sweep.moments = std::move(from.moments);
+    } else {
+        append_rows(sweep, from);
     }
-    Sweep& sweep = begin_sweep(from);
-    const std::size_t count = from.radials.size();
-    if (2 * count < expected_radials(from.azimuth_spacing_deg)) {
-        return take_room(sizeof(Sweep)) && append_rows(sweep, from);
-    }
-    // Nearly all of the sweep already: its arrays are taken as they are.
-    sweep.radials = std::move(from.radials);
-    sweep.moments = std::move(from.moments);
-    return take_room(sizeof(Sweep) + count * (sizeof(Radial) + rows::bytes_per_row(sweep)));
+    return true;
 }
 
 std::string VolumeBuilder::station(const std::string& fallback) const {
@@ -285,12 +241,14 @@ Volume VolumeBuilder::facts(const std::string& fallback_station) const {
     return facts;
 }
 
-std::size_t VolumeBuilder::close_sweeps() {
-    if (!sweep_is_open_ || previous_->ended_sweep) {
-        tidy_last_sweep();
-        return volume_.sweeps.size();
-    }
-    return volume_.sweeps.size() - 1;
+std::size_t VolumeBuilder::closed_sweeps() const {
+    return volume_.sweeps.size() - (sweep_is_open_ ? 1 : 0);
+}
+
+Sweep VolumeBuilder::whole_sweep(std::size_t index) const {
+    Sweep sweep = volume_.sweeps[index];
+    if (sweep_is_open_ && index + 1 == volume_.sweeps.size()) rows::make_whole(sweep);
+    return sweep;
 }
 
 std::span<const std::byte> VolumeBuilder::begin_stream(std::span<const std::byte> bytes) {
@@ -314,20 +272,32 @@ Status VolumeBuilder::count_output(std::uint64_t bytes) {
     return {};
 }
 
+Status VolumeBuilder::hold(std::uint64_t bytes) {
+    if (room_.add(bytes)) return {};
+    return fail(ErrorCode::unsupported, "what it holds takes more than the limit of {} bytes",
+                limit_bytes_);
+}
+
+// False where the arrays exceed their limit.
+bool VolumeBuilder::append_all(Fragment& fragment) {
+    // What a fragment takes is never more than what the volume takes for it.
+    if (fragment.array_bytes > arrays_left()) return false;
+    for (Fragment::Piece& piece : fragment.pieces) {
+        if (!append_piece(std::move(piece), fragment.report)) return false;
+        piece = {};
+    }
+    return note_marks(std::move(fragment.behind));
+}
+
 Status VolumeBuilder::append(Fragment fragment) {
-    const auto too_large_arrays = [&]() -> Status {
-        return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
-                    limit_bytes_);
-    };
     switch (fragment.failure) {
         case Fragment::Failure::none:
+        case Fragment::Failure::too_large_arrays:
             break;
         case Fragment::Failure::no_memory:
-            return fail(ErrorCode::unsupported, "it takes more memory than there is");
+            return no_memory();
         case Fragment::Failure::too_much_output:
             return too_much_output();
-        case Fragment::Failure::too_large_arrays:
-            return too_large_arrays();
     }
     if (Status counted = count_output(fragment.output_bytes); !counted) return counted;
     if (report_.ldm_records.value_or(0) + fragment.report.ldm_records.value_or(0) > most_records) {
@@ -335,11 +305,10 @@ Status VolumeBuilder::append(Fragment fragment) {
     }
     cut_ = cut_ || fragment.cut;
     note_volume_facts(fragment);
-    for (Fragment::Piece& piece : fragment.pieces) {
-        if (!append_piece(std::move(piece))) return too_large_arrays();
-        piece = {};
+    if (fragment.failure == Fragment::Failure::too_large_arrays || !append_all(fragment)) {
+        return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
+                    limit_bytes_);
     }
-    note_marks(std::move(fragment.behind));
     report().append(std::move(fragment.report));
     return {};
 }
@@ -362,7 +331,8 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
         previous_.has_value(), ended, all_cuts, last_is_newest, report_.further_volume_starts,
         report_.rda_status};
     const bool gaps = check_volume(volume_, facts, report());
-    report_.complete = ended && !gaps && report_.bytes_dropped == 0 && report_.errors == 0;
+    report_.complete =
+        ended && !gaps && !incomplete_ && report_.bytes_dropped == 0 && report_.errors == 0;
     report().finish();
     return Decoded{std::move(volume_), std::move(report_)};
 }

@@ -1,9 +1,11 @@
 // level2/volume_builder.h -- joins fragments, in the order of the stream, into a volume.
 //
 // A sweep goes on in the next fragment unless the elevation number or the message type changes, a
-// radial has status 0, 3 or 5, or a 24-byte header lies between.
+// radial has status 0, 3 or 5, or a 24-byte header lies between. It holds at most 16 kinds of a
+// moment: radials with yet another one are refused, each by itself, in their order.
 // Limits: neither the decompressed bytes nor the arrays come to more than the limit given: append()
-// gives unsupported then, and the builder is not to be used any more.
+// gives unsupported then, and the builder is not to be used any more. Nor do the arrays of a sweep
+// come to more than most_sweep_bytes.
 // Thread contract: one thread at a time.
 #pragma once
 
@@ -13,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "level2/array_room.h"
 #include "level2/decode.h"
 #include "level2/fragment.h"
 #include "level2/report_writer.h"
@@ -24,7 +27,8 @@ namespace stormcellar::level2 {
 
 class VolumeBuilder {
   public:
-    explicit VolumeBuilder(std::uint64_t limit_bytes) : limit_bytes_(limit_bytes) {}
+    explicit VolumeBuilder(std::uint64_t limit_bytes)
+        : limit_bytes_(limit_bytes), room_(limit_bytes) {}
 
     [[nodiscard]] Status append(Fragment fragment);
     // Takes station, position and pattern, and no radials.
@@ -33,6 +37,10 @@ class VolumeBuilder {
     [[nodiscard]] Status count_output(std::uint64_t bytes);
     [[nodiscard]] Status too_much_output() const;
     [[nodiscard]] std::uint64_t output_left() const { return limit_bytes_ - output_bytes_; }
+    // For what is held beside the arrays until the end.
+    [[nodiscard]] Status hold(std::uint64_t bytes);
+    // What the arrays of the next fragment may take.
+    [[nodiscard]] std::uint64_t arrays_left() const { return room_.left_bytes(); }
     // Of the bytes that a stream of messages or LDM records begins with: what follows the 24-byte
     // header, if there is one.
     [[nodiscard]] std::span<const std::byte> begin_stream(std::span<const std::byte> bytes);
@@ -42,11 +50,16 @@ class VolumeBuilder {
     [[nodiscard]] DecodeReport& report_data() { return report_; }
     void set_cut() { cut_ = true; }  // the input ends too early
     [[nodiscard]] bool is_cut() const { return cut_; }
+    // Something of the volume is known not to have come.
+    void set_incomplete() { incomplete_ = true; }
     // What there is up to now. The last sweep may go on, and its rows may be too few or too long.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
-    // So many of its sweeps are closed, by what follows or by their last radial's status; their
-    // rows are made whole. A sweep can go on after its last radial all the same.
-    [[nodiscard]] std::size_t close_sweeps();
+    // A sweep of so_far() with its rows made whole.
+    [[nodiscard]] Sweep whole_sweep(std::size_t index) const;
+    // So many of the sweeps are closed by what follows.
+    [[nodiscard]] std::size_t closed_sweeps() const;
+    // The sweep behind these has had its last radial by its status; more may follow all the same.
+    [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
     // All but the sweeps.
     [[nodiscard]] Volume facts(const std::string& fallback_station) const;
@@ -66,27 +79,27 @@ class VolumeBuilder {
         bool ended_volume = false;  // 4
     };
     [[nodiscard]] std::string station(const std::string& fallback) const;
-    void note_marks(FragmentMarks marks);
+    [[nodiscard]] bool append_all(Fragment& fragment);
+    [[nodiscard]] bool note_marks(FragmentMarks marks);
     void set_pattern(Vcp vcp);
     void note_volume_facts(const Fragment& fragment);
-    [[nodiscard]] bool append_piece(Fragment::Piece piece);
+    [[nodiscard]] bool append_piece(Fragment::Piece piece, DecodeReport& report);
     [[nodiscard]] bool begins_sweep_here(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begins_volume(const Fragment::Piece& piece) const;
-    void begin_volume(const Fragment::Piece& piece);
+    [[nodiscard]] bool begin_volume(const Fragment::Piece& piece);
     [[nodiscard]] DecodeReport::FurtherPattern pattern_of(const Fragment::Piece& piece);
     [[nodiscard]] Sweep& begin_sweep(const Sweep& from);
     void end_sweep();
     void tidy_last_sweep();
-    void refuse_surplus_kinds(const Sweep& sweep, Sweep& from);
-    [[nodiscard]] bool append_rows(Sweep& sweep, const Sweep& from);
-    [[nodiscard]] bool append_moment(Sweep& sweep, std::size_t radials_before,
-                                     const SweepMoment& from);
-    [[nodiscard]] bool take_room(std::uint64_t bytes);
+    void refuse_surplus_kinds(const Sweep& sweep, Sweep& from, DecodeReport& report);
+    [[nodiscard]] bool make_room_for(const Sweep& sweep, const Sweep& from);
+    void append_rows(Sweep& sweep, const Sweep& from);
 
     std::uint64_t limit_bytes_;
-    std::uint64_t taken_bytes_ = 0;
+    ArrayRoom room_;
     std::uint64_t output_bytes_ = 0;
     bool cut_ = false;
+    bool incomplete_ = false;
     Volume volume_;
     DecodeReport report_;
     std::optional<Previous> previous_;

@@ -57,6 +57,35 @@ TEST_F(ChunkDirectoryTest, MissingAndBadChunksAreNamed) {
     EXPECT_TRUE(has("bad_chunk"));
 }
 
+TEST_F(ChunkDirectoryTest, OfTwoFilesOfANumberTheBetterIsTaken) {
+    put_volume("20220317-000842");
+    put("KTLX-20220317-000842-002-I", wire::ldm_record(wire::radial_messages(1, 5)));
+    put("a-20220317-000842-003-E", wire::Bytes(100, std::byte{0x41}));
+    const auto decoded = decode_chunk_directory(directory_.path());
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->volume.radial_count(), 20U);
+    EXPECT_TRUE(codes().empty()) << "nothing of either file";
+}
+
+TEST_F(ChunkDirectoryTest, FilesThatAreNotFinishedAreNotLookedAt) {
+    put_volume("20220317-000842");
+    for (const char* name : {".20220317-000842-004-I", "20220317-000842-004-I.part",
+                             "20220317-000842-004-I.tmp", "20220317-000842-004-I~"}) {
+        put(name, wire::Bytes(100, std::byte{0x41}));
+    }
+    EXPECT_TRUE(codes().empty());
+}
+
+TEST_F(ChunkDirectoryTest, AChunkOfAnotherVolumeIsAnError) {
+    put_volume("20220317-000842");
+    wire::Bytes other = wire::archive_header();
+    wire::overwrite_u32(other, 16, 77);
+    put("x-20220317-000842-001-S", wire::join({other, wire::ldm_record(wire::frame(2))}));
+    const auto decoded = decode_chunk_directory(directory_.path());
+    ASSERT_FALSE(decoded);
+    EXPECT_EQ(decoded.error().code, ErrorCode::bad_argument);
+}
+
 TEST_F(ChunkDirectoryTest, ErrorsNameTheDirectory) {
     const auto expect_error = [&](const std::filesystem::path& path, ErrorCode code) {
         const auto decoded = decode_chunk_directory(path);

@@ -67,6 +67,14 @@ Bytes joined(const std::vector<ChunkFile>& chunks) {
     return all;
 }
 
+// What the joined chunks cannot say.
+Decoded without_missing_chunks(Decoded decoded, bool complete) {
+    std::erase_if(decoded.report.problems,
+                  [](const Problem& problem) { return problem.code == "missing_chunks"; });
+    decoded.report.complete = complete;
+    return decoded;
+}
+
 Result<Added> add(LiveVolume& volume, const ChunkFile& chunk, seconds at = {}) {
     return volume.add(chunk.name.number, chunk.name.kind, chunk.bytes,
                       LiveVolume::Clock::time_point{at});
@@ -102,9 +110,12 @@ void expect_any_order_gives_the_same(const std::vector<ChunkFile>& chunks, unsig
         const auto live = volume.finish();
         const auto whole = decode(joined(arrived));
         ASSERT_EQ(live.has_value(), whole.has_value()) << round;
-        if (whole) {
-            EXPECT_EQ(difference(*live, *whole), "") << "round " << round;
-        }
+        if (!whole) continue;
+        const bool lacks_some = arrived.back().name.number != static_cast<int>(arrived.size());
+        const bool complete = whole->report.complete;
+        EXPECT_EQ(live->report.complete, complete && !lacks_some) << "round " << round;
+        EXPECT_EQ(difference(without_missing_chunks(*live, complete), *whole), "")
+            << "round " << round;
     }
 }
 
@@ -268,7 +279,51 @@ TEST(LiveVolume, WhatIsNoChunkIsRefusedAndChangesNothing) {
     cut.resize(cut.size() / 2);
     EXPECT_EQ(refuse(cut), ErrorCode::truncated);
     EXPECT_TRUE(volume.is_empty());
+    EXPECT_EQ(volume.finish().error().code, ErrorCode::corrupt);
     EXPECT_EQ(volume.finish().error().code, ErrorCode::empty);
+}
+
+std::vector<std::string> texts_of(const Decoded& decoded, std::string_view code) {
+    std::vector<std::string> texts;
+    for (const Problem& problem : decoded.report.problems) {
+        if (problem.code == code) texts.push_back(problem.text());
+    }
+    return texts;
+}
+
+TEST(LiveVolume, LostChunksAreNamed) {
+    const auto chunks = simple_chunks(3);
+    LiveVolume volume;
+    for (const ChunkFile& chunk : chunks) {
+        if (chunk.name.number == 3 || chunk.name.number == 5) continue;
+        EXPECT_TRUE(add(volume, chunk));
+    }
+    EXPECT_FALSE(volume.add(5, ChunkKind::intermediate, Bytes(1000, std::byte{0x41}), {}));
+    EXPECT_FALSE(volume.add(6, ChunkKind::intermediate, Bytes(1000, std::byte{0x41}), {}))
+        << "a whole one is there";
+    const Decoded decoded = volume.finish().value();
+    EXPECT_EQ(texts_of(decoded, "missing_chunks"), std::vector<std::string>{"missing chunks: 3"});
+    EXPECT_EQ(texts_of(decoded, "bad_chunk"),
+              std::vector<std::string>{"chunk 5: not a chunk of a Level II volume"});
+    EXPECT_FALSE(decoded.report.complete);
+}
+
+TEST(LiveVolume, TheFirstHeaderOfANumberIsRemembered) {
+    const auto a = simple_chunks(1, 1000), b = simple_chunks(1, 61'000);
+    const ChunkFile without_header{{"20220317-000842", 1, ChunkKind::start}, a[1].bytes};
+    LiveVolume volume;
+    EXPECT_EQ(add(volume, without_header), Added::added);
+    EXPECT_EQ(add(volume, a[0]), Added::worse) << "metadata, where there are radials";
+    EXPECT_EQ(add(volume, b[0]), Added::another_volume);
+}
+
+TEST(LiveVolume, ThatAChunkIsTheLastIsBelievedThoughItComesTwice) {
+    const auto chunks = simple_chunks(2);
+    LiveVolume volume;
+    EXPECT_EQ(add(volume, chunks[1]), Added::added);
+    EXPECT_FALSE(volume.has_ended());
+    EXPECT_EQ(volume.add(2, ChunkKind::end, chunks[1].bytes, {}), Added::repeated);
+    EXPECT_TRUE(volume.has_ended());
 }
 
 TEST(LiveVolume, BeyondTheLimitAChunkIsRefused) {

@@ -30,7 +30,8 @@ Outcome outcome_of(MessageReader& reader) {
 }
 
 Outcome read_whole(std::span<const std::byte> bytes) {
-    FragmentBuilder builder{ample, 8, everything};
+    ArrayRoom room{ample};
+    FragmentBuilder builder{room, 8, everything};
     MessageReader reader{builder};
     EXPECT_EQ(reader.read(bytes, true), bytes.size());
     EXPECT_EQ(reader.offset(), bytes.size());
@@ -38,7 +39,8 @@ Outcome read_whole(std::span<const std::byte> bytes) {
 }
 
 Outcome read_in_pieces(std::span<const std::byte> bytes, std::size_t piece) {
-    FragmentBuilder builder{ample, 8, everything};
+    ArrayRoom room{ample};
+    FragmentBuilder builder{room, 8, everything};
     MessageReader reader{builder};
     MessageFeed feed{reader};
     for (std::size_t at = 0; at < bytes.size(); at += piece)
@@ -188,7 +190,8 @@ TEST(MessageReader, ProblemsStayFewWhateverTheInput) {
     const wire::Bytes bad = wire::join({ray_1(1), wire::Writer{}.text("xxxxxxx").bytes});
     for (int i = 0; i < 1000; ++i)
         bytes.insert(bytes.end(), bad.begin(), bad.end());
-    FragmentBuilder builder{ample, 8, everything};
+    ArrayRoom room{ample};
+    FragmentBuilder builder{room, 8, everything};
     MessageReader reader{builder};
     reader.read(bytes, true);
     const Outcome outcome = outcome_of(reader);

@@ -28,7 +28,7 @@ TEST(RecordQueue, OrderAndContentsDoNotDependOnTheThreads) {
     for (const int threads : {1, 2, 3, 8}) {
         RecordQueue queue{parts_of(bytes), threads, ample, everything};
         unsigned i = 0;
-        for (; const auto fragment = queue.next(); ++i) {
+        for (; const auto fragment = queue.next(ample); ++i) {
             ASSERT_EQ(fragment->pieces.size(), 1U);
             EXPECT_EQ(fragment->pieces[0].sweep.radials.size(), 1 + i % 7);
             EXPECT_EQ(fragment->pieces[0].sweep.moments.at(0).gate_stride, 50 + i);
@@ -43,17 +43,17 @@ TEST(RecordQueue, CanBeLeftEarly) {
     for (int taken = 0; taken < 3; ++taken) {
         RecordQueue queue{parts_of(bytes), 4, ample, everything};
         for (int i = 0; i < taken; ++i)
-            EXPECT_TRUE(queue.next());
+            EXPECT_TRUE(queue.next(ample));
     }
 }
 
 TEST(RecordQueue, ARecordBeyondTheLimitSaysSo) {
     const wire::Bytes bytes = wire::ldm_record(wire::Bytes(2'000'000));
     RecordQueue queue{parts_of(bytes), 2, 1'000'000, everything};
-    const auto fragment = queue.next();
+    const auto fragment = queue.next(ample);
     ASSERT_TRUE(fragment);
     EXPECT_EQ(fragment->failure, Fragment::Failure::too_much_output);
-    EXPECT_FALSE(queue.next());
+    EXPECT_FALSE(queue.next(ample));
 }
 
 }  // namespace

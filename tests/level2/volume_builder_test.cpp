@@ -40,7 +40,7 @@ class VolumeBuilderTest : public ::testing::Test {
         block.word_size_bits = spec.word_size_bits;
         block.codes = codes_;
         if (spec.has_ref && !message.add(block)) return false;
-        return builder_.add(message) == FragmentBuilder::Added::added;
+        return builder_.add(message);
     }
     // Ends the fragment: what follows comes in another one.
     void end_fragment() { EXPECT_TRUE(volume_.append(builder_.take())); }
@@ -53,7 +53,8 @@ class VolumeBuilderTest : public ::testing::Test {
     }
 
     Selection selection_;
-    FragmentBuilder builder_{ample, rows, selection_};
+    ArrayRoom room_{ample};
+    FragmentBuilder builder_{room_, rows, selection_};
     VolumeBuilder volume_{ample};
     DecodeReport report_;
     std::vector<std::byte> codes_;
@@ -207,7 +208,8 @@ TEST_F(VolumeBuilderTest, AMomentThatIsNotAskedForIsLeftOut) {
 
 // One radial with very many gates makes every row long: 65,535 codes for each of 4.
 TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
-    FragmentBuilder builder{10'000'000, rows, everything};
+    ArrayRoom room{10'000'000};
+    FragmentBuilder builder{room, rows, everything};
     const std::vector<std::byte> codes(65'535);
     int taken = 0;
     for (; taken < 100'000; ++taken) {
@@ -217,18 +219,18 @@ TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
         block.gates = taken == 0 ? 65'535 : 4;
         block.codes = std::span{codes}.first(block.gates);
         ASSERT_TRUE(message.add(block));
-        if (builder.add(message) != FragmentBuilder::Added::added) break;
+        if (!builder.add(message)) break;
     }
     EXPECT_GT(taken, 100);
     EXPECT_LT(taken, 160);
 }
 
-// Another scale in each radial makes another kind of row, padded to the end of the sweep.
-TEST(FragmentBuilderLimit, KindsOfAMomentAreFew) {
-    FragmentBuilder builder{ample, rows, everything};
+// Another scale in each radial makes another kind of row, padded to the end of the piece.
+TEST(FragmentBuilderLimit, KindsOfAMomentInAPieceAreFew) {
+    ArrayRoom room{ample};
+    FragmentBuilder builder{room, rows, everything};
     const std::vector<std::byte> codes(1);
-    int refused = 0;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 100; ++i) {
         RadialMessage message;
         message.elevation_number = 1;
         MomentBlock block;
@@ -236,13 +238,22 @@ TEST(FragmentBuilderLimit, KindsOfAMomentAreFew) {
         block.scale = static_cast<float>(1 + i);
         block.codes = codes;
         ASSERT_TRUE(message.add(block));
-        if (builder.add(message) == FragmentBuilder::Added::refused) ++refused;
+        EXPECT_TRUE(builder.add(message));
     }
-    EXPECT_EQ(refused, 1000 - 16);
-    const Fragment fragment = builder.take();
-    ASSERT_EQ(fragment.pieces.size(), 1U);
+    Fragment fragment = builder.take();
+    ASSERT_EQ(fragment.pieces.size(), 7U);
     EXPECT_EQ(fragment.pieces[0].sweep.moments.size(), 16U);
-    EXPECT_EQ(fragment.pieces[0].sweep.radials.size(), 16U);
+    EXPECT_EQ(fragment.pieces[6].sweep.radials.size(), 4U);
+    // Joined they are one sweep, which takes no more than the first 16.
+    VolumeBuilder volume{ample};
+    fragment.report.message_counts[31] = 100;
+    EXPECT_TRUE(volume.append(std::move(fragment)));
+    const Decoded decoded = volume.finish("").value();
+    ASSERT_EQ(decoded.volume.sweeps.size(), 1U);
+    EXPECT_EQ(decoded.volume.sweeps[0].radials.size(), 16U);
+    EXPECT_EQ(decoded.volume.sweeps[0].moments.size(), 16U);
+    EXPECT_EQ(decoded.report.message_counts.at(31), 16U);
+    EXPECT_EQ(decoded.report.errors, 84U);
 }
 
 TEST_F(VolumeBuilderTest, TheEndOfAVolumeIsKnownThoughItsRadialHasBadData) {
