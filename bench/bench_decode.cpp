@@ -1,6 +1,7 @@
 // bench_decode: what decoding costs beside the decompression that nobody can avoid.
 //
-// usage: bench_decode [--runs N] [FILE ...]      (default: 5 runs of every real volume)
+// usage: bench_decode [--runs N] [--give-back] [FILE ...]   (default: 5 runs of every real volume)
+//   --give-back   freed memory goes back to the system, as glibc would have it: see base/memory.h
 // For each file and number of threads one row, tab-separated under a head of keys:
 //   file         its name
 //   threads      for decoding; libbz2 always has one
@@ -11,7 +12,8 @@
 //   peak_mib     peak resident memory of a process that reads and decodes the file once
 //   arrays_mib   of which the decoded arrays and radials
 //   file_mib     and the file itself
-// Times are the least of the runs. Files without LDM records are left out.
+// Times are the least of the runs, in each of which the three are timed one behind the other. Files
+// without LDM records are left out.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -33,6 +35,7 @@
 #include <unistd.h>
 
 #include "base/file_system.h"
+#include "base/memory.h"
 #include "level2/archive_header.h"
 #include "level2/decode.h"
 #include "level2/gzip_stream.h"
@@ -50,14 +53,10 @@ using Bytes = std::vector<std::byte>;
 constexpr double mebibyte = 1024.0 * 1024.0;
 
 template <class Work>
-double least_seconds(int runs, Work work) {
-    double least = HUGE_VAL;
-    for (int i = 0; i < runs; ++i) {
-        const auto start = Clock::now();
-        work();
-        least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
-    }
-    return least;
+void keep_least_seconds(double& least, Work work) {
+    const auto start = Clock::now();
+    work();
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
 }
 
 Bytes without_gzip(Bytes bytes) {
@@ -164,24 +163,29 @@ void measure(const fs::path& file, int runs) {
     const Bytes peeled = without_gzip(*raw);
     const auto records = ldm_records(peeled);
     if (records.empty()) return;
+    const auto decoded = level2::decode(*raw);
+    if (!decoded) return;
+    const auto message_bytes = static_cast<double>(decoded->report.message_bytes);
+    const double arrays = arrays_mib(decoded->volume);
     std::vector<char> buffer(std::size_t{1} << 20);
-    const double libbz2_s = least_seconds(runs, [&] {
-        for (const auto record : records)
-            decompress(record, buffer);
-    });
-    for (const int threads : {1, 2}) {
-        auto decoded = level2::decode(*raw, with_threads(threads));
-        if (!decoded) return;
-        const auto message_bytes = static_cast<double>(decoded->report.message_bytes);
-        const double arrays = arrays_mib(decoded->volume);
-        decoded = fail(ErrorCode::empty, "");  // its memory, before the times
-        const double decode_s = least_seconds(runs, [&] {
-            const auto again = level2::decode(*raw, with_threads(threads));
-            if (!again) std::abort();
+    double libbz2_s = HUGE_VAL;
+    std::array<double, 2> decode_s = {HUGE_VAL, HUGE_VAL};
+    for (int run = 0; run < runs; ++run) {
+        keep_least_seconds(libbz2_s, [&] {
+            for (const auto record : records)
+                decompress(record, buffer);
         });
+        for (const int threads : {1, 2}) {
+            keep_least_seconds(decode_s[static_cast<std::size_t>(threads - 1)], [&] {
+                if (!level2::decode(*raw, with_threads(threads))) std::abort();
+            });
+        }
+    }
+    for (const int threads : {1, 2}) {
+        const double seconds = decode_s[static_cast<std::size_t>(threads - 1)];
         fmt::print("{}\t{}\t{:.4f}\t{:.4f}\t{:.3f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}\n",
-                   file.filename().string(), threads, libbz2_s, decode_s, decode_s / libbz2_s,
-                   message_bytes / 1e6 / decode_s, peak_mib(file, threads).value_or(-1), arrays,
+                   file.filename().string(), threads, libbz2_s, seconds, seconds / libbz2_s,
+                   message_bytes / 1e6 / seconds, peak_mib(file, threads).value_or(-1), arrays,
                    static_cast<double>(raw->size()) / mebibyte);
         std::fflush(stdout);
     }
@@ -209,16 +213,23 @@ std::vector<fs::path> real_volumes() {
 }
 
 int run(int argc, char** argv) {
-    if (argc == 4 && std::string(argv[1]) == "--decode-once") return decode_once(argv[2], argv[3]);
+    if (argc == 4 && std::string(argv[1]) == "--decode-once") {
+        keep_freed_memory();
+        return decode_once(argv[2], argv[3]);
+    }
     int runs = 5;
+    bool give_back = false;
     std::vector<fs::path> files;
     for (int i = 1; i < argc; ++i) {
         if (std::string(argv[i]) == "--runs" && i + 1 < argc) {
             runs = std::max(1, static_cast<int>(number_in(argv[++i])));
+        } else if (std::string(argv[i]) == "--give-back") {
+            give_back = true;
         } else {
             files.emplace_back(argv[i]);
         }
     }
+    if (!give_back) keep_freed_memory();
     if (files.empty()) files = real_volumes();
     if (files.empty()) {
         fmt::print(stderr, "bench_decode: no files: name some, or set STORMCELLAR_DATA\n");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "base/memory.h"
 #include "base/version.h"
 #include "cli/commands.h"
 
@@ -44,6 +45,7 @@ int flushed(int status) {
 }
 
 int run(int argc, char** argv) {
+    keep_freed_memory();
     CLI::App app{"Weather radar Level II volumes: catalog, grids, loops."};
     app.name("stormcellar");
     app.set_version_flag("--version", std::string{software_version});

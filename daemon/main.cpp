@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "base/memory.h"
 #include "base/printable.h"
 #include "base/version.h"
 #include "daemon/config.h"
@@ -92,6 +93,7 @@ std::unique_ptr<EventSource> open_events() {
 }
 
 int serve(const Config& config, const std::filesystem::path& file) {
+    keep_freed_memory();
     set_up_logging(config.log_level);
     const Status ready = check_drop(config.drop)
                              .and_then([&] { return make_directory(config.state); })
