@@ -32,6 +32,10 @@ function(stormcellar_test name)
   add_executable(${name} ${ARG_SOURCES})
   # The rooms are tested as they are released; the tests themselves need not be fast, but built soon.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(STORMCELLAR_QUICK_TESTS)
+    target_compile_options(${name} PRIVATE -O0)
+    target_precompile_headers(${name} REUSE_FROM stormcellar_test_headers)
+  endif()
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} stormcellar::testing GTest::gtest GTest::gmock
     GTest::gtest_main)
   set(properties TIMEOUT 300)
