@@ -20,6 +20,7 @@
 #include "tests/hard_cases/message_mutants.h"
 #include "tests/hard_cases/oracle.h"
 #include "tests/testing/data.h"
+#include "tests/testing/test_name.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -179,13 +180,7 @@ TEST_P(MutationTest, Messages) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MutationTest, ::testing::ValuesIn(names()),
-                         [](const auto& parameter) {
-                             std::string name = parameter.param;
-                             for (char& c : name) {
-                                 if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                             }
-                             return name;
-                         });
+                         [](const auto& test) { return testing::test_name(test.param); });
 
 }  // namespace
 }  // namespace stormcellar::level2

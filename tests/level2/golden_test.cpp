@@ -14,6 +14,7 @@
 #include "level2/describe.h"
 #include "level2/gzip_stream.h"
 #include "tests/testing/data.h"
+#include "tests/testing/test_name.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -219,13 +220,7 @@ TEST(GoldenHalfRadial, IsDroppedAndWouldGiveTheReferencesChecksum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenTest, ::testing::ValuesIn(golden_names()),
-                         [](const auto& parameter) {
-                             std::string name = parameter.param;
-                             for (char& c : name) {
-                                 if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                             }
-                             return name;
-                         });
+                         [](const auto& test) { return testing::test_name(test.param); });
 
 }  // namespace
 }  // namespace stormcellar::level2
