@@ -20,9 +20,7 @@ constexpr std::size_t longest_message_bytes = std::size_t{1} << 22;
 // Whether what stands behind a message leaves no doubt that the message ends there: another one, a
 // fill frame, a further volume header, or the end.
 bool surely_follows(std::span<const std::byte> next, bool last, bool after_radial) {
-    if (next.size() < message_header_bytes) {
-        return last && (next.size() < frame_bytes || all_zero(next));
-    }
+    if (next.size() < message_header_bytes) return last && all_zero(next);
     if (read_archive_header(next)) return true;
     // Zeros after a radial are more likely its neighbour's gates below threshold than a frame.
     if (all_zero(next.first(message_header_bytes))) return !after_radial;
@@ -202,27 +200,26 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
         return;
     }
     std::vector<std::byte> expanded;
-    if (header.type == 31) {
-        const int compression = message_31_compression(body);
-        ++builder_.report_data().radial_compression[compression];
-        if (compression != 0) {
-            auto whole = expand_message_31(body);
-            if (!whole) {
-                builder_.report().damage("bad_radial", std::string{whole.error()}, offset_,
-                                         message.size());
-                return;
-            }
-            expanded = std::move(*whole);
-            body = expanded;
+    const bool is_31 = header.type == 31;
+    const int compression = is_31 ? message_31_compression(body) : 0;
+    if (compression != 0) {
+        auto whole = expand_message_31(body);
+        if (!whole) {
+            builder_.report().damage("bad_radial", std::string{whole.error()}, offset_,
+                                     message.size());
+            return;
         }
+        expanded = std::move(*whole);
+        body = expanded;
     }
-    const RadialResult radial = header.type == 31 ? read_message_31(body) : read_message_1(body);
+    const RadialResult radial = is_31 ? read_message_31(body) : read_message_1(body);
     if (!radial) {
         builder_.report().damage("bad_radial", std::string{radial.error()}, offset_,
                                  message.size());
         return;
     }
     ++builder_.report_data().message_counts[header.type];
+    if (is_31) ++builder_.report_data().radial_compression[compression];
     full_ = !builder_.add(*radial);
 }
 

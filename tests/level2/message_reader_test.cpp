@@ -148,6 +148,23 @@ TEST(MessageReader, AMessageCutByTheEndIsDropped) {
     }
 }
 
+// The length of a radial that has lost bytes ends a few bytes before the end of the data: what is
+// left there is no message, so nothing shows that the radial ends where it says.
+TEST(MessageReader, AFewBytesBehindARadialDoNotProveItsEnd) {
+    wire::Ray large;
+    large.azimuth_number = 2;
+    large.gates = 600;
+    const wire::Bytes third = ray_31(3);
+    for (const std::size_t behind : {1U, 10U, 27U}) {
+        wire::Bytes second = wire::message_31(large);
+        wire::overwrite_u16(second, 28 + 18, static_cast<unsigned>(second.size() - 28));
+        second.resize(second.size() - third.size() + behind);
+        const Outcome outcome = read_whole(wire::join({ray_31(1), second, third}));
+        EXPECT_EQ(azimuth_numbers(outcome.volume), (std::vector<int>{1, 3})) << behind;
+        EXPECT_EQ(outcome.report.bytes_dropped, second.size()) << behind;
+    }
+}
+
 TEST(MessageReader, ALengthThatLiesCostsThatRadialOnly) {
     for (const unsigned halfwords : {20U, 100U, 3000U, 40000U, 65535U}) {
         wire::Bytes liar = ray_31(2);
@@ -175,6 +192,18 @@ TEST(MessageReader, ACompressedRadialIsReadAndADamagedOneIsDroppedAndNamed) {
         EXPECT_EQ(rest.report.problems.at(0).code, "bad_radial");
         EXPECT_EQ(rest.report.bytes_dropped, damaged.size());
     }
+}
+
+TEST(MessageReader, CountsTheCompressionOfRadialsThatItKeeps) {
+    const wire::Bytes good = wire::compressed_message_31(ray_31(1), 2);
+    wire::Bytes damaged = wire::compressed_message_31(ray_31(2), 2);
+    damaged[damaged.size() - 20] ^= std::byte{0xFF};
+    const wire::Bytes no_moment = wire::message_31_with_block(wire::Writer{}.text("DREF").bytes);
+    const Outcome outcome =
+        read_whole(wire::join({good, damaged, ray_31(3), no_moment, ray_31(4)}));
+    EXPECT_EQ(azimuth_numbers(outcome.volume), (std::vector<int>{1, 3, 4}));
+    const std::map<int, std::uint64_t> expected = {{0, 2}, {2, 1}};
+    EXPECT_EQ(outcome.report.radial_compression, expected);
 }
 
 TEST(MessageReader, AHeaderInTheMiddleIsSkipped) {
