@@ -1,4 +1,4 @@
-// level2/archive_header.h -- the 24 bytes before the first record (ICD 2620010, table I).
+// level2/archive_header.h -- the 24 bytes before the first record (ICD 2620010, section 7.3.3).
 #pragma once
 
 #include <cstddef>

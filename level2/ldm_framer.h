@@ -1,4 +1,4 @@
-// level2/ldm_framer.h -- cuts a file into LDM records (ICD 2620010, section 3.3).
+// level2/ldm_framer.h -- cuts a file into LDM records (ICD 2620010, section 7.3.4).
 //
 // A record is a signed 4-byte length, whose sign marks the last record as a rule, and a bzip2
 // stream. Lengths that contradict the bytes are not believed: the next stream is searched for.
