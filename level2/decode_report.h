@@ -55,15 +55,17 @@ struct DecodeReport {
         0;  // of these, not even decompressed; offsets do not count them
     // Sweep indices at which a further volume begins: at a start-of-volume radial, after a second
     // header, where the elevation number falls, and where it does not rise after an end of volume.
-    // Volume 0 begins at sweep 0.
+    // Volume 0 begins at sweep 0. A volume of which a selection leaves no sweep has the same start
+    // as the next one.
     std::vector<std::size_t> further_volume_starts;
     // 24-byte headers found inside the stream, with the sweep that follows each.
     struct FurtherHeader {
         std::size_t sweep = 0;
         VolumeHeader header;
+        std::size_t start = 0;  // the place of its volume in further_volume_starts
     };
     std::vector<FurtherHeader> further_headers;
-    // The pattern of each further volume, as Volume has that of the first.
+    // The pattern of each further volume, in their order, as Volume has that of the first.
     struct FurtherPattern {
         std::size_t sweep = 0;
         std::optional<Vcp> message;

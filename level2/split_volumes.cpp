@@ -5,14 +5,39 @@
 namespace stormcellar::level2 {
 namespace {
 
+// One of the volumes: its sweeps, and what the report says of it.
+struct Share {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    // Its place in further_volume_starts; none for the first volume.
+    std::optional<std::size_t> start;
+};
+
+// Volumes that have sweeps; of those that begin at the same one only the last has any.
+std::vector<Share> shares_of(const DecodeReport& report, std::size_t sweeps) {
+    std::vector<Share> shares(1);
+    const std::vector<std::size_t>& starts = report.further_volume_starts;
+    for (std::size_t i = 0; i < starts.size() && starts[i] < sweeps; ++i) {
+        if (starts[i] < shares.back().begin) continue;  // of no decoder's report
+        if (starts[i] > shares.back().begin) {
+            shares.back().end = starts[i];
+            shares.emplace_back();
+        }
+        shares.back() = {starts[i], sweeps, i};
+    }
+    shares.back().end = sweeps;
+    return shares;
+}
+
 // The header of the volume that begins with this sweep.
 std::optional<VolumeHeader> header_of(const DecodeReport& report, const Volume& whole,
-                                      std::size_t first_sweep) {
+                                      const Share& share) {
+    if (!share.start) return whole.header;
     for (const auto& further : report.further_headers) {
-        if (further.sweep == first_sweep) return further.header;
+        if (further.start == *share.start) return further.header;
     }
     std::optional<VolumeHeader> header = whole.header;
-    const Sweep& sweep = whole.sweeps[first_sweep];
+    const Sweep& sweep = whole.sweeps[share.begin];
     if (header && !sweep.radials.empty()) {
         const NexradTime time = nexrad_from_time(sweep.radials.front().time);
         header->date = time.day;
@@ -21,9 +46,14 @@ std::optional<VolumeHeader> header_of(const DecodeReport& report, const Volume& 
     return header;
 }
 
-void set_pattern(const DecodeReport& report, std::size_t first_sweep, Volume& volume) {
-    for (const auto& pattern : report.further_patterns) {
-        if (pattern.sweep != first_sweep) continue;
+void set_pattern(const DecodeReport& report, const Volume& whole, const Share& share,
+                 Volume& volume) {
+    if (!share.start) {
+        volume.vcp_message = whole.vcp_message;
+        volume.vcp = whole.vcp;
+        volume.vcp_source = whole.vcp_source;
+    } else if (*share.start < report.further_patterns.size()) {
+        const auto& pattern = report.further_patterns[*share.start];
         volume.vcp_message = pattern.message;
         volume.vcp = pattern.vcp;
         volume.vcp_source = pattern.source;
@@ -34,28 +64,18 @@ void set_pattern(const DecodeReport& report, std::size_t first_sweep, Volume& vo
 
 std::vector<Volume> split_volumes(Decoded decoded) {
     Volume& whole = decoded.volume;
-    std::vector<std::size_t> starts{0};
-    for (const std::size_t start : decoded.report.further_volume_starts) {
-        if (start > starts.back() && start < whole.sweeps.size()) starts.push_back(start);
-    }
+    const std::vector<Share> shares = shares_of(decoded.report, whole.sweeps.size());
     std::vector<Volume> volumes;
-    for (std::size_t i = 0; i < starts.size(); ++i) {
+    for (const Share& share : shares) {
         Volume& volume = volumes.emplace_back();
-        volume.header = i == 0 ? whole.header : header_of(decoded.report, whole, starts[i]);
+        volume.header = header_of(decoded.report, whole, share);
         volume.station = whole.station;
         volume.block = whole.block;
-        if (i == 0) {
-            volume.vcp_message = whole.vcp_message;
-            volume.vcp = whole.vcp;
-            volume.vcp_source = whole.vcp_source;
-        } else {
-            set_pattern(decoded.report, starts[i], volume);
-        }
+        set_pattern(decoded.report, whole, share, volume);
     }
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-        const std::size_t end = i + 1 < starts.size() ? starts[i + 1] : whole.sweeps.size();
-        const auto from = whole.sweeps.begin() + static_cast<std::ptrdiff_t>(starts[i]);
-        const auto to = whole.sweeps.begin() + static_cast<std::ptrdiff_t>(end);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const auto from = whole.sweeps.begin() + static_cast<std::ptrdiff_t>(shares[i].begin);
+        const auto to = whole.sweeps.begin() + static_cast<std::ptrdiff_t>(shares[i].end);
         volumes[i].sweeps.assign(std::make_move_iterator(from), std::make_move_iterator(to));
     }
     return volumes;

@@ -107,16 +107,18 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
 }
 
 bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
+    const std::size_t sweep = volume_.sweeps.size();
     DecodeReport::FurtherPattern pattern = pattern_of(piece);
     const std::uint64_t pattern_bytes = pattern.message ? bytes_of(*pattern.message) : 0;
     if (!room_.add(pattern_bytes + sizeof(pattern) + sizeof(DecodeReport::FurtherHeader))) {
         return false;
     }
-    report_.further_volume_starts.push_back(volume_.sweeps.size());
-    report_.further_patterns.push_back(std::move(pattern));
     if (pending_header_) {
-        report_.further_headers.push_back({volume_.sweeps.size(), *pending_header_});
+        report_.further_headers.push_back(
+            {sweep, *pending_header_, report_.further_volume_starts.size()});
     }
+    report_.further_volume_starts.push_back(sweep);
+    report_.further_patterns.push_back(std::move(pattern));
     return true;
 }
 

@@ -77,5 +77,44 @@ TEST(SplitVolumes, EachHasThePatternThatCameWithIt) {
     EXPECT_EQ(volumes[1].vcp_message->cuts.size(), 3U);
 }
 
+// 2026-07: where a selection left nothing of a volume, the next one got its header and pattern.
+TEST(SplitVolumes, ASelectionKeepsTheHeadersOfTheVolumesThatHoldIt) {
+    const auto volume = [](std::string_view filename, unsigned sweeps) {
+        wire::Bytes bytes = wire::ldm_volume(sweeps, 4);
+        const wire::Bytes header = wire::archive_header(filename);
+        std::copy(header.begin(), header.end(), bytes.begin());
+        return bytes;
+    };
+    wire::Bytes headless = volume("AR2V0006.000", 4);
+    headless.erase(headless.begin(), headless.begin() + 24);
+    const wire::Bytes file =
+        wire::join({volume("AR2V0006.001", 2), volume("AR2V0006.002", 3), volume("AR2V0006.003", 2),
+                    volume("AR2V0006.004", 3), volume("AR2V0006.005", 2), headless,
+                    volume("AR2V0006.007", 1)});
+    auto whole = split_volumes(decode(file).value());
+    ASSERT_EQ(whole.size(), 7);
+    std::erase_if(whole, [](const Volume& each) { return each.sweeps.size() < 3; });
+    DecodeOptions options;
+    options.selection.elevation_numbers = {3};
+    const auto some = split_volumes(decode(file, options).value());
+    ASSERT_EQ(some.size(), whole.size());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        EXPECT_EQ(some[i].sweeps.size(), 1U);
+        EXPECT_EQ(some[i].header->filename, whole[i].header->filename) << i;
+        ASSERT_TRUE(some[i].vcp_message) << i;
+        EXPECT_EQ(some[i].vcp_message->cuts.size(), whole[i].vcp_message->cuts.size()) << i;
+    }
+}
+
+TEST(SplitVolumes, ASelectionOfNothingIsOneVolumeWithoutSweeps) {
+    DecodeOptions options;
+    options.selection.elevation_numbers = {99};
+    const wire::Bytes two = wire::join({wire::ldm_volume(2, 4), wire::ldm_volume(3, 4)});
+    const auto volumes = split_volumes(decode(two, options).value());
+    ASSERT_EQ(volumes.size(), 1);
+    EXPECT_TRUE(volumes[0].sweeps.empty());
+    EXPECT_EQ(volumes[0].vcp_message->cuts.size(), 2U);
+}
+
 }  // namespace
 }  // namespace stormcellar::level2
