@@ -264,13 +264,16 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     return end_output(output, depth);
 }
 
-// Decodes the parts that the source gives, in their order. False when `check` says no to one; the
-// builder is then useless.
+// Decodes the parts that the source gives, in their order. False when `check` says no to one; of
+// the builder, only the time spent is then of use.
 Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
                                  const std::function<bool(const Fragment&)>& check) {
     RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
     while (auto fragment = queue.next(builder_.arrays_left())) {
-        if (!check(*fragment)) return false;
+        if (!check(*fragment)) {
+            builder_.report_data().decompress_s += fragment->report.decompress_s;
+            return false;
+        }
         if (Status taken = builder_.append(std::move(*fragment)); !taken) return pass_on(taken);
     }
     return true;
@@ -289,7 +292,11 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
                 plan->report(builder_.report_data());
                 return {};
             }
-            builder_ = before;  // the file is not as its pattern says: nothing is skipped
+            // The file is not as its pattern says: nothing is skipped. The time is spent all the
+            // same.
+            const double spent_s = builder_.report_data().decompress_s;
+            builder_ = before;
+            builder_.report_data().decompress_s = spent_s;
         }
     }
     LdmFramer framer{bytes};

@@ -1,7 +1,5 @@
 #include "level2/record_plan.h"
 
-#include <algorithm>
-
 #include "level2/fragment_builder.h"
 #include "level2/part_decoder.h"
 
@@ -18,6 +16,14 @@ int records_of(const VcpCut& cut) {
     return (half_degree ? 720 : 360) / radials_per_record;
 }
 
+bool is_whole_record(const LdmPart& part) {
+    return part.kind == LdmPart::Kind::record && !part.cut && !part.bad_length;
+}
+
+bool is_empty(const FragmentMarks& marks) {
+    return marks.patterns.empty() && !marks.header;
+}
+
 std::optional<Vcp> pattern_in(const LdmPart& part) {
     const Selection everything;
     PartDecoder decoder{most_metadata_bytes, everything};
@@ -29,32 +35,37 @@ std::optional<Vcp> pattern_in(const LdmPart& part) {
 
 }  // namespace
 
+// The records that a whole volume has: at most 51 cuts fit into the pattern's frame.
+std::vector<RecordPlan::Record> RecordPlan::expected(const Vcp& pattern,
+                                                     const Selection& selection) {
+    std::vector<Record> records(1);
+    for (std::size_t i = 0; i < pattern.cuts.size(); ++i) {
+        const int number = static_cast<int>(i) + 1;
+        const int count = records_of(pattern.cuts[i]);
+        for (int k = 0; k < count; ++k)
+            records.push_back({{}, number, k == 0, k + 1 == count, selection.wants_cut(number)});
+    }
+    return records;
+}
+
 std::optional<RecordPlan> RecordPlan::make(std::span<const std::byte> bytes,
                                            const Selection& selection) {
-    RecordPlan plan;
     LdmFramer framer{bytes};
-    while (auto part = framer.next()) {
-        if (part->kind == LdmPart::Kind::padding) continue;
-        if (part->kind != LdmPart::Kind::record || part->cut || part->bad_length) {
-            return std::nullopt;
-        }
-        plan.records_.push_back({*part, 0, false, false, true});
-    }
-    if (plan.records_.size() < 2) return std::nullopt;
-    const auto pattern = pattern_in(plan.records_.front().part);
+    const auto metadata = framer.next();
+    if (!metadata || !is_whole_record(*metadata)) return std::nullopt;
+    const auto pattern = pattern_in(*metadata);
     if (!pattern) return std::nullopt;
-    std::size_t at = 1;
-    for (std::size_t i = 0; i < pattern->cuts.size(); ++i) {
-        const int count = records_of(pattern->cuts[i]);
-        for (int k = 0; k < count && at < plan.records_.size(); ++k, ++at) {
-            Record& record = plan.records_[at];
-            record.cut = static_cast<int>(i) + 1;
-            record.first_of_cut = k == 0;
-            record.last_of_cut = k + 1 == count;
-            record.wanted = selection.wants_cut(record.cut);
-        }
+    RecordPlan plan;
+    plan.records_ = expected(*pattern, selection);
+    plan.records_.front().part = *metadata;
+    std::size_t count = 1;
+    while (const auto part = framer.next()) {
+        if (part->kind == LdmPart::Kind::padding) continue;
+        if (!is_whole_record(*part) || count == plan.records_.size()) return std::nullopt;
+        plan.records_[count++].part = *part;
     }
-    if (at < plan.records_.size()) return std::nullopt;  // more records than the pattern has
+    if (count < 2) return std::nullopt;
+    plan.records_.resize(count);
     plan.records_[1].wanted = true;      // the volume's block is that of the first radial
     plan.records_.back().wanted = true;  // shows whether the volume has ended
     return plan;
@@ -71,22 +82,28 @@ bool RecordPlan::agrees(const Fragment& fragment) {
     while (checked_ < records_.size() && !records_[checked_].wanted)
         ++checked_;
     if (checked_ == records_.size()) return false;
-    const Record& record = records_[checked_++];
+    const std::size_t at = checked_++;
+    const Record& record = records_[at];
     if (fragment.failure != Fragment::Failure::none) return true;  // an error, whatever the plan
     if (record.cut == 0) return fragment.pieces.empty();
     if (fragment.pieces.size() != 1 || fragment.report.bytes_dropped != 0) return false;
-    const Sweep& sweep = fragment.pieces.front().sweep;
-    const bool is_first = begins_sweep(sweep.radials.front());
-    const bool is_last = ends_sweep(sweep.radials.back());
-    return sweep.elevation_number == record.cut && is_first == record.first_of_cut &&
-           is_last == record.last_of_cut && fragment.behind.patterns.empty();
+    // A whole decode takes the block, and the station with it, from where they first come; it has
+    // the VCP from the pattern.
+    if (at == 1 && !fragment.block) return false;
+    const Fragment::Piece& piece = fragment.pieces.front();
+    const bool is_first = begins_sweep(piece.sweep.radials.front());
+    const bool is_last = ends_sweep(piece.sweep.radials.back());
+    return piece.sweep.elevation_number == record.cut && is_first == record.first_of_cut &&
+           is_last == record.last_of_cut && is_empty(piece.before) && is_empty(fragment.behind);
 }
 
 void RecordPlan::report(DecodeReport& report) const {
     for (const Record& record : records_) {
         if (record.wanted) continue;
         ++report.records_skipped;
-        if (record.last_of_cut) ++report.sweeps_left_out;
+        // Of the first cut and of the last, a record was decoded, and the cut counted with it.
+        const bool counted = record.cut == records_[1].cut || record.cut == records_.back().cut;
+        if (record.last_of_cut && !counted) ++report.sweeps_left_out;
         report.ldm_records = report.ldm_records.value_or(0) + 1;
         if (record.part.negative) {
             report.negative_control_words = report.negative_control_words.value_or(0) + 1;

@@ -5,7 +5,12 @@
 // before they are decompressed, and those of other cuts are skipped. What is decoded must agree
 // with the plan, the first and the last record of each cut by their radials' status: cuts only
 // count upwards, so what lies between two that agree can hold no others. Where something does not
-// agree (lost, repeated or longer records, restarted cuts, several volumes), the plan is void.
+// agree (lost, repeated or longer records, restarted cuts, several volumes, metadata beside radials
+// that are decoded), the plan is void.
+// Limit   metadata among the radials of a skipped record are not seen: a message 5 there would give
+//         later sweeps another vcp_elevation_deg, a message 2 the report another status. The RDA
+//         sends the pattern in the first record only; to see more, all would have to be unpacked.
+// Memory  as many records as the pattern has, some hundreds.
 // Thread contract: next() and agrees() from different threads, each from one at a time.
 #pragma once
 
@@ -24,8 +29,8 @@ namespace stormcellar::level2 {
 
 class RecordPlan {
   public:
-    // None where the pattern is not known or there is more than records. `bytes` (behind the
-    // 24-byte header) must outlive the plan.
+    // None where the pattern is not known, there is more than records, or more records than the
+    // pattern has. `bytes` (behind the 24-byte header) must outlive the plan.
     [[nodiscard]] static std::optional<RecordPlan> make(std::span<const std::byte> bytes,
                                                         const Selection& selection);
 
@@ -44,6 +49,9 @@ class RecordPlan {
         bool last_of_cut = false;
         bool wanted = true;
     };
+    [[nodiscard]] static std::vector<Record> expected(const Vcp& pattern,
+                                                      const Selection& selection);
+
     std::vector<Record> records_;
     std::size_t next_ = 0;
     std::size_t checked_ = 0;

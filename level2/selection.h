@@ -1,4 +1,7 @@
 // level2/selection.h -- which moments and cuts of a volume are asked for.
+//
+// What is decoded of them is what a whole decode gives, but for the limit that record_plan.h
+// states. Thread contract: plain data.
 #pragma once
 
 #include <algorithm>

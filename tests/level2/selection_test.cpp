@@ -2,15 +2,18 @@
 #include "level2/selection.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
 #include "base/file_system.h"
 #include "level2/decode.h"
-#include "level2/encode.h"
+#include "level2/growing_volume.h"
 #include "level2/ldm_framer.h"
 #include "tests/level2/same_volume.h"
+#include "tests/level2/wire.h"
 #include "tests/testing/data.h"
+#include "tests/testing/test_name.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -69,12 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Files, SelectionReal,
                                            Case{"Level2_TSTL_20220213_2357.ar2v", true},
                                            Case{"KTLX20140101_000624.trimmed.ar2v", false},
                                            Case{"KBBX20060113_170337.gz", false}),
-                         [](const auto& test) {
-                             std::string name = test.param.file;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return c == '.'; }, '_');
-                             return name;
-                         });
+                         [](const auto& test) { return testing::test_name(test.param.file); });
 
 // A lost or a repeated record moves all that follow: nothing may be skipped then.
 TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
@@ -100,6 +98,99 @@ TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
         EXPECT_EQ(difference(some.volume, selected(whole.volume, options.selection)), "") << lost;
         EXPECT_EQ(some.report.records_skipped, 0U) << lost;
     }
+}
+
+// The messages of a sound volume of half a degree: six records of 120 radials for each of three
+// cuts, to be spoilt. Record 0 is the metadata.
+constexpr unsigned sweeps = 3;
+constexpr unsigned sweep_radials = 720;
+constexpr std::size_t records_of_a_cut = 6;
+constexpr std::array<float, sweeps> elevations_deg = {0.5F, 1.5F, 2.5F};
+
+std::vector<wire::Bytes> sound_records() {
+    std::vector<wire::Bytes> records = {wire::vcp_frame(212, elevations_deg)};
+    const wire::Bytes messages = wire::radial_messages(sweeps, sweep_radials, 20);
+    const std::size_t size = messages.size() / (sweeps * records_of_a_cut);
+    for (std::size_t at = 0; at < messages.size(); at += size) {
+        const auto part = std::span{messages}.subspan(at, size);
+        records.emplace_back(part.begin(), part.end());
+    }
+    return records;
+}
+
+wire::Bytes file_of(const std::vector<wire::Bytes>& records) {
+    wire::Bytes file = wire::archive_header();
+    for (const wire::Bytes& messages : records)
+        file = wire::join({file, wire::ldm_record(messages, &messages == &records.back(), 1)});
+    return file;
+}
+
+// Decodes these cuts and compares them with those of the whole decode.
+DecodeReport expect_cuts(const wire::Bytes& file, const std::vector<int>& cuts) {
+    DecodeOptions options;
+    options.selection.elevation_numbers = cuts;
+    const auto some = decode(file, options).value();
+    EXPECT_EQ(difference(some.volume, selected(decode(file).value().volume, options.selection)),
+              "");
+    return some.report;
+}
+
+TEST(SelectionReport, CountsEachSweepThatIsLeftOutOnce) {
+    const wire::Bytes file = file_of(sound_records());
+    const std::vector<std::vector<int>> choices = {{1},    {2},    {3},       {1, 2},
+                                                   {1, 3}, {2, 3}, {1, 2, 3}, {99}};
+    for (const std::vector<int>& cuts : choices) {
+        const DecodeReport report = expect_cuts(file, cuts);
+        const std::size_t left_out = cuts.front() == 99 ? sweeps : sweeps - cuts.size();
+        EXPECT_EQ(report.sweeps_left_out, left_out) << cuts.front() << cuts.size();
+        EXPECT_EQ(report.records_skipped > 0, left_out > 0) << cuts.front() << cuts.size();
+
+        DecodeOptions options;
+        options.selection.elevation_numbers = cuts;
+        GrowingVolume growing{options};  // skips nothing
+        ASSERT_TRUE(growing.append(file));
+        EXPECT_EQ(growing.finish().value().report.sweeps_left_out, left_out) << cuts.front();
+    }
+}
+
+// What may change the radials that follow: the plan does not know where else it stands.
+TEST(SelectionPlan, IsVoidWhereMetadataStandBesideRadialsThatAreDecoded) {
+    const std::array<float, sweeps> others_deg = {0.5F, 1.5F, 9.0F};
+    const std::size_t first_of_cut_3 = 1 + 2 * records_of_a_cut;
+    for (const wire::Bytes& extra : {wire::vcp_frame(215, others_deg), wire::archive_header()}) {
+        for (const bool before : {true, false}) {
+            for (const std::size_t at : {std::size_t{1}, first_of_cut_3}) {
+                auto records = sound_records();
+                wire::Bytes& record = records.at(at);
+                record = before ? wire::join({extra, record}) : wire::join({record, extra});
+                const DecodeReport report = expect_cuts(file_of(records), {3});
+                EXPECT_EQ(report.records_skipped, 0U) << at << before << extra.size();
+            }
+        }
+    }
+}
+
+// The position is that of the first radial that gives one.
+TEST(SelectionPlan, IsVoidWhereTheFirstRecordHoldsNoVolumeBlock) {
+    auto records = sound_records();
+    const wire::Bytes name = wire::Writer{}.text("RVOL").bytes;
+    const auto for_each_block = [&](wire::Bytes& record, std::size_t offset, char value) {
+        for (auto at = record.begin();; ++at) {
+            at = std::search(at, record.end(), name.begin(), name.end());
+            if (at == record.end()) return;
+            *(at + static_cast<std::ptrdiff_t>(offset)) = static_cast<std::byte>(value);
+        }
+    };
+    for_each_block(records[1], 0, 'X');
+    constexpr std::size_t site_height_low_byte = 17;
+    for_each_block(records[2], site_height_low_byte, 1);
+    EXPECT_EQ(expect_cuts(file_of(records), {3}).records_skipped, 0U);
+}
+
+TEST(SelectionPlan, IsVoidWhereThereAreMoreRecordsThanThePatternHas) {
+    auto records = sound_records();
+    records.push_back(wire::frame(2));
+    EXPECT_EQ(expect_cuts(file_of(records), {3}).records_skipped, 0U);
 }
 
 }  // namespace
