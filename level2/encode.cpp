@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -10,6 +9,7 @@
 
 #include "level2/encode_checks.h"
 #include "level2/encode_messages.h"
+#include "level2/read_back.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -63,25 +63,85 @@ void set_control_word(EncodedRecord& record, bool last) {
     std::copy(word.bytes().begin(), word.bytes().end(), record.bytes.begin());
 }
 
-Status append_sweep(std::vector<EncodedRecord>& records, const Volume& volume, const Sweep& sweep,
-                    const EncodeOptions& options, MessageRun& run) {
-    const bool legacy = sweep.message_type == 1;
-    const int most = legacy ? std::min(options.radials_per_record, legacy_radials_per_record)
-                            : options.radials_per_record;
-    const auto step = static_cast<std::size_t>(most);
-    for (std::size_t first = 0; first < sweep.radials.size(); first += step) {
-        const std::size_t end = std::min(first + step, sweep.radials.size());
-        ByteWriter messages;
-        for (std::size_t i = first; i < end; ++i) {
-            Status written = legacy ? append_radial_1(messages, volume, sweep, i, run)
-                                    : append_radial(messages, volume, sweep, i, run);
-            if (!written) return written;
-        }
-        auto record = compress(messages.bytes(), options.compression_level);
-        if (!record) return pass_on(record);
-        records.push_back(std::move(*record));
-    }
+// Some radials of a sweep.
+struct Stretch {
+    std::size_t sweep = 0;
+    std::size_t first = 0;
+    std::size_t end = 0;
+};
+
+// Makes the records of one volume.
+class RecordMaker {
+  public:
+    RecordMaker(const Volume& volume, const EncodeOptions& options)
+        : volume_(volume), options_(options), run_(volume), read_back_(volume) {}
+
+    Status make_all(EncodedVolume& encoded);
+
+  private:
+    Status add_metadata(EncodedVolume& encoded);
+    Status add_radials(EncodedVolume& encoded, const Stretch& stretch);
+    Status add_record(EncodedVolume& encoded, std::span<const std::byte> messages) const;
+
+    const Volume& volume_;
+    const EncodeOptions& options_;
+    MessageRun run_;
+    ReadBack read_back_;
+};
+
+Status RecordMaker::add_record(EncodedVolume& encoded, std::span<const std::byte> messages) const {
+    auto record = compress(messages, options_.compression_level);
+    if (!record) return pass_on(record);
+    encoded.records.push_back(std::move(*record));
     return {};
+}
+
+Status RecordMaker::add_metadata(EncodedVolume& encoded) {
+    // Not every date is taken for one; a Volume does not keep that of its metadata.
+    const bool is_dated = nexrad_from_time(encoded.start).day <= latest_day;
+    ByteWriter messages;
+    Status written = append_metadata(messages, volume_, is_dated ? encoded.start : UtcTime{}, run_);
+    if (!written) return written;
+    if (const auto fault = read_back_.read_record(messages.bytes())) {
+        return refuse("its metadata would not be read: {}", fault->reason);
+    }
+    return add_record(encoded, messages.bytes());
+}
+
+Status RecordMaker::add_radials(EncodedVolume& encoded, const Stretch& stretch) {
+    const Sweep& sweep = volume_.sweeps[stretch.sweep];
+    ByteWriter messages;
+    std::vector<std::size_t> ends;
+    for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+        Status written = sweep.message_type == 1
+                             ? append_radial_1(messages, volume_, sweep, i, run_)
+                             : append_radial(messages, volume_, sweep, i, run_);
+        if (!written) return written;
+        ends.push_back(messages.size());
+    }
+    if (const auto fault = read_back_.read_record(messages.bytes())) {
+        const auto at = std::upper_bound(ends.begin(), ends.end(), fault->offset) - ends.begin();
+        return refuse("radial {} of sweep {} would not be read: {}",
+                      stretch.first + static_cast<std::size_t>(at), stretch.sweep, fault->reason);
+    }
+    return add_record(encoded, messages.bytes());
+}
+
+Status RecordMaker::make_all(EncodedVolume& encoded) {
+    if (Status read = read_back_.read_header(encoded.header); !read) return read;
+    if (Status added = add_metadata(encoded); !added) return added;
+    for (std::size_t i = 0; i < volume_.sweeps.size(); ++i) {
+        const Sweep& sweep = volume_.sweeps[i];
+        const int most = sweep.message_type == 1
+                             ? std::min(options_.radials_per_record, legacy_radials_per_record)
+                             : options_.radials_per_record;
+        const auto step = static_cast<std::size_t>(most);
+        for (std::size_t first = 0; first < sweep.radials.size(); first += step) {
+            const std::size_t end = std::min(first + step, sweep.radials.size());
+            if (Status added = add_radials(encoded, {i, first, end}); !added) return added;
+        }
+    }
+    return read_back_.finish();
 }
 
 }  // namespace
@@ -132,17 +192,8 @@ Result<EncodedVolume> encode(const Volume& volume, const EncodeOptions& options)
     EncodedVolume encoded;
     encoded.start = first_time(volume);
     encoded.header = encode_header(volume);
-    MessageRun run(volume);
-    ByteWriter metadata;
-    const Status written = append_metadata(metadata, volume, first_time(volume), run);
-    if (!written) return pass_on(written);
-    auto record = compress(metadata.bytes(), options.compression_level);
-    if (!record) return pass_on(record);
-    encoded.records.push_back(std::move(*record));
-    for (const Sweep& sweep : volume.sweeps) {
-        const Status appended = append_sweep(encoded.records, volume, sweep, options, run);
-        if (!appended) return pass_on(appended);
-    }
+    const Status made = RecordMaker{volume, options}.make_all(encoded);
+    if (!made) return pass_on(made);
     for (EncodedRecord& each : encoded.records) {
         set_control_word(each, &each == &encoded.records.back());
     }

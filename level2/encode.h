@@ -4,15 +4,21 @@
 // frames with messages 5 and 2 at their places (the frames of clutter maps and adaptation data stay
 // empty, as TDWRs send them: a Volume does not hold them, and they are not made up), then LDM bzip2
 // records of up to 120 radials (message 1: 100) that never span two sweeps; the last control word
-// is negative. Sweeps of message 31 are written as message 31, those of message 1 as message 1, so
-// decode(encode(v)) gives the same volume to the bit. One without a header gets one (AR2V0006.001
-// or AR2V0001.001, the first radial's time). Message 1 does not name its station: the header does,
-// or the decoder's fallback. Errors: bad_argument for a volume that its messages cannot hold (no
-// station or volume data block for message 31, numbers beyond their fields, rows that do not
-// match). Nothing is rounded in silence, beyond the fields' own steps: elevation of a cut 180/32768
-// deg, Nyquist velocity 0.01 m/s, unambiguous range 100 m, thresholds 0.1 and 0.125 dB. Source: ICD
-// 2620002W tables II, III, IV, XI, XVII; ICD 2620010 section 7. Thread contract: encode() is a pure
-// function.
+// is negative. Sweeps of message 31 are written as message 31, those of message 1 as message 1.
+//
+// decode(encode(v)) gives v to the bit: encode() has the decoder read each record that it makes,
+// and refuses a volume of which anything would be lost, rounded, joined or split. Two things the
+// bytes do not hold: that a volume had no header (it gets one, AR2V0006.001 or AR2V0001.001 with
+// the first radial's time), and the station where there are neither radials of message 31 nor an
+// ICAO in the header (the decoder then needs it as its fallback).
+//
+// Errors  bad_argument for a volume that would not come back; the message names what, with indices
+//         from 0. So are numbers between the fields' steps (Nyquist velocity 0.01 m/s, unambiguous
+//         range 100 m, thresholds 0.1 and 0.125 dB, a cut's elevation 180/32768 deg), several
+//         patterns, codes behind a row's gates.
+// Memory  a second copy of the volume.
+// Source  ICD 2620002W tables II, III, IV, XI, XVII; ICD 2620010 section 7.
+// Thread contract: encode() is a pure function.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// level2/encode_checks.h -- whether messages can hold a volume; internal to the writer.
+// level2/encode_checks.h -- whether a volume can be written at all; internal to the writer.
 #pragma once
 
 #include "base/result.h"
@@ -12,7 +12,9 @@ tl::unexpected<Error> refuse(fmt::format_string<Args...> format, Args&&... args)
                 fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Everything that the writer would have to round or leave out is refused.
+// That its arrays hold what they say, its sweeps are told apart by their radials, and message 31
+// gets the station and the block that it must have. What messages do with the numbers is for
+// read_back.h.
 [[nodiscard]] Status check_encodable(const Volume& volume);
 
 }  // namespace stormcellar::level2

@@ -5,7 +5,6 @@
 
 #include "level2/encode_checks.h"
 #include "level2/encode_messages.h"
-#include "level2/radial_message.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -44,23 +43,7 @@ Gates gates_of(const Sweep& sweep, std::size_t radial) {
     return gates;
 }
 
-bool same_gates(const SweepMoment& a, const SweepMoment& b, std::size_t radial) {
-    return a.first_gate_m == b.first_gate_m && a.gate_spacing_m == b.gate_spacing_m &&
-           a.gate_counts[radial] == b.gate_counts[radial];
-}
-
 Status check(const Sweep& sweep, std::size_t index, const Gates& gates) {
-    const Radial& radial = sweep.radials[index];
-    const bool exact =
-        azimuth_from_code(angle_code(radial.azimuth_deg)) == radial.azimuth_deg &&
-        elevation_from_code(angle_code(radial.elevation_deg)) == radial.elevation_deg;
-    if (!exact) {
-        return refuse("radial {} of elevation {} has angles between message 1's steps", index,
-                      sweep.elevation_number);
-    }
-    if (gates.vel != nullptr && gates.sw != nullptr && !same_gates(*gates.vel, *gates.sw, index)) {
-        return refuse("VEL and SW of elevation {} differ in gates", sweep.elevation_number);
-    }
     const std::size_t codes =
         count_of(gates.ref, index) + count_of(gates.vel, index) + count_of(gates.sw, index);
     if (data_at + codes > body_bytes) {

@@ -40,8 +40,8 @@ struct MessageRun {
 void end_message(ByteWriter& out, std::size_t size_position);
 
 // Appends radial `index` of a sweep as a frame of message 1. The sweep must be consistent.
-// Errors: bad_argument when the frame cannot hold its gates, when its two Doppler moments differ in
-// gates, or when angles are no multiples of the ICD's steps.
+// Errors: bad_argument when the frame cannot hold its gates. Numbers beyond their fields are cut:
+// read_back.h finds them.
 [[nodiscard]] Status append_radial_1(ByteWriter& out, const Volume& volume, const Sweep& sweep,
                                      std::size_t index, MessageRun& run);
 

@@ -12,7 +12,6 @@ namespace {
 constexpr std::uint32_t ms_per_day = 86'400'000;
 constexpr std::uint32_t slack_ms = 1'000;      // leap seconds and clocks that overrun
 constexpr std::uint16_t earliest_day = 7'305;  // 1990, before the first archived volume
-constexpr std::uint16_t latest_day = 40'000;   // 2079
 constexpr std::uint16_t own_length_in_segments = 65'535;
 
 // What follows a header of message 1 agrees with it (ICD 2620002 table III).

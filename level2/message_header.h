@@ -16,6 +16,8 @@ namespace stormcellar::level2 {
 inline constexpr std::size_t terminal_manager_bytes = 12;
 inline constexpr std::size_t message_header_bytes = 28;  // the terminal manager's 12 included
 inline constexpr std::size_t frame_bytes = 2432;
+// The last day that a message is believed to be of: in 2079.
+inline constexpr std::uint16_t latest_day = 40'000;
 
 struct MessageHeader {
     std::uint16_t size_halfwords = 0;  // of the message, without the terminal manager's bytes

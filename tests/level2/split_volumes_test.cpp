@@ -77,7 +77,7 @@ TEST(SplitVolumes, EachHasThePatternThatCameWithIt) {
     EXPECT_EQ(volumes[1].vcp_message->cuts.size(), 3U);
 }
 
-// 2026-07: where a selection left nothing of a volume, the next one got its header and pattern.
+// 2026-11-21: where a selection left nothing of a volume, the next one got its header and pattern.
 TEST(SplitVolumes, ASelectionKeepsTheHeadersOfTheVolumesThatHoldIt) {
     const auto volume = [](std::string_view filename, unsigned sweeps) {
         wire::Bytes bytes = wire::ldm_volume(sweeps, 4);

@@ -1,0 +1,17 @@
+// tests/level2/example_volume.h -- a volume made by hand, for the writer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "level2/volume.h"
+
+namespace stormcellar::level2 {
+
+// Rows of `gates` codes of 8 or 16 bits; every code comes in them.
+[[nodiscard]] SweepMoment moment_of(Moment name, std::size_t radials, std::int32_t gates, int bits);
+
+// Two sweeps that use every field of the model that message 31 has.
+[[nodiscard]] Volume example_volume();
+
+}  // namespace stormcellar::level2
