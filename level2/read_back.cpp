@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "level2/archive_header.h"
+#include "level2/array_room.h"
 #include "level2/encode_checks.h"
 #include "level2/fragment_builder.h"
 #include "level2/message_reader.h"
@@ -28,7 +29,8 @@ Status ReadBack::read_header(std::span<const std::byte> bytes) {
 
 std::optional<ReadBack::Fault> ReadBack::read_record(std::span<const std::byte> messages) {
     const Selection everything;
-    FragmentBuilder pieces{no_limit, rows_of_a_record, everything};
+    ArrayRoom room{no_limit};
+    FragmentBuilder pieces{room, rows_of_a_record, everything};
     MessageReader reader{pieces};
     reader.read(messages, true);
     std::optional<Fragment> fragment = reader.take_fragment();
