@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/memory.h"
 #include "base/version.h"
@@ -34,6 +35,16 @@ std::string help_of(const CLI::App& app) {
         return fmt::format("stormcellar {}", command->get_name());
     }
     return "stormcellar";
+}
+
+// A misspelt option is the cause where a required one is missing too; CLI11 would name the other.
+std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::RequiredError) ||
+        unknown.empty()) {
+        return error.what();
+    }
+    return fmt::format("The following argument was not expected: {}", unknown.front());
 }
 
 // What was printed counts as done only when it arrived.
@@ -67,7 +78,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const bool asked_for_help = error.get_exit_code() == 0;
         if (asked_for_help) return app.exit(error) == 0 ? exit_done : exit_failed;
-        fmt::print(stderr, "stormcellar: {}\nTry '{} --help'.\n", printable(error.what()),
+        fmt::print(stderr, "stormcellar: {}\nTry '{} --help'.\n", printable(reason_of(error, app)),
                    help_of(app));
         return exit_bad_usage;
     }

@@ -188,6 +188,12 @@ TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     EXPECT_NE(changed.err.find("has 1000 bytes and not"), std::string::npos) << changed.err;
 }
 
+TEST_F(QueryTest, AMisspeltOptionIsNamedThoughARequiredOneIsMissing) {
+    const auto misspelt = run({"catalog", "get", "--staton", "KBGM"});
+    EXPECT_EQ(misspelt.status, 2);
+    EXPECT_NE(misspelt.err.find("--staton"), std::string::npos) << misspelt.err;
+}
+
 TEST_F(QueryTest, AnUnknownStationIsNothingMatchedAndAMisspeltOneIsBadUsage) {
     for (const char* command : {"latest", "oldest"})
         EXPECT_EQ(run({"catalog", command, "--station", "KXXX"}).status, 3);
