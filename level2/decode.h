@@ -17,9 +17,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "level2/decode_report.h"
+#include "level2/decoded.h"
 #include "level2/selection.h"
-#include "level2/volume.h"
 
 namespace stormcellar::level2 {
 
@@ -34,11 +33,6 @@ struct DecodeOptions {
     Selection selection;
     // Takes the station where the file does not say, e.g. from the file name; empty: unknown.
     std::string fallback_station;
-};
-
-struct Decoded {
-    Volume volume;
-    DecodeReport report;
 };
 
 [[nodiscard]] Result<Decoded> decode(std::span<const std::byte> bytes,

@@ -26,9 +26,8 @@
 
 #include "level2/chunk_name.h"
 #include "level2/decode.h"
-#include "level2/fragment.h"
+#include "level2/live_chunk.h"
 #include "level2/live_sweep.h"
-#include "level2/part_decoder.h"
 
 namespace stormcellar::level2 {
 
@@ -83,51 +82,15 @@ class LiveVolume {
     [[nodiscard]] Result<Decoded> finish();
 
   private:
-    struct Chunk {
-        std::optional<VolumeHeader> header;  // at its start
-        std::vector<Fragment> fragments;     // of its records, in their order
-        bool has_records = false;            // else plain messages
-        bool negative = false;               // the last record's control word
-        bool ended_volume = false;           // a radial says so
-        std::size_t radials = 0;
-        std::size_t bytes = 0;
-        std::uint64_t output_bytes = 0;
-        std::uint64_t held_bytes = 0;
-        std::uint64_t checksum = 0;
-        ChunkKind kind = ChunkKind::intermediate;
-        std::uint64_t serial = 0;  // of its arrival
-    };
-    // A piece of a sweep: the chunk's serial number, and the piece's place in it.
-    using PieceId = std::pair<std::uint64_t, std::size_t>;
-    struct OpenSweep {
-        std::vector<const Fragment::Piece*> pieces;
-        std::vector<PieceId> ids;  // behind that of the chunk that gave the pattern
-        std::optional<Vcp> pattern;
-        bool closed = false;
-    };
-
-    class Grouper;
-    // What the decoder may take for a chunk of this number.
-    struct Left {
-        std::uint64_t output_bytes = 0;
-        std::uint64_t held_bytes = 0;
-    };
-    [[nodiscard]] Left left_for(int number) const;
-    [[nodiscard]] Result<Chunk> read_chunk(std::span<const std::byte> bytes, Left left) const;
-    [[nodiscard]] Status read_records(std::span<const std::byte> body, Left left,
-                                      Chunk& chunk) const;
-    [[nodiscard]] Fragment read_messages(std::span<const std::byte> bytes,
-                                         std::uint64_t limit_bytes) const;
-    [[nodiscard]] Status keep(Fragment fragment, Left left, Chunk& chunk) const;
-    [[nodiscard]] Result<Added> keep_better(int number, Chunk chunk, Clock::time_point now);
-    [[nodiscard]] std::vector<OpenSweep> sweeps_by_piece() const;
-    [[nodiscard]] Sweep join(const OpenSweep& sweep) const;
+    // Beside all others, instead of the one that has its number now.
+    [[nodiscard]] LiveRoom room_for(int number) const;
+    [[nodiscard]] Result<Added> keep_better(int number, LiveChunk chunk, Clock::time_point now);
     [[nodiscard]] std::vector<LiveSweep> changed_sweeps();
     [[nodiscard]] Result<Decoded> join_all();
     void name_lost_chunks(VolumeBuilder& builder) const;
 
     LiveOptions options_;
-    std::map<int, Chunk> chunks_;
+    std::map<int, LiveChunk> chunks_;
     std::map<int, VolumeHeader> headers_;  // of each number the first that came
     std::map<int, std::string> refused_;   // numbers of which only bad chunks came, and why
     std::uint64_t next_serial_ = 0;

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "level2/array_room.h"
-#include "level2/decode.h"
+#include "level2/decoded.h"
 #include "level2/fragment.h"
 #include "level2/report_writer.h"
 

@@ -196,7 +196,7 @@ TEST(Memory, PatternsWithoutRadials) {
     Bytes messages;
     for (unsigned i = 0; i < 4000; ++i)
         append(messages, wire::vcp_frame(212, elevations_deg));
-    const Bytes file = file_of(wire::ldm_record(messages), 50);
+    const Bytes file = file_of(wire::ldm_record(messages), 10);
     expect_small([&] { (void)decode(file); });
 }
 

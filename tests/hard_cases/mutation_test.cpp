@@ -112,10 +112,11 @@ class MutationTest : public ::testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        for (const int signal_number : {SIGALRM, SIGABRT, SIGSEGV, SIGFPE, SIGBUS}) {
-            // The sanitizers have better things to say about the last three.
-            const bool fault = signal_number != SIGALRM && signal_number != SIGABRT;
-            if (!sanitized || !fault) std::signal(signal_number, say_current);
+        for (const int signal_number : {SIGALRM, SIGABRT})
+            std::signal(signal_number, say_current);
+        if constexpr (!sanitized) {  // they have better things to say of faults
+            for (const int signal_number : {SIGSEGV, SIGFPE, SIGBUS})
+                std::signal(signal_number, say_current);
         }
         const auto file = bytes_of(*testing::data_directory() / GetParam());
         const auto decoded = decode(file);
