@@ -70,6 +70,16 @@ bool is_surely_other_message(const MessageHeader& header, std::span<const std::b
            header.segments <= 100 && header.size_halfwords >= 40;
 }
 
+// A clutter map or adaptation data as some radars of 2006 sent them: whole frames without a date.
+// Nothing in a radial looks like that: zeros but for size, type and the numbers of the segments.
+bool is_undated_frame(const MessageHeader& header, std::span<const std::byte> bytes) {
+    const bool mapped = header.type == 13 || header.type == 15 || header.type == 18;
+    return mapped && header.date == 0 && header.ms == 0 && header.segments >= 2 &&
+           header.segments <= 100 && header.segment >= 1 && header.segment <= header.segments &&
+           header.size_halfwords == (frame_bytes - terminal_manager_bytes - 4) / 2 &&
+           all_zero(bytes.first(terminal_manager_bytes));
+}
+
 }  // namespace
 
 std::size_t MessageHeader::length_bytes() const {
@@ -114,7 +124,8 @@ bool is_plausible(const MessageHeader& header) {
 bool is_surely_message(std::span<const std::byte> bytes) {
     if (bytes.size() < message_header_bytes) return false;
     const MessageHeader header = read_message_header(bytes);
-    if (!is_plausible(header) || header.date < earliest_day) return false;
+    if (!is_plausible(header)) return false;
+    if (header.date < earliest_day) return is_undated_frame(header, bytes);
     const auto body = bytes.subspan(message_header_bytes);
     if (header.type == 1) return is_surely_message_1(header, body);
     if (header.type == 31) return is_surely_message_31(header, body);

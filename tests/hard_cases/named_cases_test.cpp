@@ -204,5 +204,27 @@ TEST(FoundByMutants, AnUnreadablePatternIsNamed) {
     EXPECT_FALSE(decoded->report.problems.empty());
 }
 
+// 2026-11-21: the clutter map of KMPX20060106 has no date, so that a radial which had lost bytes
+// before one was taken, the map in its gates.
+TEST(FoundByMutants, HalfARadialBeforeUndatedFramesDoesNotComeOut) {
+    Bytes half = wire::message_1({});
+    half.resize(664);
+    Bytes file = wire::join({wire::archive_header(), half});
+    for (unsigned segment = 44; segment < 50; ++segment) {
+        Bytes frame = wire::frame(15);
+        wire::overwrite_u16(frame, 12, 1208);
+        wire::overwrite_u32(frame, 16, 0);  // sequence number and date
+        wire::overwrite_u32(frame, 20, 0);  // time
+        wire::overwrite_u16(frame, 24, 62);
+        wire::overwrite_u16(frame, 26, segment);
+        file.insert(file.end(), frame.begin(), frame.end());
+    }
+    const auto decoded = decode(file);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_EQ(decoded->volume.radial_count(), 0U);
+    EXPECT_EQ(decoded->report.message_counts.at(15), 6U);
+    EXPECT_EQ(decoded->report.bytes_dropped, 664U);
+}
+
 }  // namespace
 }  // namespace stormcellar::level2

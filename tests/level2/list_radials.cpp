@@ -81,7 +81,8 @@ Json moment_of(const SweepMoment& moment, std::size_t radial) {
 Json radial_of(const Sweep& sweep, std::size_t index) {
     const Radial& radial = sweep.radials[index];
     const NexradTime time = nexrad_from_time(radial.time);
-    Json line = {{"elevation_number", sweep.elevation_number},
+    Json line = {{"message_type", sweep.message_type},
+                 {"elevation_number", sweep.elevation_number},
                  {"azimuth_number", radial.azimuth_number},
                  {"azimuth_deg", radial.azimuth_deg},
                  {"elevation_deg", radial.elevation_deg},
