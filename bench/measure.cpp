@@ -1,0 +1,124 @@
+#include "bench/measure.h"
+
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+
+#include <bzlib.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "level2/archive_header.h"
+#include "level2/gzip_stream.h"
+#include "level2/ldm_framer.h"
+
+extern char** environ;
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+Bytes without_gzip(const Bytes& bytes) {
+    if (!level2::is_gzip(bytes)) return bytes;
+    level2::GzipStream gzip(bytes);
+    Bytes inflated;
+    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
+        inflated.insert(inflated.end(), piece.begin(), piece.end());
+    return inflated;
+}
+
+void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
+    bz_stream stream{};
+    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) std::abort();
+    // libbz2 does not write through next_in; its C interface merely lacks the const.
+    stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(record.data()));
+    stream.avail_in = static_cast<unsigned>(record.size());
+    int code = BZ_OK;
+    while (code == BZ_OK) {
+        stream.next_out = buffer.data();
+        stream.avail_out = static_cast<unsigned>(buffer.size());
+        code = BZ2_bzDecompress(&stream);
+        if (code == BZ_OK && stream.avail_in == 0 && stream.avail_out > 0) break;  // cut
+    }
+    BZ2_bzDecompressEnd(&stream);
+}
+
+}  // namespace
+
+std::vector<fs::path> real_volumes() {
+    const char* given = std::getenv("STORMCELLAR_DATA");
+    const fs::path data = given != nullptr ? given : "../shared/data";
+    std::vector<fs::path> files;
+    for (const char* folder : {"volumes", "sequence-kbgm", "mosaic-northeast"}) {
+        std::error_code ignored;
+        for (const auto& entry : fs::directory_iterator(data / folder, ignored))
+            files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled) {
+    peeled = without_gzip(file);
+    const std::span<const std::byte> bytes = peeled;
+    const bool header = level2::read_archive_header(bytes).has_value();
+    std::vector<std::span<const std::byte>> records;
+    if (!level2::is_ldm_record(bytes.subspan(header ? level2::archive_header_bytes : 0))) return {};
+    level2::LdmFramer framer(bytes);
+    while (const auto part = framer.next()) {
+        if (part->kind == level2::LdmPart::Kind::record) records.push_back(part->bytes);
+    }
+    return records;
+}
+
+void decompress_all(std::span<const std::span<const std::byte>> records) {
+    std::vector<char> buffer(std::size_t{1} << 20);
+    for (const auto record : records)
+        decompress(record, buffer);
+}
+
+long number_in(std::string_view text) {
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
+    long number = -1;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+long high_water_kib() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmHWM:")) return number_in(std::string_view{line}.substr(6));
+    }
+    return -1;
+}
+
+std::optional<double> peak_mib(std::vector<std::string> arguments) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return {};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+    posix_spawn_file_actions_addclose(&actions, ends[0]);
+    std::string own = "/proc/self/exe";
+    std::vector<char*> argv = {own.data()};
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    const int failed = ::posix_spawn(&child, own.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    std::array<char, 32> text{};
+    const ssize_t length = failed == 0 ? ::read(ends[0], text.data(), text.size() - 1) : 0;
+    ::close(ends[0]);
+    if (failed != 0) return {};
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length <= 0) return {};
+    return static_cast<double>(number_in(text.data())) / 1024;
+}
+
+}  // namespace stormcellar::bench

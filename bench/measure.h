@@ -1,0 +1,50 @@
+// bench/measure.h -- what the benchmarks share: clocks, real volumes, libbz2 alone, peak memory.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stormcellar::bench {
+
+using Bytes = std::vector<std::byte>;
+inline constexpr double mebibyte = 1024.0 * 1024.0;
+
+template <class Work>
+double seconds_of(Work work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <class Work>
+void keep_least_seconds(double& least, Work work) {
+    least = std::min(least, seconds_of(work));
+}
+
+// Every volume below $STORMCELLAR_DATA, or ../shared/data, sorted by path.
+[[nodiscard]] std::vector<std::filesystem::path> real_volumes();
+
+// The streams of the LDM records in a file, which may be a gzip file; `peeled` then holds what they
+// point into. Empty where there are none.
+[[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled);
+
+// libbz2 alone over all records, one stream each, into pieces of one buffer.
+void decompress_all(std::span<const std::span<const std::byte>> records);
+
+// Runs this program with these arguments in a process of its own. It prints high_water_kib().
+// None where it failed.
+[[nodiscard]] std::optional<double> peak_mib(std::vector<std::string> arguments);
+// What this process held at most, in KiB; the kernel's own count (proc(5)).
+[[nodiscard]] long high_water_kib();
+
+// A whole number at the start of a text, behind spaces; -1 when there is none.
+[[nodiscard]] long number_in(std::string_view text);
+
+}  // namespace stormcellar::bench
