@@ -19,7 +19,7 @@ std::uint64_t ArrayRoom::left_bytes() const {
 bool ArrayRoom::ask_for_more() {
     if (!more_) return true;
     const std::uint64_t limit = std::exchange(more_, {})();
-    limit_bytes_ = std::max(limit_bytes_, limit);
+    if (limit != 0) limit_bytes_ = limit;
     return limit != 0;
 }
 
@@ -34,11 +34,18 @@ bool ArrayRoom::add(std::uint64_t bytes) {
     return holds();
 }
 
-void ArrayRoom::begin_sweep() {
+void ArrayRoom::continue_sweep() {
     closed_bytes_ += sweep_bytes();
     radials_ = 0;
     row_bytes_ = sizeof(Radial);
+    kind_bytes_ = 0;
     gates_.clear();
+}
+
+bool ArrayRoom::begin_sweep() {
+    continue_sweep();
+    kind_bytes_ = empty_kind_bytes;
+    return add(empty_sweep_bytes);
 }
 
 bool ArrayRoom::add_radials(std::size_t count) {
@@ -62,7 +69,7 @@ bool ArrayRoom::widen(std::size_t moment, std::size_t gates, std::uint64_t bytes
 }
 
 void ArrayRoom::clear() {
-    begin_sweep();
+    continue_sweep();
     closed_bytes_ = 0;
 }
 

@@ -19,8 +19,9 @@ namespace stormcellar::level2 {
 
 // The largest sweep known takes 7 MB. Arrays are copied as they grow, so no sweep may be large.
 inline constexpr std::uint64_t most_sweep_bytes = std::uint64_t{64} << 20;
-// That a sweep takes whatever it holds, the allocator's share included.
+// What a sweep takes whatever it holds, and each kind in it, the allocator's share included.
 inline constexpr std::uint64_t empty_sweep_bytes = 1024;
+inline constexpr std::uint64_t empty_kind_bytes = 320;
 
 [[nodiscard]] std::uint64_t bytes_of(const Vcp& vcp);
 
@@ -29,7 +30,8 @@ inline constexpr std::uint64_t empty_sweep_bytes = 1024;
 
 class ArrayRoom {
   public:
-    // Gives the limit from then on, 0 for no more. Asked once, when the first limit is reached.
+    // Gives the limit from then on, 0 for no more. Asked once, when the first limit is reached or
+    // when all room is asked for.
     using More = std::function<std::uint64_t()>;
 
     explicit ArrayRoom(std::uint64_t limit_bytes, More more = {})
@@ -37,7 +39,9 @@ class ArrayRoom {
 
     // Each is false where the limit is exceeded; what was counted stays counted.
     [[nodiscard]] bool add(std::uint64_t bytes);
-    void begin_sweep();
+    [[nodiscard]] bool begin_sweep();
+    // A piece that may go on with a sweep which was begun, and counted, before.
+    void continue_sweep();
     [[nodiscard]] bool add_radials(std::size_t count);
     // The rows of the sweep's moment number `moment` hold at least so many gates.
     [[nodiscard]] bool widen(std::size_t moment, std::size_t gates, std::uint64_t bytes_per_code);
@@ -51,7 +55,9 @@ class ArrayRoom {
     void clear();
 
   private:
-    [[nodiscard]] std::uint64_t sweep_bytes() const { return radials_ * row_bytes_; }
+    [[nodiscard]] std::uint64_t sweep_bytes() const {
+        return radials_ * row_bytes_ + gates_.size() * kind_bytes_;
+    }
     [[nodiscard]] bool holds();
 
     std::uint64_t limit_bytes_;
@@ -59,6 +65,7 @@ class ArrayRoom {
     std::uint64_t closed_bytes_ = 0;  // all but the newest sweep
     std::uint64_t radials_ = 0;       // of the newest sweep
     std::uint64_t row_bytes_ = sizeof(Radial);
+    std::uint64_t kind_bytes_ = 0;
     std::vector<std::size_t> gates_;  // of its moments
 };
 

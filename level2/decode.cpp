@@ -76,13 +76,13 @@ class Decoder {
 };
 
 Status Decoder::flush(LayerOutput& output) {
-    const bool full = output.reader.full();
+    const Fragment::Failure failure = output.reader.failure();
     std::optional<Fragment> fragment = output.reader.take_fragment();
     if (!fragment) {
-        if (!full) return {};
+        if (failure == Fragment::Failure::none) return {};
         fragment.emplace();
     }
-    if (full) fragment->failure = Fragment::Failure::too_large_arrays;
+    fragment->failure = failure;
     Status taken = builder_.append(std::move(*fragment));
     output.room.set_limit(builder_.arrays_left());
     return taken;

@@ -48,7 +48,8 @@ struct DecodeReport {
         std::string reason;
     };
     std::optional<Corruption> corruption;
-    // The last radial ended its volume (status 4), none is missing and nothing was dropped.
+    // The last radial ended its volume (status 4), nothing is missing, nothing was dropped, and no
+    // problem is an error.
     bool complete = false;
     std::uint64_t sweeps_left_out = 0;  // whose cuts were not asked for
     std::uint64_t records_skipped =

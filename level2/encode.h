@@ -15,7 +15,7 @@
 // Errors  bad_argument for a volume that would not come back; the message names what, with indices
 //         from 0. So are numbers between the fields' steps (Nyquist velocity 0.01 m/s, unambiguous
 //         range 100 m, thresholds 0.1 and 0.125 dB, a cut's elevation 180/32768 deg), several
-//         patterns, codes behind a row's gates.
+//         patterns, codes behind a row's gates, and volumes beyond the limits of decode().
 // Memory  a second copy of the volume.
 // Source  ICD 2620002W tables II, III, IV, XI, XVII; ICD 2620010 section 7.
 // Thread contract: encode() is a pure function.

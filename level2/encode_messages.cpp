@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "level2/encode_checks.h"
+
 namespace stormcellar::level2 {
 namespace {
 
@@ -45,13 +47,11 @@ Status append_vcp(ByteWriter& out, const Vcp& vcp, UtcTime time, MessageRun& run
     constexpr std::size_t cut_bytes = 46;
     const std::size_t body_bytes = header_bytes + cut_bytes * vcp.cuts.size();
     if (body_bytes > frame_body_bytes) {
-        return fail(ErrorCode::bad_argument, "VCP {} has {} cuts; a message holds {}",
-                    vcp.pattern_number, vcp.cuts.size(),
-                    (frame_body_bytes - header_bytes) / cut_bytes);
+        return refuse("VCP {} has {} cuts; a message holds {}", vcp.pattern_number, vcp.cuts.size(),
+                      (frame_body_bytes - header_bytes) / cut_bytes);
     }
     if (vcp.message_type != 5 && vcp.message_type != 7) {
-        return fail(ErrorCode::bad_argument, "a VCP comes in message 5 or 7, not {}",
-                    vcp.message_type);
+        return refuse("a VCP comes in message 5 or 7, not {}", vcp.message_type);
     }
     const auto type = static_cast<std::uint8_t>(vcp.message_type);
     const std::size_t size_position = begin_message(out, orda_channel, type, time, run);
@@ -319,9 +319,8 @@ Status append_radial(ByteWriter& out, const Volume& volume, const Sweep& sweep, 
 
     const std::size_t length = out.size() - start;
     if (length > 0xFFFF) {
-        return fail(ErrorCode::bad_argument,
-                    "radial {} of elevation {} takes {} bytes; message 31 holds 65535",
-                    radial.azimuth_number, sweep.elevation_number, length);
+        return refuse("radial {} of elevation {} takes {} bytes; message 31 holds 65535",
+                      radial.azimuth_number, sweep.elevation_number, length);
     }
     out.set_u16(length_position, static_cast<std::uint16_t>(length));
     end_message(out, size_position);

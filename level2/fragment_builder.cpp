@@ -30,22 +30,32 @@ bool FragmentBuilder::add_pattern(Vcp vcp) {
     return true;
 }
 
-// Whether the radial begins a sweep, whatever stood before the fragment.
+bool FragmentBuilder::add_expanded(std::uint64_t bytes) {
+    fragment_.output_bytes += bytes;
+    return fragment_.output_bytes <= most_expanded_bytes;
+}
+
+// Whether the radial does not go on with the newest piece.
 bool FragmentBuilder::begins_sweep_here(const RadialMessage& message) const {
-    if (fragment_.pieces.empty()) return false;
     if (marks_.header || begins_sweep(message.radial)) return true;
     const Sweep& sweep = fragment_.pieces.back().sweep;
     return sweep.elevation_number != message.elevation_number ||
            sweep.message_type != message.message_type;
 }
 
-void FragmentBuilder::begin_piece(const RadialMessage& message) {
+bool FragmentBuilder::begin_piece(const RadialMessage& message) {
     // Whole sweeps one behind the other: make room for the next at once.
     if (!fragment_.pieces.empty()) {
         const std::size_t newest = fragment_.pieces.back().sweep.radials.size();
         expected_rows_ = std::clamp(newest, expected_rows_, std::max(expected_rows_, most_rows));
     }
-    room_.begin_sweep();
+    // The first piece may go on with a sweep of the fragment before.
+    bool has_room = true;
+    if (fragment_.pieces.empty()) {
+        room_.continue_sweep();
+    } else {
+        has_room = room_.begin_sweep();
+    }
     Fragment::Piece& piece = fragment_.pieces.emplace_back();
     piece.before = std::exchange(marks_, {});
     piece.vcp = message.vcp.value_or(0);
@@ -53,6 +63,7 @@ void FragmentBuilder::begin_piece(const RadialMessage& message) {
     piece.sweep.elevation_number = message.elevation_number;
     piece.sweep.message_type = message.message_type;
     piece.sweep.azimuth_spacing_deg = message.azimuth_spacing_deg;
+    return has_room;
 }
 
 void FragmentBuilder::note_volume_facts(const RadialMessage& message) {
@@ -82,18 +93,6 @@ bool FragmentBuilder::add_moment(Sweep& sweep, const MomentBlock& block) {
     return true;
 }
 
-bool FragmentBuilder::has_too_many_kinds(const Sweep& sweep, const RadialMessage& message) const {
-    for (const MomentBlock& block : message.moments()) {
-        if (!selection_.wants(block.moment)) continue;
-        const auto same_moment = [&](const SweepMoment& m) { return m.moment == block.moment; };
-        const auto same = [&](const SweepMoment& m) { return rows::same_kind(m, block); };
-        const auto kinds = std::count_if(sweep.moments.begin(), sweep.moments.end(), same_moment);
-        const bool known = std::any_of(sweep.moments.begin(), sweep.moments.end(), same);
-        if (!known && kinds >= most_kinds_of_a_moment) return true;
-    }
-    return false;
-}
-
 void FragmentBuilder::reserve_rows(Sweep& sweep) const {
     sweep.radials.reserve(expected_rows_);
     for (SweepMoment& moment : sweep.moments)
@@ -110,12 +109,8 @@ bool FragmentBuilder::add_rows(Sweep& sweep, const RadialMessage& message) {
 }
 
 bool FragmentBuilder::add(const RadialMessage& message) {
-    const bool begins = begins_sweep_here(message);
-    if (begins && !room_.add(empty_sweep_bytes)) return false;
-    if (begins || fragment_.pieces.empty() ||
-        has_too_many_kinds(fragment_.pieces.back().sweep, message)) {
-        begin_piece(message);
-    }
+    const bool begins = fragment_.pieces.empty() || begins_sweep_here(message);
+    if (begins && !begin_piece(message)) return false;
     note_volume_facts(message);
     Fragment::Piece& piece = fragment_.pieces.back();
     if (!piece.left_out) {

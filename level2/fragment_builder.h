@@ -3,8 +3,7 @@
 // A piece ends where the elevation number or the message type changes, where a radial has status
 // 0, 3 or 5, and at a 24-byte header. Codes are copied once, from the message into the arrays.
 // Memory: what a fragment holds stays in the room given; add() and add_pattern() then say so and
-// the builder takes no more. A piece holds at most 16 kinds of a moment (which differ in gates,
-// scale or word size): a radial with yet another one begins another piece of the same sweep.
+// the builder takes no more.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,8 @@
 
 namespace stormcellar::level2 {
 
-// Real sweeps hold one or two kinds of a moment.
-inline constexpr std::ptrdiff_t most_kinds_of_a_moment = 16;
+// Radials that are compressed inside messages expand to so much in a fragment: each costs time.
+inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
 
 // Whether the radial's status begins a sweep: 0, 3 or 5.
 [[nodiscard]] bool begins_sweep(const Radial& radial);
@@ -35,6 +34,8 @@ class FragmentBuilder {
     // False: the room does not suffice.
     [[nodiscard]] bool add(const RadialMessage& message);
     [[nodiscard]] bool add_pattern(Vcp vcp);
+    // Counts what a radial expanded to. False: there was too much of it.
+    [[nodiscard]] bool add_expanded(std::uint64_t bytes);
     void further_header(const VolumeHeader& header) { marks_.header = header; }
 
     [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
@@ -46,12 +47,11 @@ class FragmentBuilder {
 
   private:
     [[nodiscard]] bool begins_sweep_here(const RadialMessage& message) const;
-    void begin_piece(const RadialMessage& message);
+    [[nodiscard]] bool begin_piece(const RadialMessage& message);
     void note_volume_facts(const RadialMessage& message);
     void reserve_rows(Sweep& sweep) const;
     [[nodiscard]] bool add_rows(Sweep& sweep, const RadialMessage& message);
     [[nodiscard]] bool add_moment(Sweep& sweep, const MomentBlock& block);
-    [[nodiscard]] bool has_too_many_kinds(const Sweep& sweep, const RadialMessage& message) const;
 
     ArrayRoom& room_;
     std::size_t expected_rows_;

@@ -19,6 +19,8 @@ constexpr std::size_t decide_container_bytes = archive_header_bytes + 16;
 constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
 constexpr std::size_t rows_of_a_stretch = 128;
+// The longest record, and what is appended at once.
+constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
 // What is appended is read so many bytes at a time, so that little of it is held.
 constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
 
@@ -98,13 +100,13 @@ Status GrowingVolume::Reader::read_records(bool last) {
 Status GrowingVolume::Reader::read_messages(std::span<const std::byte> bytes, bool last) {
     feed_.append(bytes);
     if (last) feed_.end();
-    const bool full = reader_.full();
+    const Fragment::Failure failure = reader_.failure();
     std::optional<Fragment> fragment = reader_.take_fragment();
     if (!fragment) {
-        if (!full) return {};
+        if (failure == Fragment::Failure::none) return {};
         fragment.emplace();
     }
-    if (full) fragment->failure = Fragment::Failure::too_large_arrays;
+    fragment->failure = failure;
     Status taken = volume_.append(std::move(*fragment));
     room_.set_limit(volume_.arrays_left());
     return taken;
@@ -114,6 +116,10 @@ Status GrowingVolume::Reader::hold(std::span<const std::byte> bytes) {
     if (kind_ == Kind::held && bytes.size() > most_packed_bytes - held_.size()) {
         return fail(ErrorCode::unsupported, "a compressed file of more than {} bytes",
                     most_packed_bytes);
+    }
+    if (kind_ == Kind::records && bytes.size() > most_unframed_bytes - held_.size()) {
+        return fail(ErrorCode::unsupported, "{} bytes without the end of an LDM record",
+                    most_unframed_bytes);
     }
     held_.insert(held_.end(), bytes.begin(), bytes.end());
     return {};

@@ -11,9 +11,6 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t control_word_bytes = 4;
-// The largest volume known, all of it, has 12 MB. A length beyond this is a lie, and is known to be
-// one before so many bytes have come.
-constexpr std::size_t longest_record_bytes = std::size_t{64} << 20;
 
 // What stands behind a record when its length is right; undecided while too little is there.
 std::optional<bool> may_begin(std::span<const std::byte> rest, bool last) {
@@ -32,6 +29,7 @@ bool is_ldm_record(std::span<const std::byte> bytes) {
 void LdmStreamFramer::end_part(std::size_t bytes) {
     at_ += bytes;
     searched_ = 0;
+    searched_behind_ = 0;
 }
 
 // find_bzip2, which goes on where it stopped when there are more bytes.
@@ -75,8 +73,12 @@ std::optional<LdmPart> LdmStreamFramer::record(std::span<const std::byte> rest, 
 // A stream before which bytes of the control word are lost.
 std::optional<LdmPart> LdmStreamFramer::record_without_length(std::span<const std::byte> rest,
                                                               std::size_t stream, bool last) {
-    const auto next = find_bzip2(rest, stream + bzip2_mark_bytes + control_word_bytes);
-    if (!next && !last) return std::nullopt;
+    const std::size_t from = stream + bzip2_mark_bytes + control_word_bytes;
+    const auto next = find_bzip2(rest, std::max(from, searched_behind_));
+    if (!next && !last) {
+        searched_behind_ = rest.size() - std::min(rest.size(), bzip2_mark_bytes);
+        return std::nullopt;
+    }
     LdmPart part;
     part.position = at_;
     part.bad_length = true;

@@ -14,6 +14,10 @@
 
 namespace stormcellar::level2 {
 
+// The largest volume known, all of it, has 12 MB. A length beyond this is a lie, and is known to be
+// one before so many bytes have come.
+inline constexpr std::size_t longest_record_bytes = std::size_t{64} << 20;
+
 struct LdmPart {
     enum class Kind : std::uint8_t {
         record,   // `bytes` is a bzip2 stream, maybe with something behind it
@@ -48,7 +52,8 @@ class LdmStreamFramer {
     void end_part(std::size_t bytes);
 
     std::size_t at_ = 0;
-    std::size_t searched_ = 0;  // no stream begins in so many bytes of the part that is due
+    std::size_t searched_ = 0;         // no stream begins in so many bytes of the part that is due
+    std::size_t searched_behind_ = 0;  // nor, behind its own, of one without a length
 };
 
 // Cuts what is there as a whole.

@@ -80,8 +80,8 @@ Status ChunkReader::read_messages(std::span<const std::byte> body) {
     MessageReader reader{builder};
     (void)reader.read(body, true);
     Fragment fragment = builder.take();
-    fragment.output_bytes = body.size();
-    if (reader.full()) fragment.failure = Fragment::Failure::too_large_arrays;
+    fragment.output_bytes += body.size();
+    fragment.failure = reader.failure();
     return keep(std::move(fragment));
 }
 

@@ -1,15 +1,16 @@
 #include "level2/live_sweep.h"
 
+#include "level2/array_room.h"
 #include "level2/fragment_builder.h"
 #include "level2/volume_checks.h"
 
 namespace stormcellar::level2 {
 
 std::uint64_t bytes_of(const Sweep& sweep) {
-    std::uint64_t bytes = sweep.radials.size() * sizeof(Radial);
+    std::uint64_t bytes = empty_sweep_bytes + sweep.radials.size() * sizeof(Radial);
     for (const SweepMoment& moment : sweep.moments) {
         bytes += moment.codes8.size() + sizeof(std::uint16_t) * moment.codes16.size();
-        bytes += sizeof(std::uint16_t) * moment.gate_counts.size();
+        bytes += empty_kind_bytes + sizeof(std::uint16_t) * moment.gate_counts.size();
     }
     return bytes;
 }

@@ -10,7 +10,9 @@ namespace stormcellar::level2 {
 
 struct LiveSweep {
     Sweep sweep;
-    std::size_t index = 0;  // in the order of the volume, as far as it is known
+    // In the order of the volume, as far as it is known: no name for the sweep, since one that
+    // comes late moves those behind it.
+    std::size_t index = 0;
     // From its first radial to its last none is missing. A sweep that is not whole comes again
     // when the chunks that it lacks have come.
     bool whole = false;
@@ -18,7 +20,7 @@ struct LiveSweep {
 
 // Sweeps of so many bytes, and one more, are handed out at once.
 inline constexpr std::uint64_t most_live_bytes = std::uint64_t{64} << 20;
-// Its arrays and radials.
+// Its arrays and radials, the allocator's share included.
 [[nodiscard]] std::uint64_t bytes_of(const Sweep& sweep);
 
 // Whether the sweep has its first radial and its last by their status, and all between them.

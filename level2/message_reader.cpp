@@ -39,7 +39,7 @@ std::size_t longest(int type) {
 
 std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     std::size_t at = 0;
-    while (at < data.size() && !full_) {
+    while (at < data.size() && !full()) {
         const std::size_t done = step(data.subspan(at), last);
         if (done == 0) break;
         at += done;
@@ -49,7 +49,7 @@ std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
         close_damage();
         in_sync_ = true;
     }
-    return full_ ? data.size() : at;
+    return full() ? data.size() : at;
 }
 
 std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
@@ -182,7 +182,9 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
         const auto body = message.subspan(message_header_bytes);
         auto vcp = read_vcp(header.type, body);
         if (vcp) {
-            full_ = !builder_.add_pattern(std::move(*vcp));
+            if (!builder_.add_pattern(std::move(*vcp))) {
+                failure_ = Fragment::Failure::too_large_arrays;
+            }
         } else if (!all_zero(body.first(std::min(body.size(), vcp_header_bytes)))) {
             builder_.report().add(
                 Severity::warning, "bad_pattern",
@@ -220,7 +222,7 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     }
     ++builder_.report_data().message_counts[header.type];
     if (is_31) ++builder_.report_data().radial_compression[compression];
-    full_ = !builder_.add(*radial);
+    if (!builder_.add(*radial)) failure_ = Fragment::Failure::too_large_arrays;
 }
 
 void MessageFeed::append(std::span<const std::byte> bytes) {

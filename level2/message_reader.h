@@ -35,8 +35,8 @@ class MessageReader {
     // The fragment up to here, which no damage reaches beyond: none while damage is open. Offsets
     // count from here afterwards.
     [[nodiscard]] std::optional<Fragment> take_fragment();
-    // The arrays would exceed their limit: no more is read.
-    [[nodiscard]] bool full() const { return full_; }
+    // Why no more is read: the fragment would exceed a limit. Else none.
+    [[nodiscard]] Fragment::Failure failure() const { return failure_; }
 
   private:
     // Bytes done with; 0 where more are needed to decide.
@@ -47,13 +47,14 @@ class MessageReader {
     std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
                               std::string reason);
     void take(const MessageHeader& header, std::span<const std::byte> message);
+    [[nodiscard]] bool full() const { return failure_ != Fragment::Failure::none; }
     void take_radial(const MessageHeader& header, std::span<const std::byte> message);
     void close_damage();
 
     FragmentBuilder& builder_;
     std::uint64_t offset_ = 0;
     bool in_sync_ = true;
-    bool full_ = false;
+    Fragment::Failure failure_ = Fragment::Failure::none;
     struct OpenDamage {
         std::uint64_t offset = 0;    // of the first byte dropped
         std::uint64_t found_at = 0;  // where a message was due and none was

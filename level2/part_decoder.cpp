@@ -69,7 +69,7 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
         if (output_bytes > limit_bytes_) failure = Fragment::Failure::too_much_output;
         const std::size_t there = held + made;
         const std::size_t done = reader.read(std::span{buffer_}.first(there), stream.ended());
-        if (reader.full()) failure = Fragment::Failure::too_large_arrays;
+        if (failure == Fragment::Failure::none) failure = reader.failure();
         held = there - done;
         std::memmove(buffer_.data(), buffer_.data() + done, held);
         if (stream.ended()) break;
@@ -85,7 +85,7 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
     }
     Fragment fragment = builder.take();
     fragment.failure = failure;
-    fragment.output_bytes = output_bytes;
+    fragment.output_bytes += output_bytes;
     fragment.report.decompress_s = cpu_s;
     return fragment;
 }
@@ -108,7 +108,7 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_
         } else if (block->status == BzipStatus::whole) {
             output_bytes += block->data.size();
             feed.append(block->data);
-            if (reader.full()) failure = Fragment::Failure::too_large_arrays;
+            failure = reader.failure();
         } else {
             all_good = false;
             feed.end();
@@ -125,7 +125,7 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_
     }
     Fragment fragment = builder.take();
     fragment.failure = failure;
-    fragment.output_bytes = output_bytes;
+    fragment.output_bytes += output_bytes;
     fragment.cut = is_cut;
     fragment.report.decompress_s = thread_cpu_s() - begin_s;
     return fragment;

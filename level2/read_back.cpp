@@ -29,12 +29,15 @@ Status ReadBack::read_header(std::span<const std::byte> bytes) {
 
 std::optional<ReadBack::Fault> ReadBack::read_record(std::span<const std::byte> messages) {
     const Selection everything;
-    ArrayRoom room{no_limit};
+    ArrayRoom room{builder_.arrays_left()};
     FragmentBuilder pieces{room, rows_of_a_record, everything};
     MessageReader reader{pieces};
     reader.read(messages, true);
     std::optional<Fragment> fragment = reader.take_fragment();
     if (!fragment) return Fault{0, "it has no end"};
+    fragment->failure = reader.failure();
+    fragment->output_bytes += messages.size();
+    fragment->report.ldm_records = 1;
     const DecodeReport& report = fragment->report;
     if (!report.problems.empty()) {
         const Problem& problem = report.problems.front();

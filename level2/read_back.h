@@ -2,18 +2,19 @@
 // writer.
 //
 // The decoder's own reader gets the messages of each record before they are compressed, and its
-// volume must be the one that is written, to the bit.
+// volume must be the one that is written, to the bit, within the limits that decode() has if nobody
+// gives it others.
 // Memory: a second copy of the volume.
 // Thread contract: one thread.
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "base/result.h"
+#include "level2/decode.h"
 #include "level2/volume.h"
 #include "level2/volume_builder.h"
 
@@ -41,10 +42,8 @@ class ReadBack {
     [[nodiscard]] Status finish();
 
   private:
-    static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-
     const Volume& volume_;
-    VolumeBuilder builder_{no_limit};
+    VolumeBuilder builder_{DecodeOptions{}.output_limit_bytes};
 };
 
 }  // namespace stormcellar::level2

@@ -1,5 +1,7 @@
 #include "level2/record_plan.h"
 
+#include <set>
+
 #include "level2/fragment_builder.h"
 #include "level2/part_decoder.h"
 
@@ -66,9 +68,21 @@ std::optional<RecordPlan> RecordPlan::make(std::span<const std::byte> bytes,
     }
     if (count < 2) return std::nullopt;
     plan.records_.resize(count);
+    plan.want_witnesses();
     plan.records_[1].wanted = true;      // the volume's block is that of the first radial
     plan.records_.back().wanted = true;  // shows whether the volume has ended
     return plan;
+}
+
+// The records on either side of wanted cuts show that these are all there.
+void RecordPlan::want_witnesses() {
+    std::vector<std::size_t> witnesses;
+    for (std::size_t i = 1; i < records_.size(); ++i) {
+        if (records_[i].wanted == records_[i - 1].wanted) continue;
+        witnesses.push_back(records_[i].wanted ? i - 1 : i);
+    }
+    for (const std::size_t i : witnesses)
+        records_[i].wanted = true;
 }
 
 std::optional<LdmPart> RecordPlan::next() {
@@ -98,12 +112,14 @@ bool RecordPlan::agrees(const Fragment& fragment) {
 }
 
 void RecordPlan::report(DecodeReport& report) const {
+    std::set<int> counted;  // a record of theirs was decoded, and the cut counted with it
+    for (const Record& record : records_) {
+        if (record.wanted) counted.insert(record.cut);
+    }
     for (const Record& record : records_) {
         if (record.wanted) continue;
         ++report.records_skipped;
-        // Of the first cut and of the last, a record was decoded, and the cut counted with it.
-        const bool counted = record.cut == records_[1].cut || record.cut == records_.back().cut;
-        if (record.last_of_cut && !counted) ++report.sweeps_left_out;
+        if (record.last_of_cut && !counted.contains(record.cut)) ++report.sweeps_left_out;
         report.ldm_records = report.ldm_records.value_or(0) + 1;
         if (record.part.negative) {
             report.negative_control_words = report.negative_control_words.value_or(0) + 1;

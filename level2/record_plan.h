@@ -3,13 +3,15 @@
 // The volume's pattern (message 5 in the first record) gives the cuts and how many radials each
 // has, and a record holds up to 120 radials of one cut. So the place of each cut's records is known
 // before they are decompressed, and those of other cuts are skipped. What is decoded must agree
-// with the plan, the first and the last record of each cut by their radials' status: cuts only
-// count upwards, so what lies between two that agree can hold no others. Where something does not
-// agree (lost, repeated or longer records, restarted cuts, several volumes, metadata beside radials
-// that are decoded), the plan is void.
-// Limit   metadata among the radials of a skipped record are not seen: a message 5 there would give
-//         later sweeps another vcp_elevation_deg, a message 2 the report another status. The RDA
-//         sends the pattern in the first record only; to see more, all would have to be unpacked.
+// with the plan, the first and the last record of each cut by their radials' status, and so must
+// the records on either side of a wanted cut. Where something does not agree (lost, repeated or
+// longer records, restarted cuts, several volumes, metadata beside radials that are decoded), the
+// plan is void. Limit   what is in a skipped record is not seen. Metadata there: a message 5 would
+// give later
+//         sweeps another vcp_elevation_deg, a message 2 the report another status; the RDA sends
+//         the pattern in the first record only. And cuts that are not wanted may be others than the
+//         plan has, where as many of their records came twice as were lost; sweeps_left_out is the
+//         plan's.
 // Memory  as many records as the pattern has, some hundreds.
 // Thread contract: next() and agrees() from different threads, each from one at a time.
 #pragma once
@@ -42,6 +44,7 @@ class RecordPlan {
     void report(DecodeReport& report) const;
 
   private:
+    void want_witnesses();
     struct Record {
         LdmPart part;
         int cut = 0;  // 0: metadata

@@ -13,7 +13,10 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
       selection_(selection),
       own_decoder_(output_limit_bytes, selection),
       source_(std::move(source)),
-      slots_(threads > 1 ? 2 * static_cast<std::size_t>(threads) : 1) {
+      slots_(threads > 1 ? 2 * static_cast<std::size_t>(std::min(threads, most_threads)) : 1),
+      share_bytes_(std::min(most_share_bytes, all_shares_bytes / slots_.size())),
+      may_wait_(threads <= most_waiting_threads) {
+    threads = std::min(threads, most_threads);
     {
         const std::lock_guard lock{mutex_};
         fill();
@@ -61,30 +64,37 @@ bool RecordQueue::has_turn(const Slot& slot) const {
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
-        const bool may = !slot.large || (who == Who::caller && has_turn(slot));
+        const bool is_head = who == Who::caller && has_turn(slot);
+        const bool may = is_head || !(slot.large || alone_);
         if (slot.state == State::waiting && may) return &slot;
     }
     return nullptr;
 }
 
-// A worker waits for the slot's turn; the caller cannot, since it is the one who takes the head.
-std::uint64_t RecordQueue::more_for(Slot& slot, Who who) {
+std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
     std::unique_lock lock{mutex_};
-    if (who == Who::worker) {
-        changed_.wait(lock, [&] { return stopping_ || has_turn(slot); });
-        if (!stopping_) return std::max<std::uint64_t>(*turn_bytes_, 1);
+    changed_.wait(lock, [&] { return stopping_ || has_turn(slot); });
+    return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
+}
+
+// The functions hold two pointers, so that none of them takes memory.
+ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
+    if (has_turn(slot)) return ArrayRoom{*turn_bytes_};
+    if (who == Who::worker && may_wait_) {
+        return ArrayRoom{share_bytes_, [this, &slot] { return wait_for_turn(slot); }};
     }
-    slot.large = true;
-    return 0;
+    // The caller never waits, since it is the one who takes the head.
+    return ArrayRoom{share_bytes_, [&slot] {
+                         slot.large = true;
+                         return std::uint64_t{0};
+                     }};
 }
 
 void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
                        std::unique_lock<std::mutex>& lock) {
     slot.state = State::working;
     slot.large = false;
-    ArrayRoom room = has_turn(slot)
-                         ? ArrayRoom{*turn_bytes_}
-                         : ArrayRoom{share_bytes, [&, who] { return more_for(slot, who); }};
+    ArrayRoom room = room_for(slot, who);
     lock.unlock();
     Fragment fragment = decoder.decode(slot.part, std::move(room));
     if (slot.large) fragment = {};
@@ -106,12 +116,21 @@ void RecordQueue::run() {
     }
 }
 
+// With the room that there is, and not with that of one decoded ahead.
+void RecordQueue::decode_alone(Slot& head, std::unique_lock<std::mutex>& lock) {
+    changed_.wait(lock, [&] { return head.state != State::working; });
+    head.fragment = {};
+    work(head, own_decoder_, Who::caller, lock);
+}
+
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     std::unique_lock lock{mutex_};
     if (used_ == 0) return std::nullopt;
     turn_bytes_ = limit_bytes;
     changed_.notify_all();
     Slot& head = slots_[head_];
+    alone_ = alone_ || limit_bytes < share_bytes_;
+    if (alone_) decode_alone(head, lock);
     while (head.state != State::ready) {
         if (Slot* slot = first_waiting(Who::caller)) {
             work(*slot, own_decoder_, Who::caller, lock);

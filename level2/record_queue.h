@@ -1,8 +1,11 @@
 // level2/record_queue.h -- LDM records decoded ahead by threads, handed out in order.
 //
 // The caller of next() decodes too, so `threads` counts it. At most two fragments a thread are
-// held, and each is small: one that outgrows its share waits until it is the next to be handed out.
-// What comes out does not depend on the number of threads.
+// held, and each is small: one that outgrows its share waits until it is the next to be handed out,
+// or, with more than a few threads, is decoded anew by the caller then, since the C library keeps
+// for each thread what it has freed.
+// What comes out does not depend on the number of threads: where less is left than a share, nothing
+// is decoded ahead any more, and what was is thrown away.
 // Thread contract: next() from one thread.
 #pragma once
 
@@ -33,11 +36,16 @@ class RecordQueue {
     RecordQueue& operator=(const RecordQueue&) = delete;
     ~RecordQueue();
 
-    // None after the last. `limit_bytes`: what the fragment may take.
+    // None after the last. `limit_bytes`: what the fragment may take; it never grows.
     [[nodiscard]] std::optional<Fragment> next(std::uint64_t limit_bytes);
 
-    // Records of a live volume take 1 MB, the largest seen, of whole sweeps, 5.
-    static constexpr std::uint64_t share_bytes = std::uint64_t{8} << 20;
+    // A volume has some sixty records.
+    static constexpr int most_threads = 32;
+    static constexpr int most_waiting_threads = 4;
+    // Of each fragment that is decoded ahead. Records of a live volume take 1 MB, the largest seen,
+    // of whole sweeps, 5.
+    static constexpr std::uint64_t most_share_bytes = std::uint64_t{8} << 20;
+    static constexpr std::uint64_t all_shares_bytes = std::uint64_t{128} << 20;
 
   private:
     enum class State : std::uint8_t { empty, waiting, working, ready };
@@ -48,12 +56,14 @@ class RecordQueue {
         LdmPart part;
         Fragment fragment;
     };
-    // All but run() and more_for() under mutex_.
+    // All but run() and wait_for_turn() under mutex_.
     void fill();
     [[nodiscard]] Slot* first_waiting(Who who);
     [[nodiscard]] bool has_turn(const Slot& slot) const;
     void work(Slot& slot, PartDecoder& decoder, Who who, std::unique_lock<std::mutex>& lock);
-    [[nodiscard]] std::uint64_t more_for(Slot& slot, Who who);
+    [[nodiscard]] ArrayRoom room_for(Slot& slot, Who who);
+    [[nodiscard]] std::uint64_t wait_for_turn(const Slot& slot);
+    void decode_alone(Slot& head, std::unique_lock<std::mutex>& lock);
     void run();
 
     std::uint64_t limit_bytes_;
@@ -63,7 +73,10 @@ class RecordQueue {
     std::condition_variable changed_;
     Source source_;
     std::vector<Slot> slots_;  // a ring
-    std::size_t head_ = 0;     // the slot that is handed out next
+    std::uint64_t share_bytes_;
+    bool may_wait_;         // workers with what outgrows its share
+    bool alone_ = false;    // the caller decodes all
+    std::size_t head_ = 0;  // the slot that is handed out next
     std::size_t used_ = 0;
     bool source_ended_ = false;
     // The caller waits for the head slot, which may take so much. Before, it holds the last one.

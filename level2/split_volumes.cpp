@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 
 #include "level2/decode.h"
@@ -33,9 +34,11 @@ std::vector<Share> shares_of(const DecodeReport& report, std::size_t sweeps) {
 std::optional<VolumeHeader> header_of(const DecodeReport& report, const Volume& whole,
                                       const Share& share) {
     if (!share.start) return whole.header;
-    for (const auto& further : report.further_headers) {
-        if (further.start == *share.start) return further.header;
-    }
+    const auto& headers = report.further_headers;
+    const auto own = std::lower_bound(
+        headers.begin(), headers.end(), *share.start,
+        [](const auto& further, std::size_t start) { return further.start < start; });
+    if (own != headers.end() && own->start == *share.start) return own->header;
     std::optional<VolumeHeader> header = whole.header;
     const Sweep& sweep = whole.sweeps[share.begin];
     if (header && !sweep.radials.empty()) {

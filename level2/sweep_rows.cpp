@@ -1,7 +1,6 @@
 #include "level2/sweep_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 
@@ -34,15 +33,6 @@ void append_rows(std::vector<Code>& codes, std::size_t stride, const std::vector
     }
 }
 
-void move_row(SweepMoment& moment, std::size_t from, std::size_t to) {
-    const auto stride = static_cast<std::ptrdiff_t>(moment.gate_stride);
-    moment.gate_counts[to] = moment.gate_counts[from];
-    with_codes(moment, [&](auto& codes) {
-        const auto begin = codes.begin() + static_cast<std::ptrdiff_t>(from) * stride;
-        std::copy(begin, begin + stride, codes.begin() + static_cast<std::ptrdiff_t>(to) * stride);
-    });
-}
-
 // Gives back what was reserved and is not in use.
 void release_unused(SweepMoment& moment) {
     const auto largest = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
@@ -50,6 +40,9 @@ void release_unused(SweepMoment& moment) {
     with_codes(moment, [](auto& codes) {
         if (codes.capacity() - codes.size() > codes.size() / 8) codes.shrink_to_fit();
     });
+    if (moment.gate_counts.capacity() > 2 * moment.gate_counts.size()) {
+        moment.gate_counts.shrink_to_fit();
+    }
 }
 
 std::uint16_t native_from_big_endian(std::uint16_t number) {
@@ -101,15 +94,6 @@ SweepMoment empty_like(const SweepMoment& moment) {
 
 std::uint64_t bytes_per_code(const SweepMoment& moment) {
     return moment.word_size_bits == 8 ? 1 : 2;
-}
-
-std::uint64_t bytes_of_radial(const Sweep& sweep, std::size_t radial) {
-    std::uint64_t bytes = 0;
-    for (const SweepMoment& moment : sweep.moments) {
-        if (radial >= moment.gate_counts.size()) continue;
-        bytes += moment.gate_counts[radial] * bytes_per_code(moment);
-    }
-    return bytes;
 }
 
 void reserve(SweepMoment& moment, std::size_t rows) {
@@ -182,63 +166,6 @@ void make_whole(Sweep& sweep) {
         release_unused(moment);
     }
     if (sweep.radials.capacity() > 2 * sweep.radials.size()) sweep.radials.shrink_to_fit();
-}
-
-std::vector<bool> with_surplus_kinds(const Sweep& sweep, const Sweep& next, std::ptrdiff_t most) {
-    std::array<std::ptrdiff_t, moment_count> kinds{};
-    const auto kinds_of = [&](const SweepMoment& m) -> std::ptrdiff_t& {
-        return kinds[static_cast<std::size_t>(m.moment)];
-    };
-    for (const SweepMoment& moment : sweep.moments)
-        ++kinds_of(moment);
-    std::vector<const SweepMoment*> unknown;
-    for (const SweepMoment& moment : next.moments) {
-        const auto same = [&](const SweepMoment& m) { return same_kind(m, moment); };
-        if (std::none_of(sweep.moments.begin(), sweep.moments.end(), same)) {
-            unknown.push_back(&moment);
-        }
-    }
-    std::vector<bool> surplus(next.radials.size(), false);
-    for (std::size_t i = 0; i < surplus.size() && !unknown.empty(); ++i) {
-        const auto has = [&](const SweepMoment* m) {
-            return i < m->gate_counts.size() && m->gate_counts[i] != 0;
-        };
-        // A radial has a moment once, so each of its kinds is judged by itself.
-        surplus[i] = std::any_of(unknown.begin(), unknown.end(), [&](const SweepMoment* m) {
-            return has(m) && kinds_of(*m) >= most;
-        });
-        if (surplus[i]) continue;
-        std::erase_if(unknown, [&](const SweepMoment* m) {
-            if (has(m)) ++kinds_of(*m);
-            return has(m);
-        });
-    }
-    if (std::none_of(surplus.begin(), surplus.end(), [](bool b) { return b; })) return {};
-    return surplus;
-}
-
-void drop_radials(Sweep& sweep, const std::vector<bool>& drop) {
-    std::size_t kept = 0;
-    for (SweepMoment& moment : sweep.moments)
-        pad(moment, sweep.radials.size());
-    for (std::size_t i = 0; i < sweep.radials.size(); ++i) {
-        if (drop[i]) continue;
-        sweep.radials[kept] = sweep.radials[i];
-        for (SweepMoment& moment : sweep.moments)
-            move_row(moment, i, kept);
-        ++kept;
-    }
-    sweep.radials.resize(kept);
-    for (SweepMoment& moment : sweep.moments) {
-        moment.gate_counts.resize(kept);
-        with_codes(moment, [&](auto& codes) {
-            codes.resize(kept * static_cast<std::size_t>(moment.gate_stride));
-        });
-    }
-    std::erase_if(sweep.moments, [](const SweepMoment& moment) {
-        return std::all_of(moment.gate_counts.begin(), moment.gate_counts.end(),
-                           [](std::uint16_t gates) { return gates == 0; });
-    });
 }
 
 }  // namespace stormcellar::level2::rows

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "level2/radial_message.h"
 #include "level2/volume.h"
@@ -22,8 +21,6 @@ namespace stormcellar::level2::rows {
 [[nodiscard]] SweepMoment empty_like(const SweepMoment& moment);
 
 [[nodiscard]] std::uint64_t bytes_per_code(const SweepMoment& moment);
-// The codes of one radial.
-[[nodiscard]] std::uint64_t bytes_of_radial(const Sweep& sweep, std::size_t radial);
 
 // Makes room for rows of the present length, at most 4 MiB.
 void reserve(SweepMoment& moment, std::size_t rows);
@@ -41,12 +38,5 @@ void append(SweepMoment& moment, const SweepMoment& from);
 // A row for every radial in every moment, none longer than the longest; what was reserved and is
 // not in use is given back.
 void make_whole(Sweep& sweep);
-
-// Which radials of `next`, in their order, bring a sweep more than `most` kinds of a moment; empty
-// where none does.
-[[nodiscard]] std::vector<bool> with_surplus_kinds(const Sweep& sweep, const Sweep& next,
-                                                   std::ptrdiff_t most);
-// Drops radials with their rows, and the moments that then no radial has.
-void drop_radials(Sweep& sweep, const std::vector<bool>& drop);
 
 }  // namespace stormcellar::level2::rows

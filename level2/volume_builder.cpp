@@ -109,10 +109,12 @@ bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
 bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
     const std::size_t sweep = volume_.sweeps.size();
     DecodeReport::FurtherPattern pattern = pattern_of(piece);
-    const std::uint64_t pattern_bytes = pattern.message ? bytes_of(*pattern.message) : 0;
-    if (!room_.add(pattern_bytes + sizeof(pattern) + sizeof(DecodeReport::FurtherHeader))) {
-        return false;
-    }
+    // split_volumes() gives each volume the pattern and the block.
+    const std::uint64_t bytes = sizeof(Volume) + sizeof(pattern) +
+                                sizeof(DecodeReport::FurtherHeader) +
+                                (pattern.message ? bytes_of(*pattern.message) : 0) +
+                                (volume_.block ? volume_.block->rest.size() : 0);
+    if (!room_.add(bytes)) return false;
     if (pending_header_) {
         report_.further_headers.push_back(
             {sweep, *pending_header_, report_.further_volume_starts.size()});
@@ -142,21 +144,6 @@ void VolumeBuilder::tidy_last_sweep() {
 void VolumeBuilder::end_sweep() {
     tidy_last_sweep();
     sweep_is_open_ = false;
-}
-
-void VolumeBuilder::refuse_surplus_kinds(const Sweep& sweep, Sweep& from, DecodeReport& report) {
-    const std::vector<bool> refused = rows::with_surplus_kinds(sweep, from, most_kinds_of_a_moment);
-    for (std::size_t i = 0; i < refused.size(); ++i) {
-        if (!refused[i]) continue;
-        const std::uint64_t bytes = rows::bytes_of_radial(from, i);
-        report_.bytes_dropped += bytes;
-        this->report().add(
-            Severity::error, "bad_radial",
-            fmt::format("no sweep holds so many kinds of a moment; {} bytes dropped", bytes));
-        std::uint64_t& count = report.message_counts[from.message_type];
-        if (--count == 0) report.message_counts.erase(from.message_type);
-    }
-    if (!refused.empty()) rows::drop_radials(from, refused);
 }
 
 // Counts what the open sweep takes with these radials too.
@@ -194,7 +181,7 @@ void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     }
 }
 
-bool VolumeBuilder::append_piece(Fragment::Piece piece, DecodeReport& report) {
+bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     if (!note_marks(std::move(piece.before))) return false;
     const bool begins = begins_sweep_here(piece);
     if (begins) {
@@ -202,8 +189,7 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece, DecodeReport& report) {
         pending_header_.reset();
         vcp_is_new_ = false;
         end_sweep();
-        room_.begin_sweep();
-        if (!room_.add(empty_sweep_bytes)) return false;
+        if (!room_.begin_sweep()) return false;
     }
     Sweep& from = piece.sweep;
     previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(from.radials.back()),
@@ -214,7 +200,6 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece, DecodeReport& report) {
     }
     sweep_is_open_ = true;
     Sweep& sweep = begins ? begin_sweep(from) : volume_.sweeps.back();
-    if (!begins) refuse_surplus_kinds(sweep, from, report);
     if (!make_room_for(sweep, from)) return false;
     if (begins && 2 * from.radials.size() >= expected_radials(from.azimuth_spacing_deg)) {
         // Nearly all of the sweep already: its arrays are taken as they are.
@@ -285,7 +270,7 @@ bool VolumeBuilder::append_all(Fragment& fragment) {
     // What a fragment takes is never more than what the volume takes for it.
     if (fragment.array_bytes > arrays_left()) return false;
     for (Fragment::Piece& piece : fragment.pieces) {
-        if (!append_piece(std::move(piece), fragment.report)) return false;
+        if (!append_piece(std::move(piece))) return false;
         piece = {};
     }
     return note_marks(std::move(fragment.behind));

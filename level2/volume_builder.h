@@ -1,8 +1,7 @@
 // level2/volume_builder.h -- joins fragments, in the order of the stream, into a volume.
 //
 // A sweep goes on in the next fragment unless the elevation number or the message type changes, a
-// radial has status 0, 3 or 5, or a 24-byte header lies between. It holds at most 16 kinds of a
-// moment: radials with yet another one are refused, each by itself, in their order.
+// radial has status 0, 3 or 5, or a 24-byte header lies between.
 // Limits: neither the decompressed bytes nor the arrays come to more than the limit given: append()
 // gives unsupported then, and the builder is not to be used any more. Nor do the arrays of a sweep
 // come to more than most_sweep_bytes.
@@ -83,7 +82,7 @@ class VolumeBuilder {
     [[nodiscard]] bool note_marks(FragmentMarks marks);
     void set_pattern(Vcp vcp);
     void note_volume_facts(const Fragment& fragment);
-    [[nodiscard]] bool append_piece(Fragment::Piece piece, DecodeReport& report);
+    [[nodiscard]] bool append_piece(Fragment::Piece piece);
     [[nodiscard]] bool begins_sweep_here(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begins_volume(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begin_volume(const Fragment::Piece& piece);
@@ -91,7 +90,6 @@ class VolumeBuilder {
     [[nodiscard]] Sweep& begin_sweep(const Sweep& from);
     void end_sweep();
     void tidy_last_sweep();
-    void refuse_surplus_kinds(const Sweep& sweep, Sweep& from, DecodeReport& report);
     [[nodiscard]] bool make_room_for(const Sweep& sweep, const Sweep& from);
     void append_rows(Sweep& sweep, const Sweep& from);
 

@@ -140,7 +140,12 @@ TEST_P(MemoryByThreads, DamagedRecordsOfLargeBlocks) {
     expect_small([&] { (void)decode(file, with_threads(GetParam())); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, MemoryByThreads, ::testing::Values(1, 2, 4));
+TEST_P(MemoryByThreads, RecordsJustBelowAShare) {
+    const Bytes file = file_of(wire::ldm_record(amplifier(1, 1, 110)), 200);
+    expect_small([&] { (void)decode(file, with_threads(GetParam())); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, MemoryByThreads, ::testing::Values(1, 2, 4, 32, 1000));
 
 TEST(Memory, OneSweepThatGrowsWithoutEnd) {
     Bytes file = wire::join({wire::archive_header(), wire::ldm_record(amplifier(1, 8, 100))});
@@ -173,6 +178,51 @@ TEST(Memory, SweepsOfOneRadial) {
         append(messages, radial(1, 0, 0));
     const Bytes file = file_of(wire::ldm_record(messages), 40);
     expect_small([&] { (void)decode(file); });
+}
+
+// Seven moments of one gate: what they are takes more than what they hold.
+TEST(Memory, SweepsOfOneRadialOfOneGate) {
+    Bytes messages;
+    for (unsigned i = 0; i < 20'000; ++i) {
+        Bytes message = wire::message_31({.status = 0, .gates = 1});
+        append(messages, message);
+    }
+    const Bytes record = wire::ldm_record(messages);
+    const Bytes file = file_of(record, 30);
+    expect_small([&] { (void)decode(file); });
+    expect_small([&] {
+        LiveVolume live;
+        for (int number = 1; number <= 30; ++number)
+            (void)live.add(number, ChunkKind::intermediate, record, {});
+        (void)live.take_sweeps();
+        (void)live.finish();
+    });
+}
+
+// A radial that is compressed inside its message: 138 bytes that expand to 64 kB.
+TEST(Memory, RadialsThatExpandAreCounted) {
+    wire::Ray ray;
+    ray.gates = 20'000;
+    const Bytes small = wire::compressed_message_31(wire::message_31(ray), 1);
+    Bytes messages;
+    for (unsigned i = 0; i < 5000; ++i)
+        append(messages, small);
+    const Bytes file = file_of(wire::ldm_record(messages), 40);
+    const auto decoded = decode(file);
+    ASSERT_FALSE(decoded) << "40 times 5000 radials of 60 kB";
+    EXPECT_EQ(decoded.error().code, ErrorCode::unsupported);
+}
+
+TEST(Memory, BytesThatAreNoRecordsAreNotHeldWithoutEnd) {
+    GrowingVolume growing;
+    ASSERT_TRUE(growing.append(wire::ldm_volume(1, 20)));
+    const Bytes noise(std::size_t{1} << 20, std::byte{0x5A});
+    int taken = 0;
+    while (taken < 200 && growing.append(noise))
+        ++taken;
+    EXPECT_GT(taken, 60);
+    EXPECT_LT(taken, 70);
+    EXPECT_EQ(growing.finish().error().code, ErrorCode::unsupported);
 }
 
 // A lower cut begins another volume, and each volume has its pattern.

@@ -172,17 +172,15 @@ TEST_F(VolumeBuilderTest, FragmentsMayEndAnywhere) {
     }
 }
 
-TEST_F(VolumeBuilderTest, ManyKindsInManyFragmentsAreRefusedToo) {
+TEST_F(VolumeBuilderTest, KindsOfManyFragmentsStandInOneSweep) {
     for (int i = 0; i < 40; ++i) {
         EXPECT_TRUE(add({1, 1, 4, i * 250}));
         end_fragment();
     }
     const Volume volume = finish();
-    EXPECT_EQ(volume.sweeps.at(0).moments.size(), 16U);
-    EXPECT_EQ(volume.sweeps.at(0).radials.size(), 16U);
-    EXPECT_EQ(report_.problems.at(0).code, "bad_radial");
-    EXPECT_GT(report_.bytes_dropped, 0U);
-    EXPECT_FALSE(report_.complete);
+    EXPECT_EQ(volume.sweeps.at(0).moments.size(), 40U);
+    EXPECT_EQ(volume.sweeps.at(0).radials.size(), 40U);
+    EXPECT_EQ(volume.sweeps.at(0).moments.at(39).gate_counts.at(39), 4U);
 }
 
 TEST_F(VolumeBuilderTest, ACutThatIsNotAskedForGivesNoSweep) {
@@ -225,35 +223,24 @@ TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     EXPECT_LT(taken, 160);
 }
 
-// Another scale in each radial makes another kind of row, padded to the end of the piece.
-TEST(FragmentBuilderLimit, KindsOfAMomentInAPieceAreFew) {
+// Another scale in each radial makes another kind of row, padded to the end of the sweep.
+TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
     ArrayRoom room{ample};
     FragmentBuilder builder{room, rows, everything};
-    const std::vector<std::byte> codes(1);
-    for (int i = 0; i < 100; ++i) {
+    const std::vector<std::byte> codes(1000);
+    int taken = 0;
+    for (; taken < 1000; ++taken) {
         RadialMessage message;
         message.elevation_number = 1;
         MomentBlock block;
-        block.gates = 1;
-        block.scale = static_cast<float>(1 + i);
+        block.gates = 1000;
+        block.scale = static_cast<float>(1 + taken);
         block.codes = codes;
         ASSERT_TRUE(message.add(block));
-        EXPECT_TRUE(builder.add(message));
+        if (!builder.add(message)) break;
     }
-    Fragment fragment = builder.take();
-    ASSERT_EQ(fragment.pieces.size(), 7U);
-    EXPECT_EQ(fragment.pieces[0].sweep.moments.size(), 16U);
-    EXPECT_EQ(fragment.pieces[6].sweep.radials.size(), 4U);
-    // Joined they are one sweep, which takes no more than the first 16.
-    VolumeBuilder volume{ample};
-    fragment.report.message_counts[31] = 100;
-    EXPECT_TRUE(volume.append(std::move(fragment)));
-    const Decoded decoded = volume.finish("").value();
-    ASSERT_EQ(decoded.volume.sweeps.size(), 1U);
-    EXPECT_EQ(decoded.volume.sweeps[0].radials.size(), 16U);
-    EXPECT_EQ(decoded.volume.sweeps[0].moments.size(), 16U);
-    EXPECT_EQ(decoded.report.message_counts.at(31), 16U);
-    EXPECT_EQ(decoded.report.errors, 84U);
+    EXPECT_GT(taken, 200) << "radials of as many kinds: 200 x 200 x 1000 bytes";
+    EXPECT_LT(taken, 270);
 }
 
 TEST_F(VolumeBuilderTest, TheEndOfAVolumeIsKnownThoughItsRadialHasBadData) {
