@@ -16,6 +16,8 @@ namespace {
 // 32 bits.
 constexpr std::size_t longest_radial_bytes = std::size_t{1} << 18;
 constexpr std::size_t longest_message_bytes = std::size_t{1} << 22;
+// The length of a radial without its compression has 16 bits.
+constexpr std::size_t longest_expanded_bytes = std::size_t{1} << 16;
 
 // Whether what stands behind a message leaves no doubt that the message ends there: another one, a
 // fill frame, a further volume header, or the end.
@@ -206,6 +208,11 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     const int compression = is_31 ? message_31_compression(body) : 0;
     if (compression != 0) {
         auto whole = expand_message_31(body);
+        // What is damaged took time, too.
+        if (!builder_.add_expanded(whole ? whole->size() : longest_expanded_bytes)) {
+            failure_ = Fragment::Failure::too_much_output;
+            return;
+        }
         if (!whole) {
             builder_.report().damage("bad_radial", std::string{whole.error()}, offset_,
                                      message.size());
