@@ -187,6 +187,23 @@ TEST(SelectionPlan, IsVoidWhereTheFirstRecordHoldsNoVolumeBlock) {
     EXPECT_EQ(expect_cuts(file_of(records), {3}).records_skipped, 0U);
 }
 
+// As many records as a whole volume has, but not these.
+TEST(SelectionPlan, IsVoidWhereARecordThatCameTwiceStandsForALostOne) {
+    const auto sound = sound_records();
+    const std::size_t cut_2 = 1 + records_of_a_cut, cut_3 = cut_2 + records_of_a_cut;
+    auto restarted = sound;  // cut 1 again, cut 2 lost
+    std::copy_n(sound.begin() + 1, records_of_a_cut,
+                restarted.begin() + static_cast<std::ptrdiff_t>(cut_2));
+    auto repeated = sound;  // the last of cut 1 again, the first of cut 2 lost
+    repeated[cut_2] = sound[cut_2 - 1];
+    auto last_twice = sound;  // cut 3 twice, cut 2 lost
+    std::copy_n(sound.begin() + static_cast<std::ptrdiff_t>(cut_3), records_of_a_cut,
+                last_twice.begin() + static_cast<std::ptrdiff_t>(cut_2));
+    EXPECT_EQ(expect_cuts(file_of(restarted), {1}).records_skipped, 0U);
+    EXPECT_EQ(expect_cuts(file_of(repeated), {1}).records_skipped, 0U);
+    EXPECT_EQ(expect_cuts(file_of(last_twice), {3}).records_skipped, 0U);
+}
+
 TEST(SelectionPlan, IsVoidWhereThereAreMoreRecordsThanThePatternHas) {
     auto records = sound_records();
     records.push_back(wire::frame(2));
