@@ -64,9 +64,9 @@ bool RecordQueue::has_turn(const Slot& slot) const {
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
+        if (slot.state != State::waiting) continue;  // who works on it may say that it is large
         const bool is_head = who == Who::caller && has_turn(slot);
-        const bool may = is_head || !(slot.large || alone_);
-        if (slot.state == State::waiting && may) return &slot;
+        if (is_head || !(slot.large || alone_)) return &slot;
     }
     return nullptr;
 }
