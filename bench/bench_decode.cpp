@@ -21,6 +21,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -98,28 +99,18 @@ int run(int argc, char** argv) {
         keep_freed_memory();
         return decode_once(argv[2], argv[3]);
     }
-    int runs = 5;
-    bool give_back = false;
-    std::vector<fs::path> files;
-    for (int i = 1; i < argc; ++i) {
-        if (std::string(argv[i]) == "--runs" && i + 1 < argc) {
-            runs = std::max(1, static_cast<int>(number_in(argv[++i])));
-        } else if (std::string(argv[i]) == "--give-back") {
-            give_back = true;
-        } else {
-            files.emplace_back(argv[i]);
-        }
-    }
+    const bool give_back =
+        std::find(argv + 1, argv + argc, std::string_view{"--give-back"}) != argv + argc;
     if (!give_back) keep_freed_memory();
-    if (files.empty()) files = real_volumes();
-    if (files.empty()) {
+    const Choice choice = choice_of(std::span(argv, static_cast<std::size_t>(argc)));
+    if (choice.files.empty()) {
         fmt::print(stderr, "bench_decode: no files: name some, or set STORMCELLAR_DATA\n");
         return 3;
     }
     fmt::print(
         "file\tthreads\tlibbz2_s\tdecode_s\tratio\tmb_per_s\tpeak_mib\tarrays_mib\tfile_mib\n");
-    for (const fs::path& file : files)
-        measure(file, runs);
+    for (const fs::path& file : choice.files)
+        measure(file, choice.runs);
     return 0;
 }
 

@@ -17,12 +17,14 @@
 //   peak_mib      peak resident memory of a process that decodes and grids the file once
 // Times are the least of the runs, in each of which all are timed one behind the other. Files
 // without LDM records, or without the moment, are left out.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -178,25 +180,16 @@ int run(int argc, char** argv) {
     if (argc == 5 && std::string(argv[1]) == "--grid-once") {
         return grid_once(argv[2], argv[3], argv[4]);
     }
-    int runs = 5;
-    std::vector<fs::path> files;
-    for (int i = 1; i < argc; ++i) {
-        if (std::string(argv[i]) == "--runs" && i + 1 < argc) {
-            runs = std::max(1, static_cast<int>(number_in(argv[++i])));
-        } else {
-            files.emplace_back(argv[i]);
-        }
-    }
-    if (files.empty()) files = real_volumes();
-    if (files.empty()) {
+    const Choice choice = choice_of(std::span(argv, static_cast<std::size_t>(argc)));
+    if (choice.files.empty()) {
         fmt::print(stderr, "bench_grid: no files: name some, or set STORMCELLAR_DATA\n");
         return 3;
     }
     fmt::print(
         "file\tspec\tthreads\tdecode_s\tgeometry_s\tfirst_grid_s\tgrid_s\twrite_s\twhole_s\t"
         "libbz2_s\tratio\tmcells_per_s\tpeak_mib\n");
-    for (const fs::path& file : files)
-        measure(file, runs);
+    for (const fs::path& file : choice.files)
+        measure(file, choice.runs);
     return 0;
 }
 

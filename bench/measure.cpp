@@ -61,6 +61,20 @@ std::vector<fs::path> real_volumes() {
     return files;
 }
 
+Choice choice_of(std::span<char* const> arguments) {
+    Choice choice;
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        const std::string_view word = arguments[i];
+        if (word == "--runs" && i + 1 < arguments.size()) {
+            choice.runs = std::max(1, static_cast<int>(number_in(arguments[++i])));
+        } else if (!word.starts_with("--")) {
+            choice.files.emplace_back(word);
+        }
+    }
+    if (choice.files.empty()) choice.files = real_volumes();
+    return choice;
+}
+
 std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled) {
     peeled = without_gzip(file);
     const std::span<const std::byte> bytes = peeled;

@@ -31,6 +31,14 @@ void keep_least_seconds(double& least, Work work) {
 // Every volume below $STORMCELLAR_DATA, or ../shared/data, sorted by path.
 [[nodiscard]] std::vector<std::filesystem::path> real_volumes();
 
+// What a command line asks for: `--runs N` (else 5), and files (else real_volumes()). Other words
+// that begin with -- are left to the program.
+struct Choice {
+    int runs = 5;
+    std::vector<std::filesystem::path> files;
+};
+[[nodiscard]] Choice choice_of(std::span<char* const> arguments);
+
 // The streams of the LDM records in a file, which may be a gzip file; `peeled` then holds what they
 // point into. Empty where there are none.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled);
