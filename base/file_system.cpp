@@ -96,7 +96,7 @@ class RealFileSystem final : public FileSystem {
 std::filesystem::path temporary_name(const std::filesystem::path& final_path) {
     static std::atomic<std::uint64_t> counter{0};
     return final_path.parent_path() /
-           fmt::format("{}{}-{}", temporary_prefix, ::getpid(), counter.fetch_add(1));
+           fmt::format("{}{}", own_temporary_prefix(), counter.fetch_add(1));
 }
 
 std::filesystem::path directory_of(const std::filesystem::path& path) {
@@ -165,6 +165,10 @@ Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem
 }
 
 }  // namespace
+
+std::string own_temporary_prefix() {
+    return fmt::format("{}{}-", temporary_prefix, ::getpid());
+}
 
 FileSystem& real_file_system() {
     static RealFileSystem file_system;

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +44,7 @@ class FileSystem {
 
 // Our temporary files start with this, so that others are never touched when leftovers are swept.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
+[[nodiscard]] std::string own_temporary_prefix();  // of those of this process
 
 // Whether a file can appear at this path: its directory is there and may be written, and nothing
 // but a regular file (or a link to one) stands there. For asking before long work.

@@ -1,5 +1,8 @@
-// base/memory.h -- what a process does with memory that it has freed.
+// base/memory.h -- how a process gets its large arrays, and what it does with memory it has freed.
 #pragma once
+
+#include <cstddef>
+#include <vector>
 
 namespace stormcellar {
 
@@ -9,5 +12,20 @@ namespace stormcellar {
 // the main() of a program that decodes one volume after another; a library leaves this to its
 // program. Nothing happens where the C library is another one.
 void keep_freed_memory();
+
+// Asks the system for large pages where memory is touched from now on: 2 MiB at once instead of 4
+// KiB, which takes a sixth of the time (docs/performance.md). A hint: nothing happens where the
+// system has none, or to what lies beside whole large pages.
+void prefer_large_pages(void* memory, std::size_t bytes);
+
+// An array of `size` zeros in large pages, for what is written nearly all over.
+template <class Value>
+std::vector<Value> zeros_in_large_pages(std::size_t size) {
+    std::vector<Value> values;
+    values.reserve(size);
+    prefer_large_pages(values.data(), size * sizeof(Value));
+    values.resize(size);
+    return values;
+}
 
 }  // namespace stormcellar

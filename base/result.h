@@ -25,6 +25,7 @@ enum class ErrorCode {
     not_a_file,    // a directory, FIFO or other thing that is not a regular file
     io,            // the operating system refused a read or a write
     no_space,      // the file system is full
+    over_budget,   // what may be kept is used up, though the file system may have room
     permission,    // the file may not be read or written
     internal,      // a defect of this software
 };

@@ -156,6 +156,11 @@ bool TomlTable::is_array(std::string_view key) const {
     return node != nullptr && node->is_array();
 }
 
+bool TomlTable::is_text(std::string_view key) const {
+    const toml::node* node = document_->asked[index_].table->get(key);
+    return node != nullptr && node->is_string();
+}
+
 void TomlTable::complain(std::string_view key, std::string_view why) {
     document_->complain(index_, key, why);
 }
@@ -208,6 +213,26 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) {
             return std::nullopt;
         }
         values.push_back(number_of(element));
+    }
+    return values;
+}
+
+std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
+    const toml::node* node = document_->find(index_, key);
+    if (node == nullptr) return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) {
+        document_->complain_kind(index_, key, "an array of texts", *node);
+        return std::nullopt;
+    }
+    std::vector<std::string> values;
+    for (const toml::node& element : *array) {
+        const auto* value = element.as_string();
+        if (value == nullptr) {
+            complain(key, fmt::format("must be an array of texts, holds {}", kind_of(element)));
+            return std::nullopt;
+        }
+        values.push_back(value->get());
     }
     return values;
 }

@@ -58,12 +58,14 @@ class TomlTable {
     std::optional<double> number(std::string_view key, TomlRange range);
     std::optional<int> whole_number(std::string_view key, TomlRange range);
     std::optional<std::vector<double>> numbers(std::string_view key);
+    std::optional<std::vector<std::string>> texts(std::string_view key);
     std::optional<TomlTable> table(std::string_view key);  // [key]
     TomlTable section(std::string_view key);               // the same; an absent one is empty
     std::vector<TomlTable> tables(std::string_view key);   // [[key]], in the file's order
 
     [[nodiscard]] bool has(std::string_view key) const;
     [[nodiscard]] bool is_array(std::string_view key) const;
+    [[nodiscard]] bool is_text(std::string_view key) const;
     // Notes a complaint about the value of a key (about the table when the key is absent).
     void complain(std::string_view key, std::string_view why);
 

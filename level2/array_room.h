@@ -1,9 +1,12 @@
 // level2/array_room.h -- counts what arrays take before they are made, and says where it ends.
 //
-// A sweep takes, for each of its radials, a row of each of its kinds, as long as the kind's
-// longest. The count does not depend on how the radials come, one by one or in pieces, and what the
-// pieces of a sweep take is never more than what the sweep takes. So a volume that exceeds its
-// limit does so however it was cut into fragments. Thread contract: one thread at a time.
+// A sweep takes, for each of its radials, a row of each of its kinds of a moment (which differ in
+// gates, scale or word size), as long as the kind's longest, and something for each kind. The count
+// does not depend on how the radials come, one by one or in pieces, and the pieces of a sweep never
+// count for more than the sweep: for a piece that may go on with one begun before it, the sweep
+// itself and its kinds are not counted. So a volume that exceeds its limit does so however it was
+// cut into fragments.
+// Thread contract: one thread at a time.
 #pragma once
 
 #include <cstddef>

@@ -18,6 +18,18 @@ constexpr std::size_t rows_of_a_chunk = 120;
 constexpr std::size_t most_records = 1000;
 constexpr std::uint64_t bytes_of_a_problem = 256;
 
+// What a fragment takes while it is held by itself. Its first piece counts for nothing but its rows
+// in a volume, whose sweep it may go on with.
+std::uint64_t held_bytes(const Fragment& fragment) {
+    std::uint64_t bytes = fragment.array_bytes + sizeof(Fragment) +
+                          fragment.report.problems.size() * bytes_of_a_problem;
+    if (!fragment.pieces.empty()) {
+        const std::size_t kinds = fragment.pieces.front().sweep.moments.size();
+        bytes += empty_sweep_bytes + kinds * empty_kind_bytes;
+    }
+    return bytes;
+}
+
 bool holds_messages(const DecodeReport& report) {
     return std::any_of(report.message_counts.begin(), report.message_counts.end(),
                        [](const auto& count) { return count.first != 0; });
@@ -43,8 +55,7 @@ class ChunkReader {
 Status ChunkReader::keep(Fragment fragment) {
     if (fragment.failure == Fragment::Failure::no_memory) return no_memory();
     chunk_.output_bytes += fragment.output_bytes;
-    chunk_.held_bytes += fragment.array_bytes + sizeof(Fragment) +
-                         fragment.report.problems.size() * bytes_of_a_problem;
+    chunk_.held_bytes += held_bytes(fragment);
     if (fragment.failure != Fragment::Failure::none || chunk_.output_bytes > room_.output_bytes ||
         chunk_.held_bytes > room_.held_bytes) {
         return fail(ErrorCode::unsupported, "the chunks take more than the limit of {} bytes",

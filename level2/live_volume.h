@@ -9,7 +9,7 @@
 // begun again: it is refused, and what there is can be finished.
 // After a restart of the program the chunks that lie there are added again.
 // Memory: what is held of all chunks together, and their decompressed bytes, stay under the
-// decoder's output limit; a chunk that would go beyond is refused.
+// decoder's output limit; a chunk that would go beyond is refused, and then the order does matter.
 // Thread contract: one thread at a time.
 #pragma once
 

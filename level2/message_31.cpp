@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/byte_reader.h"
+#include "base/floating_point.h"
 #include "level2/radial_message.h"
 
 namespace stormcellar::level2 {
@@ -117,8 +118,8 @@ RadialResult read_message_31(std::span<const std::byte> body) {
     const std::uint16_t blocks = reader.u16();
     if (reader.failed()) return tl::unexpected(std::string_view{"message 31 is too short"});
     // Written so that a NaN fails.
-    const bool angles_possible = radial.azimuth_deg >= 0 && radial.azimuth_deg <= 360 &&
-                                 radial.elevation_deg >= -90 && radial.elevation_deg <= 90;
+    const bool angles_possible = is_within(radial.azimuth_deg, 0.0F, 360.0F) &&
+                                 is_within(radial.elevation_deg, -90.0F, 90.0F);
     if (!angles_possible) return tl::unexpected(std::string_view{"angles are impossible"});
 
     for (std::uint16_t i = 0; i < blocks; ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/byte_reader.h"
+#include "base/floating_point.h"
 #include "base/station_table.h"
 
 namespace stormcellar::level2 {
@@ -56,9 +57,9 @@ bool is_surely_message_31(const MessageHeader& header, std::span<const std::byte
     const std::uint16_t blocks = reader.u16();
     if (reader.failed() || !is_icao(icao)) return false;
     const int days_apart = static_cast<int>(date) - static_cast<int>(header.date);
-    return ms < ms_per_day + slack_ms && std::abs(days_apart) <= 1 && azimuth_deg >= 0 &&
-           azimuth_deg <= 360 && elevation_deg >= -90 && elevation_deg <= 90 && blocks >= 1 &&
-           blocks <= 32;
+    return ms < ms_per_day + slack_ms && std::abs(days_apart) <= 1 &&
+           is_within(azimuth_deg, 0.0F, 360.0F) && is_within(elevation_deg, -90.0F, 90.0F) &&
+           blocks >= 1 && blocks <= 32;
 }
 
 // A frame of another kind: nothing in its body is fixed, so its header has to be beyond doubt.

@@ -40,6 +40,7 @@ constexpr double position_limit_deg = 1;
 std::optional<AntennaPosition> position_of_block(const VolumeBlock& block) {
     double latitude_deg = block.latitude_deg;
     double longitude_deg = block.longitude_deg;
+    if (!std::isfinite(latitude_deg) || !std::isfinite(longitude_deg)) return std::nullopt;
     // TDWR files of 2019 and 2020 give thousandths of a degree.
     if (std::abs(latitude_deg) > 90 || std::abs(longitude_deg) > 180) {
         latitude_deg /= 1000;

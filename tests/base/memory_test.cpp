@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -34,6 +35,35 @@ TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
     keep_freed_memory();
     EXPECT_GT(faults_of_a_volume(), 2000);
     EXPECT_LT(faults_of_a_volume(), 100);
+}
+
+TEST(LargePages, AnArrayIsAllZero) {
+    for (const std::size_t size : {0, 1, 1000, (1 << 20) + 3}) {
+        std::vector<float> dirty(size, 1);
+        dirty.clear();
+        dirty.shrink_to_fit();
+        const auto values = zeros_in_large_pages<float>(size);
+        ASSERT_EQ(values.size(), size);
+        for (const float value : values)
+            ASSERT_EQ(value, 0.0F);
+    }
+}
+
+// Where the system has large pages, 32 MiB come by few faults; where it has none, as before.
+TEST(LargePages, AreAHintThatCostsNoMoreFaults) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+    GTEST_SKIP() << "another allocator";
+#endif
+    constexpr std::size_t size = std::size_t{32} << 20;
+    const auto faults = [] {
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_minflt;
+    };
+    const long before = faults();
+    const auto values = zeros_in_large_pages<char>(size);
+    EXPECT_EQ(values[size / 2], 0);
+    EXPECT_LE(faults() - before, static_cast<long>(size / 4096) + 100);
 }
 
 }  // namespace

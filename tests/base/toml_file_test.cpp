@@ -50,6 +50,20 @@ TEST(TomlFile, GivesWhatIsThere) {
     EXPECT_EQ(complaint(file), "");
 }
 
+TEST(TomlFile, GivesTextsOfAnArrayOfNothingElse) {
+    TomlFile file = file_of("a = [\"x\", \"y\"]\nb = []\n");
+    EXPECT_THAT(*file.root().texts("a"), ElementsAre("x", "y"));
+    EXPECT_TRUE(file.root().texts("b")->empty());
+    EXPECT_FALSE(file.root().texts("c"));
+    EXPECT_EQ(complaint(file), "");
+    TomlFile mixed = file_of("a = [\"x\", 1]\n");
+    EXPECT_FALSE(mixed.root().texts("a"));
+    EXPECT_THAT(complaint(mixed), HasSubstr("must be an array of texts, holds a number"));
+    TomlFile other = file_of("a = \"x\"\n");
+    EXPECT_FALSE(other.root().texts("a"));
+    EXPECT_THAT(complaint(other), HasSubstr("an array of texts"));
+}
+
 TEST(TomlFile, WhatIsAbsentIsNone) {
     TomlFile file = file_of("");
     TomlTable root = file.root();
