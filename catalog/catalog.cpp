@@ -5,6 +5,9 @@
 #include <mutex>
 #include <utility>
 
+#include <sys/stat.h>
+
+#include "base/file_system.h"
 #include "base/station_table.h"
 #include "catalog/station_database.h"
 
@@ -42,18 +45,44 @@ bool is_ours_to_solve(const Error& error) {
            error.code != ErrorCode::unsupported;
 }
 
+std::string station_of(const std::string& name) {
+    return name == unknown_station ? std::string{} : name;
+}
+
+std::string summary_of(const std::vector<std::string>& damage) {
+    const std::string first = damage.front().substr(0, damage.front().find('\n'));
+    if (damage.size() == 1) return first;
+    return fmt::format("{}, and {} more", first, damage.size() - 1);
+}
+
+// Tells whether a path still names the file that it named.
+struct FileIdentity {
+    dev_t device = 0;
+    ino_t inode = 0;
+    bool operator==(const FileIdentity&) const = default;
+
+    static FileIdentity of(const fs::path& path) {
+        struct stat facts {};
+        if (::stat(path.c_str(), &facts) != 0) return {};
+        return {facts.st_dev, facts.st_ino};
+    }
+};
+
 }  // namespace
 
 struct Catalog::Impl {
     struct Slot {
-        std::mutex mutex;  // guards the database
+        std::mutex mutex;  // guards what follows
         std::unique_ptr<StationDatabase> database;
+        FileIdentity file;
     };
 
     fs::path directory;
     bool writing = false;
     std::mutex slots_mutex;  // guards the map, not what its slots hold
     std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots;
+    std::mutex repairs_mutex;  // guards repairs
+    std::vector<Repair> repairs;
 
     [[nodiscard]] fs::path path_of(const std::string& name) const {
         return directory / (name + std::string{database_ending});
@@ -66,31 +95,74 @@ struct Catalog::Impl {
         return *place;
     }
 
-    // Runs `work` on the database of that name, opened when need be. Missing databases are created
-    // when writing and `create` is set; else not_found.
+    // Runs `work` on the database of that name, opened when need be, and mended when it is damaged.
+    // Missing databases are created when writing and `create` is set; else not_found.
     template <class Work>
     auto with(const std::string& name, bool create, Work work)
         -> Result<decltype(work(std::declval<StationDatabase&>()))> {
         Slot& place = slot(name);
         const std::scoped_lock lock(place.mutex);
+        auto done = attempt(place, name, create, work);
+        if (done || !writing || done.error().code != ErrorCode::corrupt) return done;
+        if (!mend(place, name)) return done;
+        return attempt(place, name, create, work);
+    }
+
+    template <class Work>
+    auto attempt(Slot& place, const std::string& name, bool create, Work work)
+        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
         const fs::path path = path_of(name);
-        if (!place.database) {
-            std::error_code ignored;
-            if (!(writing && create) && !fs::exists(path, ignored)) {
-                return fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
-                            directory.native(), name);
-            }
-            const std::string station = name == unknown_station ? std::string{} : name;
-            auto opened = writing ? StationDatabase::open_for_writing(path, station)
-                                  : StationDatabase::open_for_reading(path, station);
-            if (!opened) return pass_on(opened);
-            place.database = std::move(*opened);
-        }
+        if (Status ready = open(place, name, create); !ready) return pass_on(ready);
+        const bool is_snapshot = place.database->is_snapshot();
         try {
-            return work(*place.database);
+            auto done = work(*place.database);
+            if (is_snapshot) place.database.reset();
+            return done;
         } catch (const SQLite::Exception& error) {
+            if (is_snapshot) place.database.reset();
             return fail(code_of(error), "{}: {}", path.native(), error.what());
         }
+    }
+
+    Status open(Slot& place, const std::string& name, bool create) {
+        const fs::path path = path_of(name);
+        if (place.database && place.file != FileIdentity::of(path)) {
+            place.database.reset();  // what we write there would be seen by nobody
+            if (writing) note_repair({station_of(name), path, {}, "was deleted or replaced"});
+        }
+        if (place.database) return {};
+        if (writing) {
+            if (Status adopted = adopt_mended_database(path); !adopted) return adopted;
+        }
+        std::error_code ignored;
+        if (!(writing && create) && !fs::exists(path, ignored)) {
+            return fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
+                        directory.native(), name);
+        }
+        auto opened = writing ? StationDatabase::open_for_writing(path, station_of(name))
+                              : StationDatabase::open_for_reading(path, station_of(name));
+        if (!opened) return pass_on(opened);
+        place.database = std::move(*opened);
+        place.file = FileIdentity::of(path);
+        return {};
+    }
+
+    // Whether another attempt has a chance: the damage is set aside, or was none that lasts.
+    bool mend(Slot& place, const std::string& name) {
+        place.database.reset();
+        const fs::path path = path_of(name);
+        const auto found = examine_database(path);
+        if (!found || found->foreign) return false;
+        if (found->damage.empty()) return true;
+        auto repair = repair_database(path, station_of(name), summary_of(found->damage));
+        if (!repair) return false;
+        note_repair(std::move(*repair));
+        return true;
+    }
+
+    void note_repair(Repair repair) {
+        const std::scoped_lock lock(repairs_mutex);
+        repairs.push_back(std::move(repair));
     }
 
     // The names of all databases in the directory, sorted.
@@ -122,8 +194,17 @@ const fs::path& Catalog::directory() const {
 
 Result<Catalog> Catalog::open_for_writing(fs::path directory) {
     std::error_code error;
-    fs::create_directories(directory, error);
+    const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    if (created) {
+        // state/catalog, as a rule with its parent: SQLite syncs the directory, not its name.
+        const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
+        for (const fs::path& above : {parent, parent.parent_path()}) {
+            if (Status synced = real_file_system().sync_directory(above); !synced) {
+                return pass_on(synced);
+            }
+        }
+    }
     auto impl = std::make_unique<Impl>();
     impl->directory = std::move(directory);
     impl->writing = true;
@@ -166,7 +247,7 @@ Result<int> Catalog::mark_gone(const fs::path& path) {
     int marked = 0;
     for (const std::string& name : *names) {
         const auto here = impl_->with(
-            name, false, [&](StationDatabase& database) { return database.mark_gone(path); });
+            name, false, [&](StationDatabase& database) { return database.mark_gone({path}); });
         if (!here && is_ours_to_solve(here.error())) return pass_on(here);
         marked += here.value_or(0);
     }
@@ -183,15 +264,17 @@ Result<int> Catalog::mark_missing(const fs::path& directory) {
         });
         if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
         if (!paths) continue;
+        std::vector<fs::path> gone;
         for (const fs::path& path : *paths) {
             std::error_code error;
             const fs::file_status status = fs::symlink_status(path, error);
-            if (status.type() != fs::file_type::not_found) continue;
-            const auto here = impl_->with(
-                name, false, [&](StationDatabase& database) { return database.mark_gone(path); });
-            if (!here) return pass_on(here);
-            marked += *here;
+            if (status.type() == fs::file_type::not_found) gone.push_back(path);
         }
+        if (gone.empty()) continue;
+        const auto here = impl_->with(
+            name, false, [&](StationDatabase& database) { return database.mark_gone(gone); });
+        if (!here) return pass_on(here);
+        marked += *here;
     }
     return marked;
 }
@@ -215,6 +298,46 @@ Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
         if (here && here->has_value()) return **here;
     }
     return false;
+}
+
+Result<std::vector<std::string>> Catalog::station_names() const {
+    auto names = impl_->names();
+    if (!names) return names;
+    for (std::string& name : *names)
+        name = station_of(name);
+    std::sort(names->begin(), names->end());
+    return names;
+}
+
+Status Catalog::examine(std::string_view station) {
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    Status outcome;
+    for (const std::string& name : *names) {
+        if (!station.empty() && name != station) continue;
+        // What a crash left unfinished, only one who writes can finish.
+        const auto opened = impl_->with(name, false, [](StationDatabase&) { return true; });
+        if (!opened) {
+            outcome = pass_on(opened);
+            continue;
+        }
+        const fs::path path = impl_->path_of(name);
+        const auto found = examine_database(path);
+        if (!found) outcome = pass_on(found);
+        if (!found || found->damage.empty()) continue;
+        Impl::Slot& place = impl_->slot(name);
+        const std::scoped_lock lock(place.mutex);
+        if (!impl_->mend(place, name)) {
+            outcome = fail(ErrorCode::corrupt, "{}: {}, and cannot be mended", path.native(),
+                           found->damage.front());
+        }
+    }
+    return outcome;
+}
+
+std::vector<Repair> Catalog::take_repairs() {
+    const std::scoped_lock lock(impl_->repairs_mutex);
+    return std::exchange(impl_->repairs, {});
 }
 
 Result<std::vector<StationSummary>> Catalog::stations() {

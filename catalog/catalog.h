@@ -7,11 +7,13 @@
 // gets the next generation.
 // Tables: file (one row a raw file), volume (station, start, number, generation), part (which file
 // holds which volume).
-// Errors: io, no_space, permission (SQLite's reason), corrupt (damaged, or not our database),
-// unsupported (a later version), not_found. What concerns one station is not held up by the
-// damaged database of another.
-// Thread contract: a Catalog may be used by many threads (a mutex a database inside); many
-// processes may read while one writes.
+// Damage: a writer that meets a damaged database sets it aside and goes on with a new one, which
+// has the rows of files that are gone (repair.h); take_repairs() says so, and whoever feeds the
+// catalog then offers it the files again. The same when a database was deleted under it. Errors:
+// io, no_space, permission (SQLite's reason), corrupt (damaged; of a writer only where it could not
+// be mended), unsupported (a later version's or another program's database), not_found. What
+// concerns one station is not held up by the database of another. Thread contract: a Catalog may be
+// used by many threads (a mutex a database inside); many processes may read while one writes.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +27,7 @@
 
 #include "base/result.h"
 #include "base/utc_time.h"
+#include "catalog/repair.h"
 
 namespace stormcellar::catalog {
 
@@ -104,6 +107,7 @@ class Catalog {
     Catalog& operator=(const Catalog&) = delete;
     ~Catalog();
 
+    // On success a power cut does not undo it, but for a state of `seen`, which may be lost.
     Result<Registered> register_file(const FileFacts& facts);
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
@@ -115,6 +119,15 @@ class Catalog {
     // to its end (complete, partial or rejected): nothing to do again.
     Result<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                             std::int64_t modified_ns);
+
+    // The stations that have a database, sorted; "" for files without one comes first.
+    [[nodiscard]] Result<std::vector<std::string>> station_names() const;
+    // Reads the whole database of a station, or of all where none is named, and mends it where it
+    // is damaged. For a writer. Errors: those of a database that cannot be looked at or mended,
+    // after all others were.
+    Status examine(std::string_view station);
+    // What was mended since the last call.
+    std::vector<Repair> take_repairs();
 
     Result<std::vector<StationSummary>> stations();
     Result<std::vector<CatalogEntry>> list(std::string_view station, const Query& query);

@@ -6,6 +6,7 @@
 
 #include <sqlite3.h>
 
+#include "catalog/database_uri.h"
 #include "catalog/schema.h"
 
 namespace stormcellar::catalog {
@@ -49,23 +50,6 @@ std::optional<int> optional_int(const SQLite::Column& column) {
     return column.getInt();
 }
 
-// A path as SQLite's own URI form, so that no character of it has a meaning.
-std::string uri_of(const fs::path& path, std::string_view query) {
-    std::string uri = "file:";
-    for (const char c : path.native()) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
-                           (byte >= 'a' && byte <= 'z') || c == '/' || c == '.' || c == '_' ||
-                           c == '-';
-        if (plain) {
-            uri += c;
-        } else {
-            uri += fmt::format("%{:02X}", byte);
-        }
-    }
-    return uri + std::string{query};
-}
-
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
     return fail(code_of(error), "{}: {}", path.native(), error.what());
 }
@@ -78,13 +62,22 @@ Status check_identity(SQLite::Database& database, const fs::path& path) {
     const int id = database.execAndGet("PRAGMA application_id").getInt();
     const int tables = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt();
     if (tables == 0) return {};
-    if (id != application_id) {
-        return fail(ErrorCode::corrupt, "{}: is not a catalog of this software", path.native());
+    const bool ours = database
+                          .execAndGet(
+                              "SELECT count(*) = 3 FROM sqlite_schema WHERE type = 'table' "
+                              "AND name IN ('file', 'volume', 'part')")
+                          .getInt() != 0;
+    if (!ours && id != application_id) {
+        return fail(ErrorCode::unsupported, "{}: is not a catalog of this software", path.native());
     }
-    if (version > schema_version) {
+    if (id == application_id && version > schema_version) {
         return fail(ErrorCode::unsupported,
                     "{}: was made by a later version of this software (schema {}, known up to {})",
                     path.native(), version, schema_version);
+    }
+    if (!ours || id != application_id || version != schema_version) {
+        return fail(ErrorCode::corrupt, "{}: tables are missing or their numbers are wrong",
+                    path.native());
     }
     return {};
 }
@@ -121,12 +114,32 @@ constexpr const char* entry_columns =
 constexpr const char* entry_join =
     "FROM volume v JOIN part p ON p.volume_id = v.id JOIN file f ON f.id = p.file_id ";
 
+// A reader that may not write cannot make the WAL's index. While a writer has the database open the
+// index exists; when there is no WAL nobody writes, and the file alone is the truth.
+template <class Open>
+auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
+    const bool has_wal = fs::exists(fs::path{path.native() + "-wal"});
+    for (const char* query : {"?mode=ro", "?mode=ro&immutable=1"}) {
+        try {
+            return open(uri_of(path, query));
+        } catch (const SQLite::Exception& error) {
+            const bool last = std::string_view{query}.find("immutable") != std::string_view::npos;
+            if (last || has_wal || code_of(error) == ErrorCode::corrupt) {
+                return open_failure(path, error);
+            }
+        }
+    }
+    return fail(ErrorCode::internal, "{}: could not be opened", path.native());
+}
+
 }  // namespace
 
 ErrorCode code_of(const SQLite::Exception& error) {
     switch (error.getErrorCode()) {
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
+        case SQLITE_CONSTRAINT:
+        case SQLITE_ERROR:
             return ErrorCode::corrupt;
         case SQLITE_FULL:
             return ErrorCode::no_space;
@@ -149,8 +162,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         SQLite::Database& database = opened->database_;
         if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
         enter_wal(database);
-        // A power cut may then lose the last rows, never the database; the files are still there.
-        database.exec("PRAGMA synchronous = NORMAL");
+        database.exec("PRAGMA synchronous = FULL");
         database.exec("PRAGMA foreign_keys = ON");
         migrate(database);
         return opened;
@@ -161,23 +173,24 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
 
 Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(
     const fs::path& path, const std::string& station) {
-    // A reader that may not write cannot make the WAL's index. While a writer has the database open
-    // the index exists; when there is no WAL nobody writes, and the file alone is the truth.
-    const bool has_wal = fs::exists(fs::path{path.native() + "-wal"});
-    for (const char* query : {"?mode=ro", "?mode=ro&immutable=1"}) {
-        try {
-            std::unique_ptr<StationDatabase> opened(
-                new StationDatabase(uri_of(path, query), SQLite::OPEN_READONLY, station));
-            if (Status ours = check_identity(opened->database_, path); !ours) return pass_on(ours);
-            return opened;
-        } catch (const SQLite::Exception& error) {
-            const bool last = std::string_view{query}.find("immutable") != std::string_view::npos;
-            if (last || has_wal || code_of(error) == ErrorCode::corrupt) {
-                return open_failure(path, error);
-            }
-        }
-    }
-    return fail(ErrorCode::internal, "{}: could not be opened", path.native());
+    using Opened = Result<std::unique_ptr<StationDatabase>>;
+    return try_to_read(path, [&](const std::string& uri) -> Opened {
+        std::unique_ptr<StationDatabase> opened(
+            new StationDatabase(uri, SQLite::OPEN_READONLY, station));
+        if (Status ours = check_identity(opened->database_, path); !ours) return pass_on(ours);
+        opened->is_snapshot_ = uri.ends_with("immutable=1");
+        return opened;
+    });
+}
+
+Result<std::unique_ptr<SQLite::Database>> StationDatabase::open_connection(const fs::path& path) {
+    using Opened = Result<std::unique_ptr<SQLite::Database>>;
+    return try_to_read(path, [&](const std::string& uri) -> Opened {
+        auto opened = std::make_unique<SQLite::Database>(
+            uri, SQLite::OPEN_READONLY | SQLite::OPEN_URI, busy_timeout_ms);
+        (void)opened->execAndGet("PRAGMA user_version");  // reads the first page
+        return opened;
+    });
 }
 
 std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
@@ -201,13 +214,15 @@ std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t c
     next.bind(1, start);
     next.bind(2, facts.volume_number.value_or(-1));
     next.executeStep();
-    const int generation = next.getColumn(0).getInt();
+    return insert_volume(facts, next.getColumn(0).getInt());
+}
 
+std::int64_t StationDatabase::insert_volume(const VolumeFacts& facts, int generation) {
     SQLite::Statement insert(
         database_,
         "INSERT INTO volume (start_ms, end_ms, number, generation, vcp, sweep_count, "
         "radial_count, complete) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-    insert.bind(1, start);
+    insert.bind(1, *milliseconds(facts.start_time));
     bind_optional(insert, 2, milliseconds(facts.end_time));
     bind_optional(insert, 3, facts.volume_number);
     insert.bind(4, generation);
@@ -219,7 +234,16 @@ std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t c
     return database_.getLastInsertRowid();
 }
 
+// What was settled survives a power cut: the file may be gone when we look again. A sync takes
+// milliseconds, though, and a file that grows is registered with every chunk.
+void StationDatabase::set_durable(bool durable) {
+    if (durable == is_durable_) return;
+    database_.exec(durable ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+    is_durable_ = durable;
+}
+
 Registered StationDatabase::register_file(const FileFacts& facts) {
+    set_durable(facts.state != FileState::seen);
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
     SQLite::Statement known(database_,
                             "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
@@ -272,11 +296,59 @@ Registered StationDatabase::register_file(const FileFacts& facts) {
     return exists ? Registered::updated : Registered::added;
 }
 
-int StationDatabase::mark_gone(const fs::path& path) {
+std::int64_t StationDatabase::restore_volume(const SalvagedVolume& volume) {
+    SQLite::Statement known(database_,
+                            "SELECT id FROM volume WHERE start_ms = ? AND ifnull(number, -1) = ? "
+                            "AND generation = ?");
+    known.bind(1, *milliseconds(volume.facts.start_time));
+    known.bind(2, volume.facts.volume_number.value_or(-1));
+    known.bind(3, volume.generation);
+    if (known.executeStep()) return known.getColumn(0).getInt64();
+    return insert_volume(volume.facts, volume.generation);
+}
+
+void StationDatabase::restore_gone(const std::vector<SalvagedFile>& files) {
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const SalvagedFile& salvaged : files) {
+        const FileFacts& facts = salvaged.facts;
+        SQLite::Statement file(database_,
+                               "INSERT OR IGNORE INTO file (path, size_bytes, modified_ns, "
+                               "content_hash, state, reason, registered_ms) "
+                               "VALUES (?, ?, ?, ?, 'gone', ?, ?)");
+        bind_path(file, 1, facts.path);
+        file.bind(2, static_cast<std::int64_t>(facts.size_bytes));
+        file.bind(3, facts.modified_ns);
+        file.bind(4, static_cast<std::int64_t>(facts.content_hash));
+        file.bind(5, facts.reason);
+        file.bind(6, salvaged.registered_time.time_since_epoch().count());
+        if (file.exec() == 0) continue;  // one path, two rows: only damage makes that
+        const std::int64_t file_id = database_.getLastInsertRowid();
+        int ordinal = 0;
+        for (const SalvagedVolume& volume : salvaged.volumes) {
+            const std::int64_t volume_id = restore_volume(volume);
+            SQLite::Statement part(database_, "INSERT INTO part VALUES (?, ?, ?)");
+            part.bind(1, file_id);
+            part.bind(2, ordinal++);
+            part.bind(3, volume_id);
+            part.exec();
+        }
+    }
+    transaction.commit();
+}
+
+int StationDatabase::mark_gone(const std::vector<fs::path>& paths) {
+    set_durable(true);
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
     SQLite::Statement update(database_,
                              "UPDATE file SET state = 'gone' WHERE path = ? AND state <> 'gone'");
-    bind_path(update, 1, path);
-    return update.exec();
+    int marked = 0;
+    for (const fs::path& path : paths) {
+        bind_path(update, 1, path);
+        marked += update.exec();
+        update.reset();
+    }
+    transaction.commit();
+    return marked;
 }
 
 std::vector<fs::path> StationDatabase::paths_below(const fs::path& directory) {
@@ -295,6 +367,7 @@ void StationDatabase::forget(const fs::path& path) {
     bind_path(known, 1, path);
     if (!known.executeStep()) return;
     known.reset();
+    set_durable(true);
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
     SQLite::Statement remove(database_, "DELETE FROM file WHERE path = ?");
     bind_path(remove, 1, path);

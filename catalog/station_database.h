@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,12 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "catalog/catalog.h"
+#include "catalog/salvage.h"
 
 namespace stormcellar::catalog {
 
-// What an SQLite failure is to a caller.
+// What an SQLite failure is to a caller. Every statement of ours fits a sound database and breaks
+// no constraint of it, so one that does not was met in a damaged one.
 [[nodiscard]] ErrorCode code_of(const SQLite::Exception& error);
 
 class StationDatabase {
@@ -27,8 +30,20 @@ class StationDatabase {
     static Result<std::unique_ptr<StationDatabase>> open_for_reading(
         const std::filesystem::path& path, const std::string& station);
 
+    // For looking alone, of whatever stands there: nothing is asked of it yet, so most of what is
+    // wrong with it comes out later.
+    static Result<std::unique_ptr<SQLite::Database>> open_connection(
+        const std::filesystem::path& path);
+
+    // Opened as a file that nobody writes: what is written later is not seen by this object.
+    [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
+
     Registered register_file(const FileFacts& facts);
-    int mark_gone(const std::filesystem::path& path);
+    // Rows of files that are gone, verbatim but for their state; in one transaction. For a new
+    // database.
+    void restore_gone(const std::vector<SalvagedFile>& files);
+    // In one transaction; gives how many rows were marked.
+    int mark_gone(const std::vector<std::filesystem::path>& paths);
     // Of the rows that are not gone.
     std::vector<std::filesystem::path> paths_below(const std::filesystem::path& directory);
     void forget(const std::filesystem::path& path);
@@ -43,12 +58,17 @@ class StationDatabase {
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
 
+    void set_durable(bool durable);
+    std::int64_t restore_volume(const SalvagedVolume& volume);
+    std::int64_t insert_volume(const VolumeFacts& facts, int generation);
     std::int64_t store_volume(std::int64_t file_id, std::uint64_t content_hash,
                               const VolumeFacts& facts);
     std::vector<CatalogEntry> entries(SQLite::Statement& rows) const;
 
     SQLite::Database database_;
     std::string station_;
+    bool is_snapshot_ = false;
+    bool is_durable_ = true;  // of the next transaction, where it may write
 };
 
 }  // namespace stormcellar::catalog

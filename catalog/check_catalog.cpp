@@ -1,0 +1,109 @@
+#include "catalog/check_catalog.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sys/stat.h>
+
+#include "base/station_table.h"
+#include "catalog/catalog.h"
+#include "catalog/repair.h"
+#include "catalog/station_database.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view unknown_station = "_unknown";
+
+bool is_settled(const std::string& state) {
+    return state == "complete" || state == "partial" || state == "rejected";
+}
+
+void compare_row(SQLite::Statement& row, StationCheck& check) {
+    ++check.files;
+    const fs::path path = row.getColumn(0).getString();
+    const std::string state = row.getColumn(3).getString();
+    if (state == file_state_name(FileState::gone)) return;
+    struct stat facts {};
+    if (::lstat(path.c_str(), &facts) != 0) {
+        check.missing.push_back(path);
+        return;
+    }
+    const std::int64_t modified_ns =
+        std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + std::int64_t{facts.st_mtim.tv_nsec};
+    const std::int64_t known_ns = row.getColumn(2).getInt64();
+    const bool same = row.getColumn(1).getInt64() == std::int64_t{facts.st_size} &&
+                      (known_ns == modified_ns || known_ns == never_read_ns);
+    if (is_settled(state) && !same) check.changed.push_back(path);
+}
+
+Result<StationCheck> check_station(const fs::path& database) {
+    StationCheck check;
+    check.database = database;
+    const std::string stem = database.stem().native();
+    if (stem != unknown_station) check.station = stem;
+    auto examined = examine_database(database);
+    if (!examined) return pass_on(examined);
+    check.damage = std::move(examined->damage);
+    if (!check.damage.empty()) return check;
+    auto opened = StationDatabase::open_connection(database);
+    if (!opened) return pass_on(opened);
+    try {
+        const bool is_filled =
+            (*opened)->execAndGet("SELECT count(*) FROM sqlite_schema").getInt() > 0;
+        if (!is_filled) return check;  // made this moment
+        SQLite::Statement rows(
+            **opened, "SELECT path, size_bytes, modified_ns, state FROM file ORDER BY path");
+        while (rows.executeStep())
+            compare_row(rows, check);
+    } catch (const SQLite::Exception& error) {
+        return fail(code_of(error), "{}: {}", database.native(), error.what());
+    }
+    return check;
+}
+
+}  // namespace
+
+bool CatalogCheck::is_sound() const {
+    return std::all_of(stations.begin(), stations.end(), [](const StationCheck& check) {
+        return check.damage.empty() && check.missing.empty() && check.changed.empty();
+    });
+}
+
+Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view station) {
+    std::error_code error;
+    std::vector<fs::path> databases;
+    CatalogCheck found;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::path& path = entry->path();
+        const std::string stem = path.stem().native();
+        const bool is_database = path.extension() == ".sqlite" &&
+                                 (is_icao(stem) || stem == unknown_station) &&
+                                 (station.empty() || station == stem);
+        if (is_database) databases.push_back(path);
+        const std::string name = path.filename().native();
+        const bool is_aside = name.find(".sqlite.damaged-") != std::string::npos &&
+                              !name.ends_with("-wal") && !name.ends_with("-shm") &&
+                              (station.empty() || name.starts_with(station));
+        if (is_aside) found.set_aside.push_back(path);
+    }
+    if (error) return fail(ErrorCode::not_found, "{}: {}", directory.native(), error.message());
+    if (databases.empty() && !station.empty()) {
+        return fail(ErrorCode::not_found, "{}: the catalog knows no station {}", directory.native(),
+                    station);
+    }
+    std::sort(databases.begin(), databases.end());
+    std::sort(found.set_aside.begin(), found.set_aside.end());
+    for (const fs::path& database : databases) {
+        auto check = check_station(database);
+        if (!check) return pass_on(check);
+        found.stations.push_back(std::move(*check));
+    }
+    return found;
+}
+
+}  // namespace stormcellar::catalog

@@ -1,0 +1,194 @@
+#include "catalog/repair.h"
+
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include "base/file_system.h"
+#include "catalog/salvage.h"
+#include "catalog/schema.h"
+#include "catalog/station_database.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_lines = 20;
+
+std::set<std::string> schema_of(SQLite::Database& database) {
+    std::set<std::string> all;
+    SQLite::Statement rows(database,
+                           "SELECT type || ' ' || name || ' ' || ifnull(sql, '') FROM "
+                           "sqlite_schema WHERE name NOT LIKE 'sqlite_stat%'");
+    while (rows.executeStep())
+        all.insert(rows.getColumn(0).getString());
+    return all;
+}
+
+std::set<std::string> schema_wanted() {
+    SQLite::Database memory(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    memory.exec(create_version_1);
+    return schema_of(memory);
+}
+
+// What SQLite itself says of pages, indices and constraints.
+void check_integrity(SQLite::Database& database, std::vector<std::string>& damage) {
+    SQLite::Statement rows(database, fmt::format("PRAGMA integrity_check({})", most_lines));
+    while (rows.executeStep()) {
+        std::string line = rows.getColumn(0).getString();
+        if (line != "ok") damage.push_back(std::move(line));
+    }
+}
+
+void check_references(SQLite::Database& database, std::vector<std::string>& damage) {
+    const auto complain = [&](const char* query, std::string_view what) {
+        const int count = database.execAndGet(query).getInt();
+        if (count > 0) damage.push_back(fmt::format("{} {}", count, what));
+    };
+    complain("SELECT count(*) FROM pragma_foreign_key_check",
+             "rows refer to rows that are missing");
+    complain("SELECT count(*) FROM volume WHERE id NOT IN (SELECT volume_id FROM part)",
+             "volumes are in no file");
+}
+
+Examination examine(SQLite::Database& database) {
+    Examination found;
+    const int version = database.execAndGet("PRAGMA user_version").getInt();
+    const int id = database.execAndGet("PRAGMA application_id").getInt();
+    const std::set<std::string> schema = schema_of(database);
+    if (schema.empty()) return found;  // made, and not filled yet
+    const bool ours = schema == schema_wanted();
+    if (!ours && (id != application_id || version > schema_version)) {
+        found.foreign = true;
+        found.damage.push_back(id == application_id ? "is of a later version of this software"
+                                                    : "is not a catalog of this software");
+        return found;
+    }
+    if (!ours) found.damage.emplace_back("tables or indices are missing or others than ours");
+    if (id != application_id || version != schema_version) {
+        found.damage.push_back(fmt::format("has the numbers {:#x} and {}, not {:#x} and {}", id,
+                                           version, application_id, schema_version));
+    }
+    check_integrity(database, found.damage);
+    if (found.damage.empty()) check_references(database, found.damage);
+    return found;
+}
+
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(fs::symlink_status(path, ignored));
+}
+
+// The first name that is free. Without the ending .sqlite it is no database of the catalog.
+fs::path name_aside(const fs::path& path) {
+    const std::string stem = path.native() + ".damaged-" + format_compact(now_utc());
+    fs::path name = stem;
+    for (int number = 2; is_there(name); ++number)
+        name = fmt::format("{}-{}", stem, number);
+    return name;
+}
+
+// The new database until it takes its place. It is whole once the damaged one is not there.
+fs::path mending_of(const fs::path& path) {
+    return path.native() + ".mending";
+}
+
+}  // namespace
+
+Result<Examination> examine_database(const fs::path& path) {
+    auto opened = StationDatabase::open_connection(path);
+    if (!opened) {
+        if (opened.error().code != ErrorCode::corrupt) return pass_on(opened);
+        return Examination{{opened.error().message}, false};
+    }
+    try {
+        return examine(**opened);
+    } catch (const SQLite::Exception& error) {
+        if (code_of(error) != ErrorCode::corrupt) {
+            return fail(code_of(error), "{}: {}", path.native(), error.what());
+        }
+        return Examination{{error.what()}, false};
+    }
+}
+
+namespace {
+
+// A database with the rows of files that are gone, under the name of mending_of().
+Status make_new(const fs::path& path, const Salvage& salvaged, Repair& repair) {
+    const fs::path mending = mending_of(path);
+    for (const char* ending : {"", "-wal", "-shm"}) {  // of a repair that was cut short
+        const fs::path left = mending.native() + ending;
+        if (!is_there(left)) continue;
+        if (Status removed = real_file_system().remove(left); !removed) return removed;
+    }
+    std::vector<SalvagedFile> gone;
+    for (const SalvagedFile& file : salvaged.files) {
+        if (is_there(file.facts.path)) {
+            ++repair.to_read_again;
+        } else {
+            gone.push_back(file);
+        }
+    }
+    auto fresh = StationDatabase::open_for_writing(mending, repair.station);
+    if (!fresh) return pass_on(fresh);
+    try {
+        (*fresh)->restore_gone(gone);
+    } catch (const SQLite::Exception& error) {
+        return fail(code_of(error), "{}: {}", mending.native(), error.what());
+    }
+    repair.kept_gone = static_cast<std::int64_t>(gone.size());
+    repair.lost = salvaged.unread_files;
+    return {};
+}
+
+}  // namespace
+
+Status adopt_mended_database(const fs::path& path) {
+    const fs::path mending = mending_of(path);
+    if (is_there(path) || !is_there(mending)) return {};
+    // The damaged one's WAL must not be taken for the new one's.
+    FileSystem& disk = real_file_system();
+    const fs::path aside = name_aside(path);
+    for (const char* ending : {"-wal", "-shm"}) {
+        const fs::path left = path.native() + ending;
+        if (!is_there(left)) continue;
+        if (Status moved = disk.rename(left, aside.native() + ending); !moved) return moved;
+    }
+    if (Status moved = disk.rename(mending, path); !moved) return moved;
+    return disk.sync_directory(path.parent_path());
+}
+
+// At any instant the damaged database or the whole new one can be had: the new one is made first.
+Result<Repair> repair_database(const fs::path& path, const std::string& station,
+                               const std::string& damage) {
+    Repair repair;
+    repair.station = station;
+    repair.database = path;
+    repair.damage = damage;
+    if (Status made = make_new(path, salvage(path), repair); !made) return pass_on(made);
+    repair.set_aside = name_aside(path);
+    FileSystem& disk = real_file_system();
+    if (Status synced = disk.sync_directory(path.parent_path()); !synced) return pass_on(synced);
+    if (Status moved = disk.rename(path, repair.set_aside); !moved) return pass_on(moved);
+    if (Status adopted = adopt_mended_database(path); !adopted) return pass_on(adopted);
+    return repair;
+}
+
+std::string describe(const Repair& repair) {
+    if (repair.set_aside.empty()) {
+        return fmt::format("{}: {}; it is made again from the files", repair.database.native(),
+                           repair.damage);
+    }
+    return fmt::format(
+        "{}: damaged ({}), set aside as {}; {} rows of files that are gone were kept, {} are made "
+        "again from their files, {} could not be read",
+        repair.database.native(), repair.damage, repair.set_aside.filename().native(),
+        repair.kept_gone, repair.to_read_again,
+        repair.lost == 0 ? std::string{"none"} : fmt::format("at most {}", repair.lost));
+}
+
+}  // namespace stormcellar::catalog

@@ -1,0 +1,92 @@
+#include "catalog/check_catalog.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "catalog/catalog.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CheckCatalog : public ::testing::Test {
+  protected:
+    // A file on disk and its row, as the daemon leaves them.
+    fs::path put(const std::string& name, const std::string& station = "KTLX") {
+        fs::path path = directory_ / name;
+        std::ofstream(path) << "contents";
+        struct stat facts {};
+        EXPECT_EQ(::stat(path.c_str(), &facts), 0);
+        FileFacts file;
+        file.path = path;
+        file.station = station;
+        file.size_bytes = static_cast<std::uint64_t>(facts.st_size);
+        file.modified_ns =
+            std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec;
+        file.state = FileState::complete;
+        auto catalog = *Catalog::open_for_writing(catalog_);
+        EXPECT_TRUE(catalog.register_file(file));
+        return path;
+    }
+    testing::TemporaryDirectory directory_;
+    fs::path catalog_ = directory_ / "catalog";
+};
+
+TEST_F(CheckCatalog, ASoundCatalogThatAgreesWithTheFilesIsSound) {
+    put("a");
+    put("b", "");
+    const auto check = check_catalog(catalog_, "");
+    ASSERT_TRUE(check) << check.error().message;
+    ASSERT_EQ(check->stations.size(), 2U);
+    EXPECT_EQ(check->stations[0].station, "KTLX");
+    EXPECT_EQ(check->stations[0].files, 1);
+    EXPECT_TRUE(check->is_sound());
+    EXPECT_EQ(check_catalog(catalog_, "KTLX")->stations.size(), 1U);
+}
+
+TEST_F(CheckCatalog, FilesThatWentOrChangedAreNamedAndGoneOnesAreNot) {
+    const fs::path went = put("went"), changed = put("changed"), gone = put("gone");
+    fs::remove(went);
+    fs::remove(gone);
+    std::ofstream(changed) << "other contents";
+    {
+        auto catalog = *Catalog::open_for_writing(catalog_);
+        ASSERT_TRUE(catalog.mark_gone(gone));
+    }
+    const auto check = check_catalog(catalog_, "KTLX");
+    ASSERT_TRUE(check);
+    EXPECT_FALSE(check->is_sound());
+    EXPECT_EQ(check->stations[0].missing, std::vector<fs::path>{went});
+    EXPECT_EQ(check->stations[0].changed, std::vector<fs::path>{changed});
+}
+
+TEST_F(CheckCatalog, DamageIsNamedAndNothingIsWritten) {
+    put("a");
+    fs::resize_file(catalog_ / "KTLX.sqlite", 6000);
+    const auto check = check_catalog(catalog_, "");
+    ASSERT_TRUE(check) << check.error().message;
+    ASSERT_EQ(check->stations.size(), 1U);
+    EXPECT_FALSE(check->stations[0].damage.empty());
+    EXPECT_TRUE(check->set_aside.empty());
+    EXPECT_EQ(fs::file_size(catalog_ / "KTLX.sqlite"), 6000U);
+
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    ASSERT_TRUE(catalog.examine(""));
+    const auto mended = check_catalog(catalog_, "");
+    ASSERT_TRUE(mended);
+    EXPECT_TRUE(mended->stations[0].damage.empty());
+    EXPECT_EQ(mended->set_aside.size(), 1U);
+}
+
+TEST_F(CheckCatalog, UnknownStationsAndDirectoriesAreNotFound) {
+    put("a");
+    EXPECT_EQ(check_catalog(catalog_, "KOKX").error().code, ErrorCode::not_found);
+    EXPECT_EQ(check_catalog(directory_ / "none", "").error().code, ErrorCode::not_found);
+}
+
+}  // namespace
+}  // namespace stormcellar::catalog
