@@ -1,0 +1,57 @@
+// accuracy/plot_layout.h -- where everything of an accuracy plot stands.
+//
+// Layout and drawing are apart, so that tests can see that nothing overlaps. Pixels, y downwards.
+// Errors of 0, which have no place on a logarithmic axis, stand in a row of their own below it; so
+// do errors more than four decades below the greatest, which are rounding and would squeeze the
+// rest. Thread contract: pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/plot.h"
+
+namespace stormcellar::accuracy {
+
+struct PlotBox {
+    double left = 0, top = 0, right = 0, bottom = 0;
+    [[nodiscard]] double overlap(const PlotBox& other) const;  // area
+};
+
+struct PlotTick {
+    double position = 0;  // x or y
+    std::string text;
+};
+
+struct PlotMarker {
+    double x = 0, y = 0;
+    std::size_t series = 0;
+    bool pareto = false;
+};
+
+struct PlotLabel {
+    PlotBox box;  // the text lies inside, at the side towards its marker
+    enum class Side { left, middle, right } side = Side::middle;
+    std::string text;
+    std::size_t marker = 0;  // that it belongs to
+    bool leader = false;     // stands apart from it: a line leads there
+};
+
+struct PlotLayout {
+    PlotBox frame;
+    std::vector<std::string> series;  // in the order of first appearance
+    std::vector<PlotTick> time_ticks, error_ticks;
+    std::optional<double> zero_y;     // the row of exact points, when there are any
+    double zero_below = 0;            // that row holds errors below this too
+    std::vector<PlotMarker> markers;  // one for each point, in their order
+    std::vector<PlotLabel> labels;    // likewise
+};
+
+inline constexpr double marker_radius = 5;
+inline constexpr double label_size = 12;
+
+// Errors: as draw_plot().
+[[nodiscard]] Result<PlotLayout> lay_out_plot(const Plot& plot);
+
+}  // namespace stormcellar::accuracy

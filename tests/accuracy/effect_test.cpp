@@ -1,0 +1,83 @@
+#include "accuracy/effect.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace stormcellar::accuracy {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::vector<std::string> names = {"refraction", "ellipsoid", "beam_width", "cell_size"};
+
+std::string error_of(const std::string& text) {
+    const auto parsed = parse_override(text, names);
+    if (parsed) return "no error";
+    EXPECT_EQ(parsed.error().code, ErrorCode::bad_argument);
+    return parsed.error().message;
+}
+
+TEST(Effect, OverridesNameAnEffectAndASetting) {
+    const auto on = parse_override("refraction=on", names);
+    ASSERT_TRUE(on);
+    EXPECT_EQ(on->name, "refraction");
+    EXPECT_EQ(on->setting, Setting::on);
+    EXPECT_EQ(parse_override("beam_width=off", names)->setting, Setting::off);
+    EXPECT_EQ(parse_override("cell_size=auto", names)->setting, Setting::automatic);
+}
+
+TEST(Effect, AMisspeltNameIsAnsweredWithTheNearest) {
+    EXPECT_THAT(error_of("refracton=on"), HasSubstr("did you mean \"refraction\"?"));
+    EXPECT_THAT(error_of("elipsiod=off"), HasSubstr("did you mean \"ellipsoid\"?"));
+    EXPECT_THAT(error_of("beam-width=on"), HasSubstr("did you mean \"beam_width\"?"));
+    EXPECT_THAT(error_of("Cell_Size=on"), HasSubstr("did you mean \"cell_size\"?"));
+}
+
+TEST(Effect, WhatIsNoMisspellingIsAnsweredWithTheList) {
+    EXPECT_THAT(error_of("wind=on"), HasSubstr("there are refraction, ellipsoid, beam_width"));
+    EXPECT_THAT(error_of("wind=on"), Not(HasSubstr("did you mean")));
+    EXPECT_THAT(error_of(std::string(1000000, 'x') + "=on"), HasSubstr("there are refraction"));
+    EXPECT_LT(error_of(std::string(1000000, 'x') + "=on").size(), 400U);
+    EXPECT_THAT(parse_override("a=on", {}).error().message, HasSubstr("there are none"));
+}
+
+TEST(Effect, OtherFormsAreRefused) {
+    for (const char* text : {"", "refraction", "=on", "="}) {
+        EXPECT_THAT(error_of(text), HasSubstr("NAME=on|off|auto")) << text;
+    }
+    for (const char* text : {"refraction=", "refraction=yes", "refraction=on ", "refraction=ON",
+                             "refraction=on=off"}) {
+        EXPECT_THAT(error_of(text), HasSubstr("can be on, off or auto")) << text;
+    }
+    EXPECT_THAT(error_of("refraction=\x1b[2J"), HasSubstr("\\x1b"));
+}
+
+TEST(Effect, NamesAreSnakeCase) {
+    for (const char* name : {"a", "refraction", "beam_width", "cut2_time"}) {
+        EXPECT_TRUE(is_effect_name(name)) << name;
+    }
+    for (const char* name :
+         {"", "A", "beam width", "_a", "a_", "a__b", "2a", "beam-width", "\xc3\xa9"}) {
+        EXPECT_FALSE(is_effect_name(name)) << name;
+    }
+    EXPECT_TRUE(is_effect_name(std::string(40, 'a')));
+    EXPECT_FALSE(is_effect_name(std::string(41, 'a')));
+}
+
+TEST(Effect, EditDistanceOfKnownPairs) {
+    EXPECT_EQ(edit_distance("", ""), 0U);
+    EXPECT_EQ(edit_distance("", "abc"), 3U);
+    EXPECT_EQ(edit_distance("abc", ""), 3U);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+    EXPECT_EQ(edit_distance("ab", "ba"), 1U);
+    EXPECT_EQ(edit_distance("ca", "abc"), 3U);  // optimal string alignment edits no part twice
+    EXPECT_EQ(edit_distance("flaw", "lawn"), 2U);
+    EXPECT_EQ(edit_distance("sunday", "saturday"), 3U);
+}
+
+}  // namespace
+}  // namespace stormcellar::accuracy
