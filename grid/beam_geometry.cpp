@@ -53,7 +53,7 @@ BeamGeometry::BeamPoint BeamGeometry::over(double arc_m, double elevation_deg) c
     const double elevation = elevation_deg * radians_per_degree;
     const double angle = arc_m / radius_m_;
     const double cosine = std::cos(elevation + angle);
-    if (!(cosine > 0)) {
+    if (!std::isgreater(cosine, 0.0)) {
         constexpr double nan = std::numeric_limits<double>::quiet_NaN();
         return {nan, nan};
     }

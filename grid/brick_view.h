@@ -50,8 +50,8 @@ struct BrickEntry {
     std::uint16_t min_code = 0;     // of the cells with a value
     std::uint16_t max_code = 0;
     std::uint32_t status_index = 0;  // status_only: which 1,024-byte block
-    std::uint32_t reserved = 0;
-    std::uint64_t checksum = 0;  // XXH3 of the brick's codes or of its states
+    std::uint32_t packed_bytes = 0;  // stored, in a file whose codes are packed: what they take
+    std::uint64_t checksum = 0;      // XXH3 of the brick's codes or of its states
 };
 static_assert(sizeof(BrickEntry) == 24);
 

@@ -1,6 +1,7 @@
 #include "grid/column.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace stormcellar::grid {
 namespace {
@@ -19,96 +20,130 @@ CellResult beside_a_gap(const BeamSample& below, const BeamSample& above, float 
     return {};
 }
 
-float value_in(const Sample& sample, Blending blending, float weight, float& total_weight) {
-    if (sample.status == CellStatus::value) {
-        total_weight += weight;
-        return weight * sample.value;
+// Fills levels from the lowest up; what is not seen stays as it is.
+template <bool nearest, bool circular>
+class Filler {
+  public:
+    Filler(const LevelTable& levels, Blending blending, std::span<CellStatus> status,
+           std::span<float> values)
+        : levels_(levels), blending_(blending), status_(status), values_(values) {}
+
+    void below(const BeamSample& lowest) {
+        // Close to the antenna rounding may have the edge above the beam.
+        level_ = levels_.first_from(std::min(lowest.lower_edge_m, lowest.height_m));
+        fill_to(levels_.first_from(lowest.height_m), lowest.sample);
     }
-    if (sample.status == CellStatus::no_echo && blending == Blending::with_detection_limit) {
-        total_weight += weight;
-        return weight * sample.limit_dbz;
+
+    // Those below `high`; the others below `low` are done, or are of the run that `low` belongs to.
+    void between(const BeamSample& low, const BeamSample& high) {
+        const bool same_state = low.sample.status == high.sample.status;
+        if (same_state && low.adjacent_to_next && low.sample.status != CellStatus::value) {
+            in_run_ = true;
+            return;
+        }
+        end_run(low);
+        const std::size_t end = levels_.first_from(high.height_m);
+        if (end <= level_) return;
+        if (!low.adjacent_to_next) {
+            for (; level_ < end; ++level_)
+                put(beside_a_gap(low, high, levels_[level_]));
+        } else if (!same_state || circular) {
+            blend_between(low, high, end);
+        } else {
+            values_between(low, high, end);
+        }
     }
-    return 0;
-}
+
+    void above(const BeamSample& highest) {
+        end_run(highest);
+        std::size_t end = level_;
+        while (end < levels_.size() && levels_[end] <= highest.upper_edge_m)
+            ++end;
+        fill_to(end, highest.sample);
+    }
+
+  private:
+    void put(CellResult cell) {
+        status_[level_] = cell.status;
+        if (cell.status == CellStatus::value) values_[level_] = cell.value;
+    }
+    void fill_to(std::size_t end, const Sample& sample) {
+        if (end <= level_) return;
+        if (sample.status != CellStatus::not_seen)
+            std::memset(status_.data() + level_, static_cast<int>(sample.status), end - level_);
+        if (sample.status == CellStatus::value)
+            std::fill(values_.data() + level_, values_.data() + end, sample.value);
+        level_ = end;
+    }
+    // Between beams of one state there is that state alone; where it ends is looked up once.
+    void end_run(const BeamSample& last) {
+        if (in_run_) fill_to(levels_.first_from(last.height_m), last.sample);
+        in_run_ = false;
+    }
+
+    // The share of `high`; low.height_m <= level < high.height_m.
+    [[nodiscard]] float share(const BeamSample& low, float inverse_m) const {
+        const float linear = (levels_[level_] - low.height_m) * inverse_m;
+        if (!nearest) return linear;
+        return linear > 0.5F ? 1 : 0;
+    }
+
+    void blend_between(const BeamSample& low, const BeamSample& high, std::size_t end) {
+        const float inverse_m = 1 / (high.height_m - low.height_m);
+        for (; level_ < end; ++level_)
+            put(blend_as<circular>(low.sample, high.sample, share(low, inverse_m), blending_));
+    }
+
+    void values_between(const BeamSample& low, const BeamSample& high, std::size_t end) {
+        const float inverse_m = 1 / (high.height_m - low.height_m);
+        const float first = low.sample.value;
+        const float second = high.sample.value;
+        for (; level_ < end; ++level_) {
+            const float weight = share(low, inverse_m);
+            status_[level_] = CellStatus::value;
+            values_[level_] = (1 - weight) * first + weight * second;
+        }
+    }
+
+    const LevelTable& levels_;
+    Blending blending_;
+    std::span<CellStatus> status_;
+    std::span<float> values_;
+    std::size_t level_ = 0;
+    bool in_run_ = false;
+};
 
 }  // namespace
 
-Blending blending_of(level2::Moment moment) {
-    switch (moment) {
-        case level2::Moment::ref:
-            return Blending::with_detection_limit;
-        case level2::Moment::vel:
-        case level2::Moment::phi:
-            return Blending::nearest;
-        default:
-            return Blending::values_only;
-    }
+template <bool nearest, bool circular>
+void fill_column_as(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
+                    std::span<CellStatus> status, std::span<float> values) {
+    Filler<nearest, circular> filler(levels, blending, status, values);
+    filler.below(beams.front());
+    for (std::size_t above = 1; above < beams.size(); ++above)
+        filler.between(beams[above - 1], beams[above]);
+    filler.above(beams.back());
 }
 
-CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending) {
-    const float weight_a = 1 - weight_b;
-    if (a.status == b.status && a.status != CellStatus::value) return {a.status, 0};
+template void fill_column_as<false, false>(std::span<const BeamSample>, const LevelTable&, Blending,
+                                           std::span<CellStatus>, std::span<float>);
+template void fill_column_as<false, true>(std::span<const BeamSample>, const LevelTable&, Blending,
+                                          std::span<CellStatus>, std::span<float>);
+template void fill_column_as<true, false>(std::span<const BeamSample>, const LevelTable&, Blending,
+                                          std::span<CellStatus>, std::span<float>);
+template void fill_column_as<true, true>(std::span<const BeamSample>, const LevelTable&, Blending,
+                                         std::span<CellStatus>, std::span<float>);
 
-    const auto weight_of = [&](CellStatus status) {
-        return (a.status == status ? weight_a : 0) + (b.status == status ? weight_b : 0);
-    };
-    const float v = weight_of(CellStatus::value);
-    const float n = weight_of(CellStatus::no_echo);
-    const float f = weight_of(CellStatus::range_folded);
-    if (weight_of(CellStatus::not_seen) > 0.5F) return {CellStatus::not_seen, 0};
-    if (f > v && f > n) return {CellStatus::range_folded, 0};
-    if (v < n) return {CellStatus::no_echo, 0};
-
-    if (blending == Blending::nearest) {
-        const bool take_b =
-            b.status == CellStatus::value && (a.status != CellStatus::value || weight_b > weight_a);
-        return alone(take_b ? b : a);
+void fill_column(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
+                 ChosenInterpolation interpolation, std::span<CellStatus> status,
+                 std::span<float> values) {
+    const bool circular = is_circular(blending);
+    if (interpolation == Interpolation::nearest) {
+        const auto fill = circular ? fill_column_as<true, true> : fill_column_as<true, false>;
+        return fill(beams, levels, blending, status, values);
     }
-    float total_weight = 0;
-    const float sum = value_in(a, blending, weight_a, total_weight) +
-                      value_in(b, blending, weight_b, total_weight);
-    return {CellStatus::value, sum / total_weight};
-}
-
-// Levels are taken from the lowest up; each step fills those below the next beam, so that a stretch
-// between two beams that hold the same state is filled at once. Most of the sky is such.
-void fill_column(std::span<const BeamSample> beams, std::span<const float> levels_m,
-                 Blending blending, std::span<CellStatus> status, std::span<float> values) {
-    const auto put = [&](std::size_t level, CellResult cell) {
-        status[level] = cell.status;
-        if (cell.status == CellStatus::value) values[level] = cell.value;
-    };
-    std::size_t level = 0;
-    for (; level < levels_m.size() && levels_m[level] < beams.front().height_m; ++level) {
-        const bool within = levels_m[level] >= beams.front().lower_edge_m;
-        put(level, within ? alone(beams.front().sample) : CellResult{});
-    }
-    for (std::size_t above = 1; above < beams.size() && level < levels_m.size(); ++above) {
-        const BeamSample& low = beams[above - 1];
-        const BeamSample& high = beams[above];
-        std::size_t end = level;
-        while (end < levels_m.size() && levels_m[end] < high.height_m)
-            ++end;
-        const bool alike = low.sample.status == high.sample.status &&
-                           low.sample.status != CellStatus::value && low.adjacent_to_next;
-        if (alike) {
-            std::fill(status.begin() + static_cast<std::ptrdiff_t>(level),
-                      status.begin() + static_cast<std::ptrdiff_t>(end), low.sample.status);
-            level = end;
-            continue;
-        }
-        // The beams differ here: low.height_m <= levels_m[level] < high.height_m.
-        const float span_m = high.height_m - low.height_m;
-        for (; level < end; ++level) {
-            const float weight = (levels_m[level] - low.height_m) / span_m;
-            put(level, low.adjacent_to_next ? blend(low.sample, high.sample, weight, blending)
-                                            : beside_a_gap(low, high, levels_m[level]));
-        }
-    }
-    for (; level < levels_m.size(); ++level) {
-        const bool within = levels_m[level] <= beams.back().upper_edge_m;
-        put(level, within ? alone(beams.back().sample) : CellResult{});
-    }
+    const auto fill = circular ? fill_column_as<false, true> : fill_column_as<false, false>;
+    fill(beams, levels, blending, status, values);
 }
 
 }  // namespace stormcellar::grid

@@ -1,14 +1,18 @@
 // grid/column_geometry.h -- azimuth and arc from one site to every column of a grid spec.
 //
 // Made by make_column_geometry() (grid/gridder.h), immutable, shared between volumes and threads.
-// Accuracy: azimuth 2e-5 deg and arc 0.02 m within 500 km (floats of exact geodesics); enforced by
-// tests/grid/column_geometry_test.cpp.
+// Accuracy: arc 0.02 m within 500 km, azimuth 2e-5 deg and what 1e-3 m (`table`) or 1e-6 m
+// (`geodesic`) make of it close to the site: floats of exact geodesics, or of places so far from
+// them; enforced by tests/grid/column_geometry_test.cpp. In metres, and for `sphere`:
+// grid/frame_ladder.h.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "grid/frame_ladder.h"
 #include "grid/grid.h"
+#include "grid/tile.h"
 
 namespace stormcellar::grid {
 
@@ -21,24 +25,30 @@ struct ColumnPlace {
 class ColumnGeometry {
   public:
     // The spec must be valid and the site on the earth: make_column_geometry() checks.
-    ColumnGeometry(SitePosition site, GridSpec spec);
+    ColumnGeometry(SitePosition site, GridSpec spec, ChosenFrame kind);
 
     [[nodiscard]] const SitePosition& site() const { return site_; }
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
+    [[nodiscard]] FrameKind frame_kind() const { return kind_; }
     // The columns of a row, west to east.
     [[nodiscard]] std::span<const ColumnPlace> row(int iy) const {
         const auto width = static_cast<std::size_t>(spec_.nx);
         return std::span(places_).subspan(static_cast<std::size_t>(iy) * width, width);
     }
+    // Tiles of columns, row by row.
+    [[nodiscard]] std::span<const Tile> tiles() const { return tiles_; }
 
   private:
+    void fill_centered();
+    void fill_by_geodesics();
+    void fill_on_sphere();
+    void fill_from_table();
+
     SitePosition site_;
     GridSpec spec_;
+    ChosenFrame kind_;
     std::vector<ColumnPlace> places_;
+    std::vector<Tile> tiles_;
 };
-
-// Latitude and longitude of a column's centre.
-struct GeoPoint;
-[[nodiscard]] GeoPoint column_position(const GridSpec& spec, int ix, int iy);
 
 }  // namespace stormcellar::grid

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/floating_point.h"
+
 namespace stormcellar::grid {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr float weakest_calibration_dbz = -80;
 constexpr float strongest_calibration_dbz = 0;
 constexpr int largest_attenuation_thousandths = 100;
 constexpr float largest_snr_threshold_db = 20;
-
-bool believable(float value, float least, float largest) {
-    return value >= least && value <= largest;
-}
 
 }  // namespace
 
@@ -30,11 +28,11 @@ DetectionLimit detection_limit(const level2::Radial& radial, const level2::Sweep
     limit.at_1km_dbz = is_tdwr ? tdwr_limit_at_1km_dbz : wsr88d_limit_at_1km_dbz;
     const bool calibrated =
         radial.calibration_dbz &&
-        believable(*radial.calibration_dbz, weakest_calibration_dbz, strongest_calibration_dbz);
+        is_within(*radial.calibration_dbz, weakest_calibration_dbz, strongest_calibration_dbz);
     if (calibrated) {
         limit.at_1km_dbz = static_cast<double>(*radial.calibration_dbz);
-        if (believable(moment.snr_threshold_db, -largest_snr_threshold_db,
-                       largest_snr_threshold_db)) {
+        if (is_within(moment.snr_threshold_db, -largest_snr_threshold_db,
+                      largest_snr_threshold_db)) {
             limit.at_1km_dbz += static_cast<double>(moment.snr_threshold_db);
         }
     }

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/utc_time.h"
+#include "grid/audit_row.h"
+#include "grid/cell_details.h"
 #include "grid/grid_spec.h"
 #include "level2/volume.h"
 
@@ -21,6 +24,15 @@ enum class CellStatus : std::uint8_t {
 };
 [[nodiscard]] std::string_view cell_status_name(CellStatus status);
 
+// When and how fast the antenna turned for one sweep (grid/sweep_clock.h).
+struct SweepTime {
+    double elevation_deg = 0;
+    UtcTime start;                 // of its first radial
+    double first_azimuth_deg = 0;  // of that radial
+    double degrees_per_s = 0;      // clockwise; 0: not known, all is of `start`
+    bool operator==(const SweepTime&) const = default;
+};
+
 // Where a grid comes from and how it was made; written into every file and loop.
 struct Provenance {
     std::vector<std::string> source_files;  // names without directories
@@ -28,12 +40,20 @@ struct Provenance {
     std::string method;                     // e.g. "column-linear"
     std::string beam_model;                 // e.g. "4/3 earth"
     std::string averaging;                  // "dBZ" or "Z"
+    std::string effects;  // rungs chosen by a plan, as in "frame: sphere, beam: ..."; or empty
+    std::string predicted_error;  // by that plan; or empty
     std::string software_version;
     int vcp = 0;           // 0: unknown
     bool partial = false;  // the volume was not complete
     // Of the newest source file, since the epoch: tells a re-sent volume from an older file of it.
     std::int64_t source_modified_ns = 0;  // 0: unknown
     std::vector<std::string> notes;       // e.g. a position that disagrees with the table
+    // Of a frame between volumes: a later volume will change it; how often it was made. 0: no
+    // frame.
+    bool provisional = false;
+    int revision = 0;
+    std::vector<SweepTime> sweeps;  // that it is made of, rising; none: of several sites or undated
+    std::vector<AuditRow> audit;    // against the gates (grid/audit.h); empty: not audited
 };
 
 struct SitePosition {
@@ -49,10 +69,13 @@ struct Grid {
     UtcTime time;        // start of the volume: the grid's name in time
     UtcTime start_time;  // of the first radial used
     UtcTime end_time;    // of the last radial used
+    // The instant that the grid was asked for, where that is not the start of the volume.
+    std::optional<UtcTime> frame_time;
     std::vector<SitePosition> sites;
     Provenance provenance;
     std::vector<float> values;       // index by spec.index(); unspecified (0) where not a value
     std::vector<CellStatus> status;  // same shape
+    CellDetails details;             // of the same shape, where they were asked for
 };
 
 }  // namespace stormcellar::grid

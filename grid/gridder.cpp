@@ -4,105 +4,25 @@
 #include <cmath>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/floating_point.h"
+#include "base/memory.h"
 #include "base/station_table.h"
 #include "base/version.h"
-#include "grid/beam_geometry.h"
-#include "grid/column.h"
+#include "grid/beam_model.h"
+#include "grid/column_filler.h"
 #include "grid/column_geometry.h"
+#include "grid/detail_filler.h"
 #include "grid/polar_sweep.h"
 #include "grid/sweep_choice.h"
+#include "grid/sweep_clock.h"
+#include "grid/sweep_stack.h"
 
 namespace stormcellar::grid {
 namespace {
 
 constexpr double wsr88d_beam_width_deg = 0.95;
 constexpr double tdwr_beam_width_deg = 0.55;
-constexpr double widest_beam_deg = 5;
-constexpr double farthest_arc_m = 1e6;  // no radar sees farther; bounds the tables
-
-bool is_tdwr(std::string_view icao) {
-    const auto station = find_station(icao);
-    return station && station->kind == RadarKind::tdwr;
-}
-
-// Fills the rows of a grid; shared by the threads.
-class RowFiller {
-  public:
-    RowFiller(Grid& grid, const ColumnGeometry& geometry, std::vector<PolarSweep> sweeps,
-              const std::vector<ChosenSweep>& chosen, std::size_t table_size)
-        : grid_(grid),
-          geometry_(geometry),
-          sweeps_(std::move(sweeps)),
-          chosen_(chosen),
-          table_end_(static_cast<float>(table_size - 1)),
-          blending_(blending_of(grid.moment)) {
-        for (const double level_m : grid.spec.levels_m)
-            levels_m_.push_back(static_cast<float>(level_m));
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const bool lowest = i == 0 || !chosen[i - 1].adjacent_to_next;
-            const bool highest = i + 1 == chosen.size() || !chosen[i].adjacent_to_next;
-            edges_matter_.push_back(lowest || highest);
-        }
-    }
-
-    void run(int threads) {
-        for_each_piece(grid_.spec.ny, threads, [this](int iy) { fill_row(iy); });
-    }
-
-  private:
-    void fill_row(int iy) {
-        std::vector<BeamSample> beams(sweeps_.size());
-        std::size_t first_cell = grid_.spec.index(0, iy, 0);
-        for (const ColumnPlace& place : geometry_.row(iy)) {
-            fill_one(place, first_cell, beams);
-            first_cell += levels_m_.size();
-        }
-    }
-
-    void fill_one(const ColumnPlace& column, std::size_t first_cell,
-                  std::vector<BeamSample>& beams) {
-        const float along = column.arc_m / static_cast<float>(ArcTable::step_m);
-        if (!(along < table_end_)) return;  // beyond every gate: not seen, as the grid began
-        ArcPlace place;
-        place.index = static_cast<std::size_t>(along);
-        place.fraction = along - static_cast<float>(place.index);
-        const std::size_t count = sample_beams(column.azimuth_deg, place, beams);
-        fill_column(std::span(beams).first(count), levels_m_, blending_,
-                    std::span(grid_.status).subspan(first_cell, levels_m_.size()),
-                    std::span(grid_.values).subspan(first_cell, levels_m_.size()));
-    }
-
-    // Beams from the lowest up to the first above the top level, which is the last that matters.
-    std::size_t sample_beams(float azimuth_deg, ArcPlace place,
-                             std::vector<BeamSample>& beams) const {
-        std::size_t count = 0;
-        bool below_top = true;
-        while (count < sweeps_.size() && below_top) {
-            const PolarSweep& sweep = sweeps_[count];
-            BeamSample& beam = beams[count];
-            beam.sample = sweep.sample(azimuth_deg, place);
-            beam.height_m = sweep.beam_height_m(place);
-            beam.adjacent_to_next = chosen_[count].adjacent_to_next;
-            if (edges_matter_[count]) {
-                beam.lower_edge_m = sweep.lower_edge_m(place);
-                beam.upper_edge_m = sweep.upper_edge_m(place);
-            }
-            below_top = beam.height_m <= levels_m_.back();
-            ++count;
-        }
-        return count;
-    }
-
-    Grid& grid_;
-    const ColumnGeometry& geometry_;
-    const std::vector<PolarSweep> sweeps_;
-    const std::vector<ChosenSweep>& chosen_;
-    const float table_end_;
-    const Blending blending_;
-    std::vector<float> levels_m_;
-    std::vector<bool> edges_matter_;  // of each sweep: it has no neighbour above or below
-};
+constexpr double widest_beam_deg = 5.0;
 
 void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                     Grid& grid) {
@@ -120,18 +40,31 @@ void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>
     grid.end_time = last.value_or(grid.time);
 }
 
+// How many sweeps of an elevation were equally fit, and which of them was taken.
+std::string note_of_repeats(const ChosenSweep& sweep, std::optional<UtcTime> nearest_to) {
+    const std::string rule =
+        nearest_to ? fmt::format("the nearest to {}", format_utc(*nearest_to)) : "the newest";
+    const std::string time =
+        sweep.median_time ? fmt::format(", of {}", format_utc(*sweep.median_time)) : "";
+    return fmt::format("{} sweeps at {:.1f} degrees: {} was taken{}", sweep.repeats,
+                       sweep.fixed_angle_deg, rule, time);
+}
+
 void describe(const level2::Volume& volume, const SitePosition& site,
-              const std::vector<ChosenSweep>& chosen, Grid& grid) {
+              const std::vector<ChosenSweep>& chosen, const GridderOptions& options,
+              std::optional<UtcTime> nearest_to, Grid& grid) {
     describe_times(volume, chosen, grid);
+    grid.frame_time = options.frame_time;
     grid.sites = {site};
     Provenance& provenance = grid.provenance;
     provenance.stations = {site.icao};
-    provenance.method =
-        blending_of(grid.moment) == Blending::nearest ? "column-nearest" : "column-linear";
-    provenance.beam_model = "4/3 earth";
-    provenance.averaging = level2::moment_units(grid.moment);
+    provenance.method = options.method.name();
+    provenance.beam_model = beam_model_of(site, options.method.beam, options.profile).name();
+    provenance.averaging =
+        options.method.averaging == Averaging::in_z ? "Z" : level2::moment_units(grid.moment);
     provenance.software_version = software_version;
     provenance.vcp = volume.vcp.value_or(0);
+    provenance.sweeps = sweep_times(volume, chosen);
     for (const ChosenSweep& sweep : chosen) {
         const int cut = volume.sweeps[sweep.sweep_index].elevation_number;
         if (sweep.radials_off_elevation > 0) {
@@ -140,6 +73,7 @@ void describe(const level2::Volume& volume, const SitePosition& site,
                             "degrees by more than half a beam",
                             cut, sweep.radials_off_elevation, sweep.elevation_deg));
         }
+        if (sweep.repeats > 1) provenance.notes.push_back(note_of_repeats(sweep, nearest_to));
         if (!sweep.adjacent_to_next) {
             provenance.notes.push_back(fmt::format(
                 "a cut of the VCP is missing above {:.2f} degrees", sweep.elevation_deg));
@@ -158,18 +92,37 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
                     made_for.latitude_deg, made_for.longitude_deg, site.icao, site.latitude_deg,
                     site.longitude_deg);
     }
-    if (!(std::abs(site.altitude_m) <= 10000)) {
+    if (!is_within(site.altitude_m, -10000.0, 10000.0)) {
         return fail(ErrorCode::bad_argument, "{}: an antenna does not stand at {} m", site.icao,
                     site.altitude_m);
     }
-    if (!(options.beam_width_deg >= 0 && options.beam_width_deg <= widest_beam_deg)) {
+    if (!is_within(options.beam_width_deg, 0.0, widest_beam_deg)) {
         return fail(ErrorCode::bad_argument, "the beam width must be 0 to {} degrees, not {}",
                     widest_beam_deg, options.beam_width_deg);
+    }
+    if (options.method.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
+        return fail(ErrorCode::bad_argument, "only reflectivity is averaged in Z, not {}",
+                    level2::moment_name(options.moment));
+    }
+    if (options.frame_time && !level2::is_plausible(*options.frame_time)) {
+        return fail(ErrorCode::bad_argument, "no radar works at {}",
+                    format_utc(*options.frame_time));
     }
     if (options.threads < 1) {
         return fail(ErrorCode::bad_argument, "threads must be at least 1, not {}", options.threads);
     }
     return {};
+}
+
+// None: the newest is taken.
+std::optional<UtcTime> time_to_be_near(const level2::Volume& volume,
+                                       const GridderOptions& options) {
+    if (options.repeats == GridderOptions::Repeats::newest) return std::nullopt;
+    return options.frame_time ? options.frame_time : volume.start_time();
+}
+
+double beam_width_deg(const SitePosition& site, const GridderOptions& options) {
+    return options.beam_width_deg > 0 ? options.beam_width_deg : beam_width_of(site.icao);
 }
 
 }  // namespace
@@ -178,40 +131,36 @@ double beam_width_of(std::string_view icao) {
     return is_tdwr(icao) ? tdwr_beam_width_deg : wsr88d_beam_width_deg;
 }
 
+std::vector<ChosenSweep> sweeps_to_grid(const level2::Volume& volume, const SitePosition& site,
+                                        const GridderOptions& options) {
+    return choose_sweeps(volume, options.moment, beam_width_deg(site, options) / 2,
+                         time_to_be_near(volume, options));
+}
+
 Result<Grid> make_grid(const level2::Volume& volume, const SitePosition& site,
                        const ColumnGeometry& geometry, const GridderOptions& options) {
     if (auto good = check(site, geometry, options); !good) return pass_on(good);
-    const double beam_width_deg =
-        options.beam_width_deg > 0 ? options.beam_width_deg : beam_width_of(site.icao);
-    const std::vector<ChosenSweep> chosen =
-        choose_sweeps(volume, options.moment, beam_width_deg / 2);
+    const std::vector<ChosenSweep> chosen = sweeps_to_grid(volume, site, options);
     if (chosen.empty()) {
         return fail(ErrorCode::not_found, "the volume has no sweep with {}",
                     level2::moment_name(options.moment));
     }
 
-    const BeamGeometry beam(site.latitude_deg, site.altitude_m);
-    double farthest_m = 0;
-    for (const ChosenSweep& sweep : chosen) {
-        farthest_m = std::max(farthest_m, greatest_arc_m(volume.sweeps[sweep.sweep_index], sweep,
-                                                         options.moment, beam));
-    }
-    PolarSweepOptions sweep_options{options.moment, beam_width_deg / 2, is_tdwr(site.icao), 2};
-    sweep_options.table_size +=
-        static_cast<std::size_t>(std::min(farthest_m, farthest_arc_m) / ArcTable::step_m);
-    std::vector<PolarSweep> sweeps;
-    sweeps.reserve(chosen.size());
-    for (const ChosenSweep& sweep : chosen)
-        sweeps.emplace_back(volume.sweeps[sweep.sweep_index], sweep, beam, sweep_options);
-
     Grid grid;
     grid.spec = geometry.spec();
     grid.moment = options.moment;
-    grid.values.resize(grid.spec.cell_count());
-    grid.status.resize(grid.spec.cell_count());
-    describe(volume, site, chosen, grid);
-    RowFiller(grid, geometry, std::move(sweeps), chosen, sweep_options.table_size)
-        .run(options.threads);
+    grid.values = zeros_in_large_pages<float>(grid.spec.cell_count());
+    grid.status = zeros_in_large_pages<CellStatus>(grid.spec.cell_count());
+    describe(volume, site, chosen, options, time_to_be_near(volume, options), grid);
+    const SweepStack stack = make_stack(
+        volume, site, chosen,
+        {options.moment, beam_width_deg(site, options), options.method, options.profile});
+    fill_grid(stack, geometry, geometry.tiles(), options.method, options.threads, grid);
+    if (options.details.any()) {
+        fill_details({volume, chosen, stack,
+                      beam_model_of(site, options.method.beam, options.profile), geometry, options},
+                     grid);
+    }
     return grid;
 }
 

@@ -22,6 +22,12 @@ struct PolarPoint {
     double arc_m = 0;
 };
 
+// The azimuthal equidistant plane about the origin: arc times sine and cosine of the azimuth.
+struct PlanePoint {
+    double x_m = 0;  // east
+    double y_m = 0;  // north
+};
+
 class SiteFrame {
   public:
     // The latitude must be within -90 to 90; both must be finite.
@@ -33,6 +39,7 @@ class SiteFrame {
     // Azimuthal equidistant plane about the origin, x to the east and y to the north: azimuth and
     // arc in closed form.
     [[nodiscard]] static PolarPoint from_plane(double x_m, double y_m) noexcept;
+    [[nodiscard]] static PlanePoint to_plane(PolarPoint point) noexcept;
 
   private:
     double latitude_deg_;

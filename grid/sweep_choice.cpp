@@ -3,21 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/floating_point.h"
+
 namespace stormcellar::grid {
 namespace {
 
 constexpr double same_elevation_deg = 0.2;
-constexpr double full_enough = 0.9;  // of the fullest sweep's azimuths, of the farthest's range
+// Of the fullest sweep's azimuths, of the farthest's range, of the longest unambiguous range.
+constexpr double full_enough = 0.9;
 constexpr double widest_spacing_deg = 2;
 constexpr double believable_vcp_error_deg = 0.5;
 constexpr float lowest_elevation_deg = -10;
 constexpr float highest_elevation_deg = 89;
+constexpr float largest_value = 1e5F;  // of any moment, in its unit
 
 struct Candidate {
     ChosenSweep sweep;
     double angle_deg = 0;  // fixed angle where it is known
     double covered_deg = 0;
     double reach_m = 0;
+    double unambiguous_m = 0;  // 0: not known, or it does not matter for the moment
 };
 
 struct Pattern {
@@ -38,16 +43,24 @@ const std::vector<Pattern>& early_patterns() {
     return patterns;
 }
 
+// A damaged scale makes values that nobody measured, infinite ones among them.
+bool has_believable_values(const level2::SweepMoment& kind) {
+    const std::uint16_t largest = kind.word_size_bits == 8 ? 255 : 65535;
+    const MaskedTraps masked;
+    return is_within(kind.value_of(0), -largest_value, largest_value) &&
+           is_within(kind.value_of(largest), -largest_value, largest_value);
+}
+
 bool has_moment(const level2::Sweep& sweep, level2::Moment moment, std::size_t radial) {
     return std::any_of(sweep.moments.begin(), sweep.moments.end(), [&](const auto& kind) {
         return kind.moment == moment && radial < kind.gate_counts.size() &&
-               kind.gate_counts[radial] > 0;
+               kind.gate_counts[radial] > 0 && has_believable_values(kind);
     });
 }
 
 bool has_angles(const level2::Radial& radial) {
-    return normal_azimuth(radial.azimuth_deg) && radial.elevation_deg >= lowest_elevation_deg &&
-           radial.elevation_deg <= highest_elevation_deg;
+    return normal_azimuth(radial.azimuth_deg) &&
+           is_within(radial.elevation_deg, lowest_elevation_deg, highest_elevation_deg);
 }
 
 float median(std::vector<float> values) {
@@ -62,6 +75,32 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
         if (kind.moment == moment) reach_m = std::max(reach_m, kind.range_m(kind.gate_stride));
     }
     return reach_m;
+}
+
+// Echo from beyond it is lost, or sorted out by what a surveillance sweep saw; velocity, for which
+// it is short by nature, is not chosen by it.
+double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
+                           std::span<const std::uint32_t> radials) {
+    if (moment == level2::Moment::vel || moment == level2::Moment::sw) return 0;
+    std::vector<float> ranges_m;
+    for (const std::uint32_t radial : radials) {
+        const float range_m = sweep.radials[radial].unambiguous_range_m;
+        ranges_m.push_back(std::isfinite(range_m) ? std::max(range_m, 0.0F) : 0.0F);
+    }
+    return ranges_m.empty() ? 0 : static_cast<double>(median(std::move(ranges_m)));
+}
+
+std::optional<UtcTime> median_time(const level2::Sweep& sweep,
+                                   std::span<const std::uint32_t> radials) {
+    std::vector<UtcTime> times;
+    for (const std::uint32_t radial : radials) {
+        const UtcTime time = sweep.radials[radial].time;
+        if (level2::is_plausible(time)) times.push_back(time);
+    }
+    if (times.empty()) return std::nullopt;
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    return *middle;
 }
 
 double covered_by(const level2::Sweep& sweep, std::span<const std::uint32_t> radials) {
@@ -99,30 +138,51 @@ std::optional<Candidate> candidate_of(const level2::Volume& volume, std::size_t 
     }
     candidate.angle_deg = candidate.sweep.elevation_deg;
     if (sweep.vcp_elevation_deg &&
-        std::abs(*sweep.vcp_elevation_deg - candidate.angle_deg) <= believable_vcp_error_deg) {
+        std::islessequal(std::abs(*sweep.vcp_elevation_deg - candidate.angle_deg),
+                         believable_vcp_error_deg)) {
         candidate.angle_deg = static_cast<double>(*sweep.vcp_elevation_deg);
     }
+    candidate.sweep.fixed_angle_deg = candidate.angle_deg;
     candidate.covered_deg = covered_by(sweep, candidate.sweep.radials);
     candidate.reach_m = reach_of(sweep, moment);
+    candidate.unambiguous_m = unambiguous_range_m(sweep, moment, candidate.sweep.radials);
+    candidate.sweep.median_time = median_time(sweep, candidate.sweep.radials);
     return candidate;
 }
 
+// Leaves those that come near the largest of them in one respect.
+void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respect) {
+    double largest = 0;
+    for (const Candidate* candidate : group)
+        largest = std::max(largest, candidate->*respect);
+    std::erase_if(group, [&](const Candidate* candidate) {
+        return candidate->*respect < full_enough * largest;
+    });
+}
+
+// Whether `later`, which stands later in the file, is to be taken instead.
+bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
+               std::optional<UtcTime> nearest_to) {
+    if (!nearest_to) return true;
+    if (!later.median_time) return !other.median_time;
+    if (!other.median_time) return true;
+    return std::chrono::abs(*later.median_time - *nearest_to) <=
+           std::chrono::abs(*other.median_time - *nearest_to);
+}
+
 // The one to take of sweeps at the same elevation, which are in file order.
-const Candidate& best_of(std::span<const Candidate> group) {
-    double fullest_deg = 0;
-    for (const Candidate& candidate : group)
-        fullest_deg = std::max(fullest_deg, candidate.covered_deg);
-    const auto is_full = [&](const Candidate& candidate) {
-        return candidate.covered_deg >= full_enough * fullest_deg;
-    };
-    double farthest_m = 0;
-    for (const Candidate& candidate : group) {
-        if (is_full(candidate)) farthest_m = std::max(farthest_m, candidate.reach_m);
+Candidate take_best(std::span<Candidate> group, std::optional<UtcTime> nearest_to) {
+    std::vector<Candidate*> fit;
+    for (Candidate& candidate : group)
+        fit.push_back(&candidate);
+    keep_near_largest(fit, &Candidate::covered_deg);
+    keep_near_largest(fit, &Candidate::reach_m);
+    keep_near_largest(fit, &Candidate::unambiguous_m);
+    Candidate* best = fit.front();
+    for (Candidate* candidate : fit) {
+        if (is_fitter(candidate->sweep, best->sweep, nearest_to)) best = candidate;
     }
-    const Candidate* best = &group.front();
-    for (const Candidate& candidate : group) {
-        if (is_full(candidate) && candidate.reach_m >= full_enough * farthest_m) best = &candidate;
-    }
+    best->sweep.repeats = fit.size();
     return *best;
 }
 
@@ -136,14 +196,14 @@ bool cut_lies_between(std::span<const double> vcp_deg, double low_deg, double hi
 }  // namespace
 
 std::optional<float> normal_azimuth(float azimuth_deg) {
-    if (!(azimuth_deg >= -360 && azimuth_deg <= 720)) return std::nullopt;
+    if (!is_within(azimuth_deg, -360.0F, 720.0F)) return std::nullopt;
     float wrapped = std::fmod(azimuth_deg, 360.0F);
     if (wrapped < 0) wrapped += 360.0F;
     return wrapped < 360.0F ? wrapped : 0.0F;
 }
 
 double azimuth_spacing_deg(std::span<const float> azimuths_deg, float stated_deg) {
-    const double stated = stated_deg > 0 ? static_cast<double>(stated_deg) : 0;
+    const double stated = std::isgreater(stated_deg, 0.0F) ? static_cast<double>(stated_deg) : 0;
     std::vector<float> steps_deg;
     for (std::size_t i = 0; i + 1 < azimuths_deg.size(); ++i)
         steps_deg.push_back(azimuths_deg[i + 1] - azimuths_deg[i]);
@@ -167,7 +227,7 @@ std::vector<double> vcp_angles_deg(const level2::Volume& volume) {
 }
 
 std::vector<ChosenSweep> choose_sweeps(const level2::Volume& volume, level2::Moment moment,
-                                       double half_beam_deg) {
+                                       double half_beam_deg, std::optional<UtcTime> nearest_to) {
     std::vector<Candidate> candidates;
     for (std::size_t index = 0; index < volume.sweeps.size(); ++index) {
         if (auto candidate = candidate_of(volume, index, moment, half_beam_deg)) {
@@ -188,7 +248,7 @@ std::vector<ChosenSweep> choose_sweeps(const level2::Volume& volume, level2::Mom
         std::sort(group.begin(), group.end(), [](const auto& a, const auto& b) {
             return a.sweep.sweep_index < b.sweep.sweep_index;
         });
-        chosen.push_back(best_of(group));
+        chosen.push_back(take_best(group, nearest_to));
         from = to;
     }
     std::stable_sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) {

@@ -3,6 +3,7 @@
 #include "grid/beam_geometry.h"
 
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -160,6 +161,51 @@ TEST(BeamGeometry, ABeamNeverPassesOverWhatItsLineDoesNotReach) {
     EXPECT_TRUE(std::isnan(beam.over(1000, 90).range_m));
     EXPECT_TRUE(std::isnan(beam.over(15e6, 0).height_m));
     EXPECT_FALSE(std::isnan(beam.over(460e3, 60).height_m));
+}
+
+// Heights at the range and 0.5 degrees over a sphere that fits each azimuth, less ours: the most.
+double radius_error_m(double latitude_deg, double range_m) {
+    const Quad f = 1 / (Quad{298257223563} / 1000000000);
+    const Quad s = sinq(radians(latitude_deg));
+    const Quad w2 = 1 - f * (2 - f) * s * s;
+    const Quad across = 6378137 / sqrtq(w2);
+    const Quad along = across * (1 - f * (2 - f)) / w2;
+    const double ours_m = BeamGeometry(latitude_deg, 0).forward({range_m, 0.5}).height_m;
+    double worst_m = 0;
+    for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 5) {
+        const Quad c = cosq(radians(azimuth_deg));
+        const Quad antenna = 4 / (c * c / along + (1 - c * c) / across) / 3;
+        const Quad r = range_m;
+        const Quad height = sqrtq(r * r + antenna * antenna + 2 * r * antenna * sinq(radians(0.5)));
+        worst_m = std::max(worst_m, difference(ours_m, height - antenna));
+    }
+    return worst_m;
+}
+
+TEST(BeamGeometry, TheRadiusAlongTheAzimuthMakesWhatTheHeaderSays) {
+    EXPECT_NEAR(radius_error_m(35, 230e3), 7, 0.5);
+    EXPECT_NEAR(radius_error_m(35, 460e3), 28, 0.5);
+}
+
+TEST(BeamGeometry, TheSameFormulaInFloatsErrsByATenthOfAMetre) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<float> range(1e5F, 4.7e5F);
+    std::uniform_real_distribution<float> elevation(-5, 60);
+    double worst_m = 0;
+    for (const Site& site : sites) {
+        const BeamGeometry beam(site.latitude_deg, site.altitude_m);
+        const auto a = static_cast<float>(beam.effective_radius_m() + site.altitude_m);
+        for (int i = 0; i < 4000; ++i) {
+            const float r = range(random);
+            const float e = elevation(random);
+            const float q = r * r + 2 * r * a * std::sin(e * std::numbers::pi_v<float> / 180);
+            const float height_m =
+                static_cast<float>(site.altitude_m) + q / (std::sqrt(a * a + q) + a);
+            const double exact_m = beam.forward({r, e}).height_m;  // as proven above
+            worst_m = std::max(worst_m, std::abs(static_cast<double>(height_m) - exact_m));
+        }
+    }
+    EXPECT_NEAR(worst_m, 0.1, 0.02);
 }
 
 // An independent figure: the height of a 0.5 degree beam at 230 km over a sphere of 4/3 * 6371 km

@@ -103,12 +103,30 @@ TEST(BrickGrid, ABrickFullOfValuesCountsThemAll) {
     EXPECT_EQ(bricks.view().bricks[0].value_count, 4096);
 }
 
-TEST(BrickGrid, CellsBeyondTheEdgeAreNotSeen) {
-    const BrickGrid bricks = BrickGrid::from(grid_of(1, 1, 1, CellStatus::no_echo), {});
-    EXPECT_EQ(bricks.view().status(0, 0, 0), CellStatus::no_echo);
+TEST(BrickGrid, CellsBeyondTheEdgeHaveCodeZero) {
+    const BrickGrid bricks = BrickGrid::from(grid_of(1, 1, 1, CellStatus::value), {});
+    EXPECT_EQ(bricks.view().status(0, 0, 0), CellStatus::value);
+    EXPECT_EQ(bricks.view().bricks[0].value_count, 1);
     EXPECT_EQ(bricks.view().status(0, 0, 1), CellStatus::not_seen);
     EXPECT_EQ(bricks.view().status(1, 0, 0), CellStatus::not_seen);
     EXPECT_EQ(bricks.view().status(15, 15, 15), CellStatus::not_seen);
+}
+
+TEST(BrickGrid, CellsBeyondTheEdgeDoNotCountAgainstABrickAllAlike) {
+    for (const CellStatus status :
+         {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded}) {
+        Grid grid = grid_of(17, 1, 33, status);
+        const BrickGrid alike = BrickGrid::from(grid, {});
+        for (const BrickEntry& entry : alike.view().bricks) {
+            EXPECT_EQ(entry.kind, BrickKind::uniform);
+            EXPECT_EQ(entry.uniform_status, status);
+        }
+        const auto other = static_cast<CellStatus>((static_cast<int>(status) + 1) % 3);
+        grid.status[grid.spec.index(16, 0, 32)] = other;
+        const BrickGrid different = BrickGrid::from(grid, {});
+        EXPECT_EQ(different.view().bricks.back().uniform_status, other) << "its only cell";
+        EXPECT_EQ(to_dense(different.view()).status, grid.status);
+    }
 }
 
 TEST(BrickGrid, ValuesBeyondTheCodesAreClampedAndCounted) {

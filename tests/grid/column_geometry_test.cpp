@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/gridder.h"
+#include "grid/projection.h"
 #include "grid/site_frame.h"
 
 namespace stormcellar::grid {
@@ -23,9 +24,10 @@ PolarPoint slow_place(const SitePosition& from, const GridSpec& spec, int ix, in
     return SiteFrame(from.latitude_deg, from.longitude_deg).to_polar({latitude_deg, longitude_deg});
 }
 
-void expect_places(const SitePosition& from, const GridSpec& spec) {
-    const auto geometry = make_column_geometry(from, spec);
+void expect_places(const SitePosition& from, const GridSpec& spec, FrameKind kind) {
+    const auto geometry = make_column_geometry(from, spec, kind);
     ASSERT_TRUE(geometry);
+    const double place_m = kind == FrameKind::table ? 1e-3 : 1e-6;
     for (int iy = 0; iy < spec.ny; iy += 3) {
         for (int ix = 0; ix < spec.nx; ix += 3) {
             const ColumnPlace place = (*geometry)->row(iy)[static_cast<std::size_t>(ix)];
@@ -35,11 +37,16 @@ void expect_places(const SitePosition& from, const GridSpec& spec) {
             ASSERT_LT(place.azimuth_deg, 360);
             double turn_deg = std::abs(place.azimuth_deg - slow.azimuth_deg);
             turn_deg = std::min(turn_deg, 360 - turn_deg);
-            if (slow.arc_m > 1) {
-                ASSERT_LT(turn_deg, 2e-5);
+            if (slow.arc_m > 0) {
+                ASSERT_LT(turn_deg, 2e-5 + place_m / slow.arc_m * 180 / M_PI) << slow.arc_m;
             }
         }
     }
+}
+
+void expect_places(const SitePosition& from, const GridSpec& spec) {
+    for (const FrameKind kind : {FrameKind::table, FrameKind::geodesic})
+        expect_places(from, spec, kind);
 }
 
 TEST(ColumnGeometry, CentredAtTheSite) {
@@ -64,6 +71,22 @@ TEST(ColumnGeometry, AtThePoleAndAcrossTheAntimeridian) {
     spec = default_spec(13.45, -179.9);
     spec.nx = spec.ny = 40;
     expect_places({"XANT", 13.45, 179.95, 80}, spec);
+}
+
+// Grids off their sites that reach to 500 km, and fine ones close to them.
+TEST(ColumnGeometry, FromSitesAllOverTheEarth) {
+    for (const SitePosition& from :
+         {SitePosition{"AA", 78, 15, -100}, SitePosition{"BB", 0, 180, 4000},
+          SitePosition{"CC", 0.1, -180, 0}, SitePosition{"DD", -71, -179.99, 0}}) {
+        for (const double spacing_m : {20.0, 9900.0}) {
+            GridSpec spec = default_spec(
+                from.latitude_deg + spacing_m / 20e3,
+                from.longitude_deg + (from.longitude_deg > 0 ? -1 : 1) * spacing_m / 20e3);
+            spec.nx = spec.ny = 60;
+            spec.spacing_m = spacing_m;
+            expect_places(from, spec);
+        }
+    }
 }
 
 TEST(ColumnGeometry, ColumnPositionsAreOnTheProjectionsPlane) {

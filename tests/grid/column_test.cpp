@@ -1,4 +1,4 @@
-// The status rule case by case (DESIGN section 5, docs/geometry.md).
+// One column from one sample of each sweep (grid/column.h).
 #include "grid/column.h"
 
 #include <cmath>
@@ -10,86 +10,22 @@ namespace stormcellar::grid {
 namespace {
 
 const Sample unseen{};
-const Sample folded{CellStatus::range_folded, 0, 0};
 Sample valued(float value) {
-    return {CellStatus::value, value, 0};
+    return {CellStatus::value, value, 0, 0};
 }
 Sample quiet(float limit_dbz) {
-    return {CellStatus::no_echo, 0, limit_dbz};
-}
-CellResult mix(const Sample& a, const Sample& b, float weight_b,
-               Blending blending = Blending::with_detection_limit) {
-    return blend(a, b, weight_b, blending);
-}
-
-TEST(Blend, TwoValuesAreLinear) {
-    const CellResult cell = mix(valued(10), valued(30), 0.25F);
-    EXPECT_EQ(cell.status, CellStatus::value);
-    EXPECT_FLOAT_EQ(cell.value, 15);
-}
-
-TEST(Blend, ValueAndNoEcho) {
-    EXPECT_EQ(mix(valued(20), quiet(-10), 0.5F).status, CellStatus::value) << "v = n is a value";
-    EXPECT_FLOAT_EQ(mix(valued(20), quiet(-10), 0.5F).value, 5);
-    EXPECT_FLOAT_EQ(mix(valued(20), quiet(-10), 0.25F).value, 12.5F);
-    EXPECT_EQ(mix(valued(20), quiet(-10), 0.51F).status, CellStatus::no_echo);
-    EXPECT_FLOAT_EQ(mix(quiet(-10), valued(20), 0.75F).value, 12.5F);
-}
-
-TEST(Blend, NoEchoNeverEntersOtherMoments) {
-    EXPECT_FLOAT_EQ(mix(valued(20), quiet(-10), 0.25F, Blending::values_only).value, 20);
-    EXPECT_FLOAT_EQ(mix(valued(20), quiet(-10), 0.25F, Blending::nearest).value, 20);
-    EXPECT_EQ(mix(valued(20), quiet(-10), 0.6F, Blending::nearest).status, CellStatus::no_echo);
-}
-
-TEST(Blend, ValueAndNotSeen) {
-    EXPECT_EQ(mix(valued(20), unseen, 0.5F).status, CellStatus::value) << "u is not over one half";
-    EXPECT_FLOAT_EQ(mix(valued(20), unseen, 0.4F).value, 20);
-    EXPECT_EQ(mix(valued(20), unseen, 0.51F).status, CellStatus::not_seen);
-}
-
-TEST(Blend, NoEchoAndNotSeen) {
-    EXPECT_EQ(mix(quiet(0), unseen, 0.5F).status, CellStatus::no_echo);
-    EXPECT_EQ(mix(quiet(0), unseen, 0.51F).status, CellStatus::not_seen);
-}
-
-TEST(Blend, FoldedNeedsTheLargestShare) {
-    EXPECT_EQ(mix(folded, valued(20), 0.4F).status, CellStatus::range_folded);
-    EXPECT_EQ(mix(folded, valued(20), 0.5F).status, CellStatus::value);
-    EXPECT_FLOAT_EQ(mix(folded, valued(20), 0.6F).value, 20) << "folded never enters a value";
-    EXPECT_EQ(mix(folded, quiet(0), 0.4F).status, CellStatus::range_folded);
-    EXPECT_EQ(mix(folded, quiet(0), 0.5F).status, CellStatus::no_echo);
-    EXPECT_EQ(mix(folded, unseen, 0.5F).status, CellStatus::range_folded);
-    EXPECT_EQ(mix(folded, unseen, 0.51F).status, CellStatus::not_seen);
-}
-
-TEST(Blend, EqualStatesStay) {
-    for (const float weight : {0.0F, 0.3F, 0.5F, 1.0F}) {
-        EXPECT_EQ(mix(unseen, unseen, weight).status, CellStatus::not_seen);
-        EXPECT_EQ(mix(folded, folded, weight).status, CellStatus::range_folded);
-        EXPECT_EQ(mix(quiet(0), quiet(5), weight).status, CellStatus::no_echo);
-    }
-}
-
-TEST(Blend, VelocitiesAreNeverAveraged) {
-    EXPECT_EQ(mix(valued(-25), valued(25), 0.4F, Blending::nearest).value, -25);
-    EXPECT_EQ(mix(valued(-25), valued(25), 0.6F, Blending::nearest).value, 25);
-}
-
-TEST(BlendingOf, EachMoment) {
-    EXPECT_EQ(blending_of(level2::Moment::ref), Blending::with_detection_limit);
-    EXPECT_EQ(blending_of(level2::Moment::vel), Blending::nearest);
-    EXPECT_EQ(blending_of(level2::Moment::phi), Blending::nearest);
-    EXPECT_EQ(blending_of(level2::Moment::rho), Blending::values_only);
+    return {CellStatus::no_echo, 0, limit_dbz, 0};
 }
 
 struct Filled {
     std::vector<CellStatus> status;
     std::vector<float> values;
 };
-Filled fill(const std::vector<BeamSample>& beams, const std::vector<float>& levels_m) {
+Filled fill(const std::vector<BeamSample>& beams, const std::vector<float>& levels_m,
+            Interpolation interpolation = Interpolation::linear) {
     Filled column{std::vector<CellStatus>(levels_m.size()), std::vector<float>(levels_m.size())};
-    fill_column(beams, levels_m, Blending::with_detection_limit, column.status, column.values);
+    fill_column(beams, LevelTable(levels_m), Blending::with_detection_limit, interpolation,
+                column.status, column.values);
     return column;
 }
 BeamSample beam(Sample sample, float height_m, float half_width_m = 100, bool adjacent = true) {
@@ -123,6 +59,14 @@ TEST(FillColumn, WhereBeamsBesideALostCutOverlapTheNearerCounts) {
     EXPECT_FLOAT_EQ(column.values[1], 20);
 }
 
+// 2026-11-21: nothing at all was filled where the lower edge of the lowest beam never passes over.
+TEST(FillColumn, ALowerEdgeThatIsNowhereLeavesTheRest) {
+    BeamSample lowest = beam(valued(10), 1000);
+    lowest.lower_edge_m = 1e9F;
+    const Filled column = fill({lowest, beam(valued(20), 2000)}, {950, 1000, 1500, 2050});
+    EXPECT_EQ(column.status, (std::vector<CellStatus>{no, val, val, val}));
+}
+
 TEST(FillColumn, OneSweepIsAsThickAsItsBeam) {
     const Filled column = fill({beam(valued(10), 1000)}, {899, 900, 1000, 1100, 1101});
     EXPECT_EQ(column.status, (std::vector<CellStatus>{no, val, val, val, no}));
@@ -145,6 +89,15 @@ TEST(FillColumn, ManyLevelsBetweenTwoBeamsThatAgree) {
     constexpr auto none = CellStatus::no_echo;
     EXPECT_EQ(column.status,
               (std::vector<CellStatus>{no, none, none, none, none, none, none, val, val}));
+}
+
+TEST(FillColumn, NearestTakesTheNearerBeam) {
+    const Filled column = fill({beam(valued(10), 1000), beam(valued(20), 2000)},
+                               {950, 1000, 1499, 1500, 1501, 2000}, Interpolation::nearest);
+    EXPECT_EQ(column.values, (std::vector<float>{10, 10, 10, 10, 20, 20}));
+    const Filled mixed =
+        fill({beam(valued(10), 1000), beam(quiet(0), 2000)}, {1499, 1501}, Interpolation::nearest);
+    EXPECT_EQ(mixed.status, (std::vector<CellStatus>{val, CellStatus::no_echo}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The gridder against its oracle (tests/grid/slow_gridder.h), on real and on made volumes.
+// The gridder against its oracle (grid/oracle.h), every method, on real and on made volumes.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -7,68 +8,98 @@
 #include "grid/beam_geometry.h"
 #include "grid/column_geometry.h"
 #include "grid/gridder.h"
+#include "grid/oracle.h"
 #include "grid/site_frame.h"
 #include "level2/decode.h"
-#include "tests/grid/slow_gridder.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
+#include "tests/testing/slow_down.h"
 
 namespace stormcellar::grid {
 namespace {
 
 constexpr double beam_width_deg = 0.95;
-constexpr double height_accuracy_m = 0.25;
+// Tables of arc are within 0.15 m in range and height; a radial's own elevation adds 0.25 m, and 1
+// m at the beam's edges.
+constexpr double height_accuracy_m = 1;
+constexpr double weight_accuracy = 2e-3;
 
 struct Tally {
     int columns = 0, doubtful_columns = 0;
     int cells = 0, doubtful_cells = 0;
     std::array<int, 4> states{};
+    std::vector<double> differences;
 };
 
+Method method_of(Interpolation interpolation, CellExtent cell = CellExtent::point,
+                 Averaging averaging = Averaging::in_db) {
+    Method method;
+    method.interpolation = interpolation;
+    method.cell = cell;
+    method.averaging = averaging;
+    return method;
+}
+
 // A cell may be what the oracle says anywhere within the stated accuracy of height.
-void compare_column(const Grid& grid, const SlowColumn& slow, int ix, int iy, Tally& tally) {
-    for (int iz = 0; iz < grid.spec.nz(); ++iz) {
-        const std::size_t at = grid.spec.index(ix, iy, iz);
-        const double level_m = grid.spec.levels_m[static_cast<std::size_t>(iz)];
-        const SlowCell low = slow.cell(level_m - height_accuracy_m);
-        const SlowCell here = slow.cell(level_m);
-        const SlowCell high = slow.cell(level_m + height_accuracy_m);
+// `slack` is allowed beside that: a gate on the very edge of a cell's outline may count or not.
+void compare_column(const Grid& grid, const OracleColumn& slow, int ix, int iy, double slack,
+                    Tally& tally) {
+    for (std::size_t level = 0; level < grid.spec.levels_m.size(); ++level) {
+        const std::size_t at = grid.spec.index(ix, iy, static_cast<int>(level));
+        const OracleCell low = slow.cell(level, -height_accuracy_m);
+        const OracleCell here = slow.cell(level);
+        const OracleCell high = slow.cell(level, height_accuracy_m);
         ++tally.cells;
         ++tally.states[static_cast<std::size_t>(here.status)];
-        if (low.status != here.status || high.status != here.status) {
+        const bool doubtful = low.status != here.status || high.status != here.status ||
+                              here.margin < weight_accuracy || here.wide_on_circle;
+        if (doubtful) {
             ++tally.doubtful_cells;
             continue;
         }
-        ASSERT_EQ(grid.status[at], here.status) << ix << " " << iy << " " << level_m;
+        ASSERT_EQ(grid.status[at], here.status) << ix << " " << iy << " " << level;
         if (here.status != CellStatus::value) continue;
         const double tolerance =
-            std::abs(low.value - here.value) + std::abs(high.value - here.value) + 1e-3;
-        ASSERT_NEAR(grid.values[at], here.value, tolerance) << ix << " " << iy << " " << level_m;
+            std::abs(low.value - here.value) + std::abs(high.value - here.value) + slack;
+        tally.differences.push_back(std::abs(static_cast<double>(grid.values[at]) - here.value));
+        ASSERT_NEAR(grid.values[at], here.value, tolerance) << ix << " " << iy << " " << level;
     }
 }
 
+struct Comparison {
+    level2::Moment moment = level2::Moment::ref;
+    Method method;
+    int step = 11;
+    double most_doubtful_columns = 0.1;
+    double most_doubtful_cells = 0.01;
+    double slack = 0.05;
+};
+
 Tally compare(const level2::Volume& volume, const SitePosition& site, const GridSpec& spec,
-              level2::Moment moment, int step) {
+              const Comparison& how) {
     Tally tally;
     const auto geometry = make_column_geometry(site, spec);
     EXPECT_TRUE(geometry);
-    const auto grid = make_grid(volume, site, **geometry, {moment, beam_width_deg, 1});
+    const auto grid =
+        make_grid(volume, site, **geometry, {how.moment, beam_width_deg, 1, how.method, {}});
     EXPECT_TRUE(grid);
-    const auto chosen = choose_sweeps(volume, moment, beam_width_deg / 2);
-    for (int iy = 0; iy < spec.ny; iy += step) {
-        for (int ix = iy % 3; ix < spec.nx; ix += step) {
-            const SlowColumn slow(volume, chosen, moment, site, spec, ix, iy, beam_width_deg);
+    const auto chosen = choose_sweeps(volume, how.moment, beam_width_deg / 2);
+    const OracleSetting setting{how.moment, beam_width_deg, false, how.method, {}};
+    for (int iy = 0; iy < spec.ny; iy += how.step) {
+        for (int ix = iy % 3; ix < spec.nx; ix += how.step) {
+            const OracleColumn slow(volume, chosen, setting, site, spec, ix, iy);
             ++tally.columns;
             if (slow.is_doubtful()) {
                 ++tally.doubtful_columns;
                 continue;
             }
-            compare_column(*grid, slow, ix, iy, tally);
+            compare_column(*grid, slow, ix, iy, how.slack, tally);
             if (::testing::Test::HasFatalFailure()) return tally;
         }
     }
-    EXPECT_LT(tally.doubtful_columns, tally.columns / 10) << "too few columns were compared";
-    EXPECT_LT(tally.doubtful_cells, tally.cells / 100 + 1);
+    EXPECT_LT(tally.doubtful_columns, tally.columns * how.most_doubtful_columns)
+        << "too few columns were compared";
+    EXPECT_LT(tally.doubtful_cells, tally.cells * how.most_doubtful_cells + 1);
     return tally;
 }
 
@@ -85,7 +116,7 @@ TEST_P(RealVolume, AgreesWithTheOracle) {
     ASSERT_TRUE(decoded);
     const SitePosition site = site_of(decoded->volume);
     const GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    const Tally tally = compare(decoded->volume, site, spec, level2::Moment::ref, 11);
+    const Tally tally = compare(decoded->volume, site, spec, {});
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::value)], 50);
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::no_echo)], 1000);
     EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::not_seen)], 1000);
@@ -99,7 +130,7 @@ TEST_P(RealVolume, AgreesWithTheOracleFarFromTheSite) {
     GridSpec spec = default_spec(site.latitude_deg + 1.2, site.longitude_deg - 1.7);
     spec.spacing_m = 5000;
     spec.nx = spec.ny = 100;
-    compare(decoded->volume, site, spec, level2::Moment::ref, 7);
+    compare(decoded->volume, site, spec, {level2::Moment::ref, {}, 7});
 }
 
 // A grid of one cell that stands at the centre of a gate must hold that gate.
@@ -121,15 +152,16 @@ TEST_P(RealVolume, ACellAtAGatesCentreHoldsTheGate) {
         const std::uint32_t radial = sweep.radials[random() % sweep.radials.size()];
         const auto gate = static_cast<std::int32_t>(3 + random() % 120);
         const level2::GateStatus status = moment.status(radial, gate);
-        const EarthPoint point = beam.forward({moment.range_m(gate), sweep.elevation_deg});
+        const level2::Radial& header = volume.sweeps[sweep.sweep_index].radials[radial];
+        const EarthPoint point = beam.forward({moment.range_m(gate), header.elevation_deg});
         if (status == level2::GateStatus::no_data || point.height_m > 50e3) continue;
-        const double azimuth_deg = volume.sweeps[sweep.sweep_index].radials[radial].azimuth_deg;
+        const double azimuth_deg = header.azimuth_deg;
         const GeoPoint place = frame.to_geo({azimuth_deg, point.arc_m});
         GridSpec spec = default_spec(place.latitude_deg, place.longitude_deg);
         spec.nx = spec.ny = 1;
         spec.levels_m = {point.height_m};
         const auto geometry = make_column_geometry(site, spec);
-        const auto grid = make_grid(volume, site, **geometry, {level2::Moment::ref, 0, 1});
+        const auto grid = make_grid(volume, site, **geometry, {});
         ASSERT_TRUE(grid);
         const bool valid = status == level2::GateStatus::valid;
         ASSERT_EQ(grid->status[0], valid ? CellStatus::value
@@ -148,6 +180,45 @@ INSTANTIATE_TEST_SUITE_P(Volumes, RealVolume,
                          ::testing::Values("KTLX19990503_235621.gz", "KLIX20050828_180149.gz",
                                            "KLOT20220317_000842_V06", "KOKX20080109_141449.gz",
                                            "KATX20160427_095248_V06.gz"));
+
+// Every other way to make a cell, on one volume with echo, holes and folded gates.
+class EveryMethod : public ::testing::TestWithParam<Method> {};
+
+TEST_P(EveryMethod, AgreesWithTheOracle) {
+    STORMCELLAR_NEED_DATA();
+    const auto decoded =
+        level2::decode_file(*testing::data_directory() / "volumes" / "KTLX19990503_235621.gz");
+    ASSERT_TRUE(decoded);
+    const SitePosition site = site_of(decoded->volume);
+    GridSpec spec = default_spec(site.latitude_deg + 0.3, site.longitude_deg - 0.4);
+    spec.spacing_m = GetParam().cell == CellExtent::area ? 4000 : 1700;
+    spec.nx = spec.ny = GetParam().cell == CellExtent::area ? 80 : 200;
+    const bool area = GetParam().cell == CellExtent::area;
+    Comparison how{level2::Moment::ref, GetParam(),
+                   (area ? 17 : 9) * (testing::slow_down > 1 ? 2 : 1)};
+    how.most_doubtful_cells = area ? 0.06 : 0.02;
+    if (area) how.slack = 0.8;
+    const Tally tally = compare(decoded->volume, site, spec, how);
+    EXPECT_GT(tally.states[static_cast<std::size_t>(CellStatus::value)], 50 / testing::slow_down);
+    std::vector<double> differences = tally.differences;
+    std::sort(differences.begin(), differences.end());
+    EXPECT_LT(differences[differences.size() * 9 / 10], 0.05);
+    if (GetParam().averaging == Averaging::in_z) return;
+    how.moment = level2::Moment::vel;
+    how.most_doubtful_cells = area ? 0.15 : 0.1;
+    compare(decoded->volume, site, spec, how);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, EveryMethod,
+    ::testing::Values(method_of(Interpolation::nearest), method_of(Interpolation::linear),
+                      method_of(Interpolation::linear, CellExtent::point, Averaging::in_z),
+                      method_of(Interpolation::eight_point),
+                      method_of(Interpolation::eight_point, CellExtent::point, Averaging::in_z),
+                      method_of(Interpolation::beam_weighted),
+                      method_of(Interpolation::linear, CellExtent::area),
+                      method_of(Interpolation::beam_weighted, CellExtent::area),
+                      method_of(Interpolation::beam_weighted, CellExtent::area, Averaging::in_z)));
 
 // States scattered at random, so that every pair of them meets at every weight.
 level2::Volume scattered_volume(level2::Moment moment) {
@@ -177,7 +248,7 @@ TEST(GridderOracle, ScatteredStates) {
     spec.spacing_m = 4100;
     spec.nx = spec.ny = 130;
     for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::rho}) {
-        const Tally tally = compare(scattered_volume(moment), site, spec, moment, 3);
+        const Tally tally = compare(scattered_volume(moment), site, spec, {moment, {}, 3});
         for (const int count : tally.states)
             EXPECT_GT(count, 500);
     }
@@ -190,7 +261,37 @@ TEST(GridderOracle, ALostCut) {
     GridSpec spec = default_spec(-33, 151);
     spec.spacing_m = 4100;
     spec.nx = spec.ny = 100;
-    compare(volume, site, spec, level2::Moment::ref, 3);
+    compare(volume, site, spec, {level2::Moment::ref, {}, 3});
+}
+
+TEST(GridderOracle, EveryProjectionOffItsSiteAndAcrossTheAntimeridian) {
+    const SitePosition site{"XXXX", 52, 179.9, 300};
+    GridSpec spec = default_spec(52.5, -179.7);
+    spec.nx = spec.ny = 110;
+    spec.projection = Projection::latitude_longitude;
+    spec.spacing_m = 0;
+    spec.spacing_deg = 0.041;
+    const level2::Volume volume = scattered_volume(level2::Moment::ref);
+    const Tally degrees = compare(volume, site, spec, {level2::Moment::ref, {}, 3});
+    Comparison area{level2::Moment::ref, {}, 17};
+    area.method = method_of(Interpolation::beam_weighted, CellExtent::area);
+    area.most_doubtful_cells = 0.2;
+    area.slack = 20;  // neighbouring gates have nothing in common
+    const Tally area_degrees = compare(volume, site, spec, area);
+    spec.projection = Projection::lambert_conformal;
+    spec.spacing_m = 4100;
+    spec.spacing_deg = 0;
+    spec.parallels_deg = {50, 55};
+    const Tally cone = compare(volume, site, spec, {level2::Moment::ref, {}, 3});
+    const Tally area_cone = compare(volume, site, spec, area);
+    for (const Tally& tally : {degrees, cone}) {
+        for (const int count : tally.states)
+            EXPECT_GT(count, 200);
+    }
+    for (Tally tally : {area_degrees, area_cone}) {
+        std::sort(tally.differences.begin(), tally.differences.end());
+        EXPECT_LT(tally.differences[tally.differences.size() * 9 / 10], 0.1);
+    }
 }
 
 }  // namespace

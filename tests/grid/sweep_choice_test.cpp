@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "level2/chunk_directory.h"
+#include "level2/decode.h"
 #include "tests/grid/volume_maker.h"
+#include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -52,6 +55,132 @@ TEST(ChooseSweeps, ASplitCutGivesTheSweepThatReachesFarther) {
 TEST(ChooseSweeps, OfRepeatedCutsTheNewestCounts) {
     const auto volume = make_volume({plan(0.5), plan(1.4), plan(0.5), plan(2.4), plan(0.49)});
     EXPECT_EQ(indices(choose(volume)), (std::vector<std::size_t>{4, 1, 3}));
+}
+
+// Cut number n of the volume maker begins n * 20 s after the day does; its radials take 18 s.
+UtcTime at_s(double seconds) {
+    return time_from_nexrad(19000, static_cast<std::uint32_t>(seconds * 1000));
+}
+
+TEST(ChooseSweeps, OfRepeatedCutsTheNearestInTimeCountsWhereATimeIsGiven) {
+    auto volume = make_volume({plan(0.5), plan(1.4), plan(0.5), plan(2.4), plan(0.49)});
+    for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
+        for (level2::Radial& radial : volume.sweeps[i].radials)
+            radial.time += std::chrono::seconds(20 * i);  // medians at 29, 49, 69, 89, 109 s
+    }
+    const auto at = [&](double seconds) {
+        return choose_sweeps(volume, level2::Moment::ref, 0.475, at_s(seconds));
+    };
+    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{0, 1, 3}));
+    EXPECT_EQ(indices(at(48.99)), (std::vector<std::size_t>{0, 1, 3}));
+    EXPECT_EQ(indices(at(49)), (std::vector<std::size_t>{2, 1, 3})) << "as near: the later";
+    EXPECT_EQ(indices(at(88.9)), (std::vector<std::size_t>{2, 1, 3}));
+    EXPECT_EQ(indices(at(1e5)), (std::vector<std::size_t>{4, 1, 3}));
+    EXPECT_EQ(at(0)[0].median_time, at_s(29));
+    EXPECT_EQ(at(0)[0].repeats, 3U);
+    EXPECT_EQ(at(0)[1].repeats, 1U);
+    for (level2::Radial& radial : volume.sweeps[0].radials)
+        radial.time = UtcTime{} - std::chrono::hours(24);
+    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{2, 1, 3})) << "the first is not dated";
+    for (const std::size_t other : {2U, 4U}) {
+        for (level2::Radial& radial : volume.sweeps[other].radials)
+            radial.time = UtcTime{} - std::chrono::hours(24);
+    }
+    EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{4, 1, 3})) << "none is dated: the newest";
+    EXPECT_EQ(at(0)[0].median_time, std::nullopt);
+}
+
+TEST(ChooseSweeps, TheNearestInTimeMustBeFitToo) {
+    const auto volume = make_volume({plan(0.5, 300, 100), plan(0.5), plan(0.5, 200)});
+    const auto chosen = choose_sweeps(volume, level2::Moment::ref, 0.475, at_s(0));
+    EXPECT_EQ(indices(chosen), (std::vector<std::size_t>{1}));
+    EXPECT_EQ(chosen[0].repeats, 1U);
+}
+
+// 2026-11-21: where gates end at a ceiling, a Doppler sweep reaches 90 % as far as its surveillance
+// sweep (KDMX and KCCX at 2.5 degrees) and was taken for reflectivity.
+TEST(ChooseSweeps, ASplitCutGivesTheSurveillanceSweepThatReachesHardlyFarther) {
+    auto volume = make_volume({plan(2.5, 330), plan(2.5, 298)});
+    for (level2::Radial& radial : volume.sweeps[0].radials)
+        radial.unambiguous_range_m = 466000;
+    for (level2::Radial& radial : volume.sweeps[1].radials)
+        radial.unambiguous_range_m = 336000;
+    EXPECT_EQ(indices(choose(volume)), (std::vector<std::size_t>{0}));
+    for (level2::Radial& radial : volume.sweeps[1].radials)
+        radial.unambiguous_range_m = std::nanf("");
+    EXPECT_EQ(indices(choose(volume)), (std::vector<std::size_t>{0}));
+    for (level2::Sweep& sweep : volume.sweeps)
+        sweep.moments[0].moment = level2::Moment::vel;
+    const auto velocity = choose_sweeps(volume, level2::Moment::vel, 0.475);
+    EXPECT_EQ(indices(velocity), (std::vector<std::size_t>{1})) << "short by nature: the newest";
+}
+
+// Each elevation's sweep for a moment, and whether it is a surveillance sweep, which has no VEL.
+struct RealChoice {
+    std::vector<std::size_t> sweeps;
+    std::vector<bool> surveillance;
+};
+RealChoice choose_of(const level2::Volume& volume, level2::Moment moment,
+                     std::optional<UtcTime> near = std::nullopt) {
+    RealChoice choice;
+    for (const ChosenSweep& sweep : choose_sweeps(volume, moment, 0.475, near)) {
+        choice.sweeps.push_back(sweep.sweep_index);
+        choice.surveillance.push_back(volume.sweeps[sweep.sweep_index].find(level2::Moment::vel) ==
+                                      nullptr);
+    }
+    return choice;
+}
+
+TEST(ChooseSweeps, EachMomentOfRealSplitCutsComesFromItsSweep) {
+    STORMCELLAR_NEED_DATA();
+    struct Case {
+        const char* name;
+        std::size_t split_cuts, elevations;
+    };
+    for (const auto& [name, split_cuts, elevations] :
+         {Case{"KLOT20220317_000842_V06", 3, 9}, Case{"KDMX20250101_225441_V06", 3, 5},
+          Case{"KCCX20130112_070503_V06.gz", 3, 5}, Case{"KTLX19990503_235621.gz", 2, 14}}) {
+        const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / name);
+        ASSERT_TRUE(decoded) << name;
+        const RealChoice ref = choose_of(decoded->volume, level2::Moment::ref);
+        const RealChoice vel = choose_of(decoded->volume, level2::Moment::vel);
+        ASSERT_EQ(ref.sweeps.size(), elevations) << name;
+        ASSERT_EQ(vel.sweeps.size(), elevations) << name;
+        for (std::size_t at = 0; at < elevations; ++at) {
+            EXPECT_EQ(ref.surveillance[at], at < split_cuts) << name << " " << at;
+            EXPECT_FALSE(vel.surveillance[at]) << name << " " << at;
+            EXPECT_EQ(vel.sweeps[at], ref.sweeps[at] + (at < split_cuts ? 1 : 0)) << name;
+        }
+    }
+}
+
+// VCP 212 with MRLE: 0.5 and 0.9 degrees again in the middle of the volume.
+TEST(ChooseSweeps, RepeatedCutsOfARealVolume) {
+    STORMCELLAR_NEED_DATA();
+    const auto decoded = level2::decode_path(*testing::data_directory() / "chunks" / "L2D_230");
+    ASSERT_TRUE(decoded);
+    const level2::Volume& volume = decoded->volume;
+    const auto first = [](const std::vector<std::size_t>& sweeps) {
+        return std::vector<std::size_t>(sweeps.begin(), sweeps.begin() + 3);
+    };
+    using Sweeps = std::vector<std::size_t>;
+    using level2::Moment;
+    EXPECT_EQ(first(choose_of(volume, Moment::ref).sweeps), (Sweeps{10, 12, 4}));
+    EXPECT_EQ(first(choose_of(volume, Moment::zdr).sweeps), (Sweeps{10, 12, 4}));
+    EXPECT_EQ(first(choose_of(volume, Moment::vel).sweeps), (Sweeps{11, 13, 5}));
+    const auto start = volume.start_time();
+    ASSERT_TRUE(start);
+    EXPECT_EQ(first(choose_of(volume, Moment::ref, start).sweeps), (Sweeps{0, 2, 4}));
+    EXPECT_EQ(first(choose_of(volume, Moment::vel, start).sweeps), (Sweeps{1, 3, 5}));
+    // Midway between the two medians of each pair both sides of the border give their own.
+    const auto pair = choose_sweeps(volume, Moment::ref, 0.475, start);
+    const auto later = choose_sweeps(volume, Moment::ref, 0.475);
+    EXPECT_EQ(pair[0].repeats, 2U);
+    EXPECT_EQ(pair[2].repeats, 1U);
+    const auto middle = *pair[0].median_time + (*later[0].median_time - *pair[0].median_time) / 2;
+    const std::chrono::milliseconds step{2};
+    EXPECT_EQ(choose_of(volume, Moment::ref, middle - step).sweeps[0], 0U);
+    EXPECT_EQ(choose_of(volume, Moment::ref, middle + step).sweeps[0], 10U);
 }
 
 TEST(ChooseSweeps, ASweepThatBrokeOffDoesNotDisplaceAWholeOne) {

@@ -1,0 +1,27 @@
+// grid/mosaic_fill.h -- fills the bricks of a mosaic.
+//
+// Threads: columns of bricks are shared out; the result has the same bits for any number.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "grid/mosaic.h"
+#include "grid/mosaic_sites.h"
+
+namespace stormcellar::grid {
+
+// What is merged, and into what.
+struct MosaicWork {
+    const GridSpec& domain;
+    const MosaicOptions& options;
+    std::span<const PlacedSite> sites;
+    const MosaicView* previous = nullptr;  // bricks not changed are copied from it
+    std::vector<bool> changed = {};        // of each column of bricks, where there is a previous
+    Mosaic& made;
+};
+
+// Fills a mosaic in which nothing was seen so far.
+void fill_mosaic(const MosaicWork& work);
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,618 @@
+#include "grid/mosaic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "grid/beam_geometry.h"
+#include "grid/fast_log.h"
+#include "tests/grid/slow_mosaic.h"
+
+namespace stormcellar::grid {
+namespace {
+
+using level2::Moment;
+
+constexpr Quantization one_byte{1, -32, 0.5F};
+constexpr Quantization two_bytes{2, -40, 0.01F};
+
+// 70 x 52 columns of some 12 km and 18 levels: the last bricks are cut along every axis.
+GridSpec small_domain() {
+    GridSpec spec = default_spec(41, -75);
+    spec.projection = Projection::latitude_longitude;
+    spec.spacing_m = 0;
+    spec.spacing_deg = 0.12;
+    spec.nx = 70;
+    spec.ny = 52;
+    spec.levels_m.clear();
+    for (int level = 1; level <= 18; ++level)
+        spec.levels_m.push_back(350.0 * level);
+    return spec;
+}
+
+// Grids that stay where they are while partials point to them.
+class Partials {
+  public:
+    explicit Partials(GridSpec domain) : domain_(std::move(domain)) {}
+
+    template <class Fill>
+    void add(const SitePosition& site, const GridWindow& window, const Quantization& quantization,
+             Fill fill) {
+        Grid grid;
+        grid.spec = window_spec(domain_, window);
+        grid.values.assign(grid.spec.cell_count(), 0);
+        grid.status.assign(grid.spec.cell_count(), CellStatus::not_seen);
+        for (int iy = 0; iy < window.ny; ++iy) {
+            for (int ix = 0; ix < window.nx; ++ix) {
+                for (int iz = 0; iz < domain_.nz(); ++iz) {
+                    const std::size_t cell = grid.spec.index(ix, iy, iz);
+                    fill(window.first_x + ix, window.first_y + iy, iz, grid.status[cell],
+                         grid.values[cell]);
+                }
+            }
+        }
+        grids_.push_back(BrickGrid::from(grid, quantization));
+        all_.push_back({grids_.back().view(), site});
+    }
+    // Bricks of every kind: some all alike, some of states alone, some of all.
+    void add_random(const SitePosition& site, const GridWindow& window,
+                    const Quantization& quantization, unsigned seed) {
+        std::mt19937 random(seed);
+        std::vector<int> kinds;
+        for (int i = 0; i < 1000; ++i)
+            kinds.push_back(static_cast<int>(random() % 6));
+        add(site, window, quantization, [&](int ix, int iy, int iz, auto& status, float& value) {
+            const int kind = kinds[static_cast<std::size_t>((ix / 16 * 7 + iy / 16) * 3 + iz / 16)];
+            const auto drawn = static_cast<unsigned>(random() % 8);
+            if (kind < 3) {
+                status = static_cast<CellStatus>(kind == 2 && drawn == 0 ? 0 : kind % 2);
+            } else if (kind == 3) {
+                status = static_cast<CellStatus>(drawn % 3);
+            } else {
+                status = drawn < 4 ? CellStatus::value : static_cast<CellStatus>(drawn % 3);
+            }
+            if (status == CellStatus::value) {
+                value = static_cast<float>(-10 + 0.01 * static_cast<double>(random() % 7000));
+            }
+        });
+    }
+    [[nodiscard]] const GridSpec& domain() const { return domain_; }
+    std::vector<Partial>& all() { return all_; }
+
+  private:
+    GridSpec domain_;
+    std::deque<BrickGrid> grids_;
+    std::vector<Partial> all_;
+};
+
+const std::array<SitePosition, 5> sites = {{{"KBGM", 42.2, -75.98, 519},
+                                            {"KENX", 42.59, -74.06, 557},
+                                            {"KDIX", 39.95, -74.41, 45},
+                                            {"KCCX", 40.92, -78.0, 733},
+                                            {"TPHL", 39.95, -75.07, 46}}};
+const std::array<GridWindow, 5> windows = {
+    {{0, 0, 64, 52}, {16, 16, 54, 32}, {32, 0, 38, 48}, {0, 16, 48, 36}, {32, 16, 32, 32}}};
+
+Partials random_partials(const Quantization& quantization, unsigned seed = 1) {
+    Partials partials(small_domain());
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        partials.add_random(sites[i], windows[i], quantization,
+                            seed * 100 + static_cast<unsigned>(i));
+    }
+    return partials;
+}
+
+void expect_same_bits(const BrickView& a, const BrickView& b) {
+    ASSERT_EQ(*a.spec, *b.spec);
+    ASSERT_EQ(a.quantization, b.quantization);
+    ASSERT_EQ(a.bricks.size(), b.bricks.size());
+    EXPECT_EQ(std::memcmp(a.bricks.data(), b.bricks.data(), a.bricks.size_bytes()), 0);
+    ASSERT_EQ(a.states.size(), b.states.size());
+    EXPECT_TRUE(std::equal(a.states.begin(), a.states.end(), b.states.begin()));
+    ASSERT_EQ(a.codes.size(), b.codes.size());
+    EXPECT_EQ(std::memcmp(a.codes.data(), b.codes.data(), a.codes.size()), 0);
+}
+
+void expect_same_bits(const Mosaic& a, const Mosaic& b) {
+    expect_same_bits(a.cells.view(), b.cells.view());
+    ASSERT_EQ(a.counts.has_value(), b.counts.has_value());
+    if (a.counts) expect_same_bits(a.counts->view(), b.counts->view());
+    ASSERT_EQ(a.weights.has_value(), b.weights.has_value());
+    if (a.weights) expect_same_bits(a.weights->view(), b.weights->view());
+}
+
+// What was compared, so that a test can ask whether it was enough.
+struct Compared {
+    std::array<int, 4> states{};
+    int close = 0;
+};
+
+Compared expect_as_the_oracle(const GridSpec& domain, std::span<const Partial> partials,
+                              MosaicOptions options) {
+    options.counts = options.weights = true;
+    const auto mosaic = merge(domain, partials, options);
+    EXPECT_TRUE(mosaic);
+    Compared compared;
+    if (!mosaic) return compared;
+    const MosaicView made = mosaic->view();
+    const std::vector<SlowCell> expected = slow_mosaic(domain, partials, options);
+    const auto step = static_cast<long double>(made.cells.quantization.step);
+    const auto least = static_cast<long double>(made.cells.quantization.first_value);
+    int wrong = 0;
+    for (int iy = 0; iy < domain.ny; ++iy) {
+        for (int ix = 0; ix < domain.nx; ++ix) {
+            for (int iz = 0; iz < domain.nz(); ++iz) {
+                const SlowCell& cell = expected[domain.index(ix, iy, iz)];
+                const CellStatus status = made.cells.status(ix, iy, iz);
+                const bool seen = cell.count > 0;
+                bool good = made.counts->status(ix, iy, iz) ==
+                            (seen ? CellStatus::value : CellStatus::not_seen);
+                good = good && made.weights->status(ix, iy, iz) ==
+                                   (seen ? CellStatus::value : CellStatus::not_seen);
+                if (seen && good) {
+                    good = made.counts->value(ix, iy, iz) == static_cast<float>(cell.count) &&
+                           std::abs(made.weights->value(ix, iy, iz) - cell.weight) < 0x1.01p-11L;
+                }
+                if (cell.is_close) {
+                    ++compared.close;
+                } else {
+                    ++compared.states[static_cast<std::size_t>(cell.status)];
+                    good = good && status == cell.status;
+                    if (good && status == CellStatus::value) {
+                        const long double off =
+                            made.cells.value(ix, iy, iz) - std::max(cell.value, least);
+                        good = std::abs(off) <= 0.51L * step;
+                    }
+                }
+                if (!good && ++wrong < 5) {
+                    ADD_FAILURE() << "cell " << ix << ", " << iy << ", " << iz << ": "
+                                  << cell_status_name(status) << " " << made.cells.value(ix, iy, iz)
+                                  << ", expected " << cell_status_name(cell.status) << " "
+                                  << static_cast<double>(cell.value) << " of " << cell.count;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(wrong, 0);
+    return compared;
+}
+
+TEST(Mosaic, EveryRuleIsThatOfTheOracle) {
+    for (const Quantization& quantization : {one_byte, two_bytes}) {
+        Partials partials = random_partials(quantization);
+        for (const Overlap overlap :
+             {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
+            for (const Averaging averaging : {Averaging::in_db, Averaging::in_z}) {
+                MosaicOptions options;
+                options.overlap = overlap;
+                options.averaging = averaging;
+                SCOPED_TRACE(fmt::format("{} bytes, {}, {}", quantization.code_bytes,
+                                         overlap_name(overlap),
+                                         averaging == Averaging::in_z ? "Z" : "dB"));
+                const Compared compared =
+                    expect_as_the_oracle(partials.domain(), partials.all(), options);
+                for (const int count : compared.states)
+                    EXPECT_GT(count, 1000);
+                EXPECT_LT(compared.close, 100);
+            }
+        }
+    }
+}
+
+TEST(Mosaic, OtherMomentsTakeNoDetectionLimit) {
+    Partials partials = random_partials(one_byte, 2);
+    for (const Moment moment : {Moment::zdr, Moment::rho, Moment::sw}) {
+        MosaicOptions options;
+        options.moment = moment;
+        expect_as_the_oracle(partials.domain(), partials.all(), options);
+    }
+    for (const Moment moment : {Moment::vel, Moment::phi}) {
+        MosaicOptions options;
+        options.moment = moment;
+        options.overlap = default_overlap(moment);
+        expect_as_the_oracle(partials.domain(), partials.all(), options);
+    }
+}
+
+TEST(Mosaic, ShortAndLongWeightsLoseNoSite) {
+    Partials partials = random_partials(one_byte, 3);
+    for (const double length_m : {1000.0, 20e3, 60e3, 1e7}) {
+        MosaicOptions options;
+        options.length_m = length_m;
+        SCOPED_TRACE(length_m);
+        expect_as_the_oracle(partials.domain(), partials.all(), options);
+    }
+}
+
+// Two sites at one place, so that their weights are equal: every pair of states by hand.
+TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
+    GridSpec domain = default_spec(41, -75);
+    domain.nx = domain.ny = 16;
+    domain.levels_m = {1000};
+    enum State { unseen, nothing, folded, weak, strong };
+    const auto put = [](int state, auto& status, float& value) {
+        status = static_cast<CellStatus>(std::min(state, 3));
+        value = state == weak ? 10.0F : 40.0F;
+    };
+    Partials partials(domain);
+    // The same place, but for the name.
+    partials.add({"KAAA", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
+                 [&](int ix, int, int, auto& status, float& value) { put(ix % 5, status, value); });
+    partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte,
+                 [&](int, int iy, int, auto& status, float& value) { put(iy % 5, status, value); });
+    const auto state_of = [&](Overlap overlap, Moment moment, int a, int b) -> double {
+        MosaicOptions options;
+        options.overlap = overlap;
+        options.moment = moment;
+        const auto made = merge(domain, partials.all(), options);
+        const BrickView view = made->cells.view();
+        const CellStatus status = view.status(a, b, 0);
+        // States as -100, -101 and -102, which no value is.
+        if (status != CellStatus::value) return -100 - static_cast<int>(status);
+        return static_cast<double>(view.value(a, b, 0));
+    };
+    constexpr double not_seen = -100, no_echo = -101, range_folded = -102;
+    for (const Overlap overlap :
+         {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
+        SCOPED_TRACE(overlap_name(overlap));
+        for (const auto& [alone, is] : {std::pair<int, double>{unseen, not_seen},
+                                        {nothing, no_echo},
+                                        {folded, range_folded},
+                                        {weak, 10},
+                                        {strong, 40}}) {
+            EXPECT_EQ(state_of(overlap, Moment::zdr, alone, unseen), is);
+            EXPECT_EQ(state_of(overlap, Moment::zdr, unseen, alone), is);
+            EXPECT_EQ(state_of(overlap, Moment::zdr, alone, alone), is);
+        }
+    }
+    for (const Overlap overlap : {Overlap::mean, Overlap::distance_weighted}) {
+        EXPECT_EQ(state_of(overlap, Moment::zdr, weak, strong), 25);
+        EXPECT_EQ(state_of(overlap, Moment::zdr, weak, nothing), 10) << "v = n is a value";
+        EXPECT_EQ(state_of(overlap, Moment::zdr, folded, strong), 40) << "f = v is a value";
+        EXPECT_EQ(state_of(overlap, Moment::zdr, folded, nothing), no_echo) << "f = n is no echo";
+        // Detection limits of -41.5 dBZ at 1 km, some 15 km off and 1 km up.
+        const double arc_km = std::hypot(domain.x_m(strong), domain.y_m(nothing)) / 1000;
+        const double limit = -41.5 + 20 * std::log10(std::hypot(arc_km, 1.0));
+        EXPECT_NEAR(state_of(overlap, Moment::ref, strong, nothing), (40 + limit) / 2, 0.2551);
+    }
+    EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, weak, strong), 40);
+    EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, nothing, weak), 10);
+    EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, weak), 10);
+    EXPECT_EQ(state_of(Overlap::maximum, Moment::ref, folded, nothing), no_echo);
+    // Of two as near, the first by name.
+    EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, weak, strong), 10);
+    EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, strong, weak), 40);
+    EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, folded, weak), range_folded);
+    EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, nothing, weak), no_echo);
+}
+
+TEST(Mosaic, OrderOfArrivalAndThreadsChangeNoBit) {
+    for (const Quantization& quantization : {one_byte, two_bytes}) {
+        Partials partials = random_partials(quantization, 4);
+        for (const Overlap overlap :
+             {Overlap::mean, Overlap::nearest, Overlap::distance_weighted}) {
+            MosaicOptions options;
+            options.overlap = overlap;
+            options.averaging = Averaging::in_z;
+            options.counts = options.weights = true;
+            const auto once = merge(partials.domain(), partials.all(), options);
+            ASSERT_TRUE(once);
+            std::mt19937 random(5);
+            for (const int threads : {1, 3}) {
+                options.threads = threads;
+                for (int i = 0; i < 3; ++i) {
+                    std::shuffle(partials.all().begin(), partials.all().end(), random);
+                    const auto again = merge(partials.domain(), partials.all(), options);
+                    ASSERT_TRUE(again);
+                    expect_same_bits(*once, *again);
+                }
+            }
+        }
+    }
+}
+
+TEST(Mosaic, OneSiteAloneIsItsPartial) {
+    for (const Quantization& quantization : {one_byte, two_bytes}) {
+        const GridSpec domain = small_domain();
+        Partials partials(domain);
+        partials.add_random(sites[0], {0, 0, domain.nx, domain.ny}, quantization, 6);
+        for (const Overlap overlap :
+             {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
+            MosaicOptions options;
+            options.overlap = overlap;
+            const auto made = merge(domain, partials.all(), options);
+            ASSERT_TRUE(made);
+            expect_same_bits(made->cells.view(), partials.all()[0].view);
+        }
+    }
+}
+
+TEST(Mosaic, EqualValuesStayWhatTheyAre) {
+    const GridSpec domain = small_domain();
+    for (const Quantization& quantization : {one_byte, two_bytes}) {
+        Partials partials(domain);
+        for (const SitePosition& site : sites) {
+            partials.add(site, {0, 0, domain.nx, domain.ny}, quantization,
+                         [&](int ix, int iy, int iz, auto& status, float& value) {
+                             status = CellStatus::value;
+                             value = static_cast<float>((ix * 31 + iy * 17 + iz * 3) % 80 - 20);
+                         });
+        }
+        for (const Averaging averaging : {Averaging::in_db, Averaging::in_z}) {
+            MosaicOptions options;
+            options.averaging = averaging;
+            const auto made = merge(domain, partials.all(), options);
+            ASSERT_TRUE(made);
+            expect_same_bits(made->cells.view(), partials.all()[0].view);
+        }
+    }
+}
+
+TEST(Mosaic, AnUpdateIsAFullMerge) {
+    std::mt19937 random(7);
+    for (const Quantization& quantization : {one_byte, two_bytes}) {
+        Partials partials = random_partials(quantization, 8);
+        const GridSpec& domain = partials.domain();
+        MosaicOptions options;
+        options.counts = options.weights = true;
+        auto mosaic = merge(domain, partials.all(), options);
+        ASSERT_TRUE(mosaic);
+        for (unsigned round = 0; round < 12; ++round) {
+            // A new volume, or a site that comes, goes, or moves its window.
+            std::vector<Partial>& all = partials.all();
+            std::vector<GridWindow> changed;
+            const std::size_t at = random() % sites.size();
+            const auto known = std::find_if(all.begin(), all.end(), [&](const Partial& partial) {
+                return partial.site.icao == sites[at].icao;
+            });
+            if (known != all.end()) {
+                changed.push_back(*window_of(domain, *known->view.spec));
+                all.erase(known);
+            }
+            if (round % 4 != 3) {
+                const GridWindow& window = windows[random() % windows.size()];
+                changed.push_back(window);
+                partials.add_random(sites[at], window, quantization, round + 1000);
+            }
+            options.threads = 1 + static_cast<int>(round % 2);
+            auto updated = update(mosaic->view(), all, changed, options);
+            ASSERT_TRUE(updated);
+            const auto whole = merge(domain, all, options);
+            ASSERT_TRUE(whole);
+            expect_same_bits(*updated, *whole);
+            mosaic = std::move(updated);
+        }
+    }
+}
+
+// Bricks that hold nothing to be seen may be anything on disk: they are not read. Nor are those
+// that no changed window touches.
+TEST(Mosaic, ReadsOnlyWhatIsOccupiedAndTouched) {
+    Partials partials = random_partials(one_byte, 9);
+    const GridSpec& domain = partials.domain();
+    const auto expected = merge(domain, partials.all(), {});
+    ASSERT_TRUE(expected);
+    std::deque<std::vector<std::byte>> spoilt;
+    std::vector<Partial> all = partials.all();
+    for (Partial& partial : all) {
+        auto& codes = spoilt.emplace_back(partial.view.codes.begin(), partial.view.codes.end());
+        for (std::size_t i = 0; i < partial.view.bricks.size(); ++i) {
+            if (partial.view.bricks[i].kind == BrickKind::stored) continue;
+            std::fill_n(codes.begin() + static_cast<std::ptrdiff_t>(i * brick_cells), brick_cells,
+                        std::byte{200});
+        }
+        partial.view.codes = codes;
+    }
+    const auto made = merge(domain, all, {});
+    ASSERT_TRUE(made);
+    expect_same_bits(*expected, *made);
+
+    // Everything but the bricks of one window.
+    const GridWindow changed{32, 32, 16, 32};
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        const GridWindow window = *window_of(domain, *all[s].view.spec);
+        for (int bx = 0; bx < all[s].view.bricks_x; ++bx) {
+            for (int by = 0; by < all[s].view.bricks_y; ++by) {
+                const int x = window.first_x + bx * 16;
+                const int y = window.first_y + by * 16;
+                if (x >= 32 && x < 48 && y >= 32 && y < 64) continue;
+                const std::size_t first = all[s].view.brick_index(bx, by, 0) * brick_cells;
+                std::fill_n(spoilt[s].begin() + static_cast<std::ptrdiff_t>(first),
+                            all[s].view.bricks_z * brick_cells, std::byte{200});
+            }
+        }
+    }
+    const auto updated = update(expected->view(), all, {&changed, 1}, {});
+    ASSERT_TRUE(updated);
+    expect_same_bits(*expected, *updated);
+}
+
+// Two radars, one of which shows all 2 dB stronger, see one smooth field. Where the second one's
+// window ends its weight is at most 3.4 % of one, and half of what the first has 140 km nearer.
+TEST(Mosaic, NoSeamWhereAWindowEnds) {
+    GridSpec domain = default_spec(41, -76);
+    domain.nx = 256;
+    domain.ny = 64;
+    domain.spacing_m = 4000;
+    domain.levels_m = {3000};
+    const SitePosition first{"KBGM", 41, -76, 500};
+    const SitePosition second{"KENX", 41, -72, 500};
+    const auto window = site_window(domain, second);
+    ASSERT_TRUE(window);
+    ASSERT_GT(window->first_x, 16) << "it ends within the domain";
+    const auto field = [](int ix, int iy) { return 30 + 10 * std::sin(ix / 40.0 + iy / 60.0); };
+    Partials partials(domain);
+    const auto fill_with = [&](double more) {
+        return [&field, more](int ix, int iy, int, auto& status, float& value) {
+            status = CellStatus::value;
+            value = static_cast<float>(field(ix, iy) + more);
+        };
+    };
+    partials.add(first, {0, 0, domain.nx, domain.ny}, two_bytes, fill_with(0));
+    partials.add(second, *window, two_bytes, fill_with(2));
+    const auto largest_step = [&](Overlap overlap) {
+        MosaicOptions options;
+        options.overlap = overlap;
+        const auto made = merge(domain, partials.all(), options);
+        const BrickView view = made->cells.view();
+        double largest = 0;
+        for (int iy = 0; iy < domain.ny; ++iy) {
+            for (int ix = 1; ix < domain.nx; ++ix) {
+                const double step = static_cast<double>(view.value(ix, iy, 0)) -
+                                    static_cast<double>(view.value(ix - 1, iy, 0));
+                largest = std::max(largest, std::abs(step - field(ix, iy) + field(ix - 1, iy)));
+            }
+        }
+        return largest;
+    };
+    EXPECT_LT(largest_step(Overlap::distance_weighted), 0.1);
+    EXPECT_GT(largest_step(Overlap::mean), 0.9) << "what weights are for";
+    EXPECT_GT(largest_step(Overlap::nearest), 1.9);
+}
+
+TEST(Mosaic, MeansBelowTheCodesAreClampedAndCounted) {
+    GridSpec domain = default_spec(41, -75);
+    domain.nx = domain.ny = 16;
+    domain.levels_m = {1000};
+    Partials partials(domain);
+    const auto fill_with = [](CellStatus state) {
+        return [state](int, int, int, auto& status, float& value) {
+            status = state;
+            value = -32;
+        };
+    };
+    partials.add({"KAAA", 41, -75, 0}, {0, 0, 16, 16}, one_byte, fill_with(CellStatus::value));
+    partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, one_byte, fill_with(CellStatus::no_echo));
+    const auto made = merge(domain, partials.all(), {});
+    ASSERT_TRUE(made);
+    // Within 2 km the limit of -41.5 dBZ at 1 km is below -32.
+    EXPECT_EQ(made->cells.view().value(8, 8, 0), -32);
+    EXPECT_GT(made->cells.clamped_count(), 0U);
+    EXPECT_LT(made->cells.clamped_count(), 60U);
+}
+
+// What docs/geometry.md says of c (arc^2 + height^2): the slant range over the 4/3 earth.
+TEST(Mosaic, TheDetectionLimitIsThatOfTheSlantRange) {
+    double largest_db = 0;
+    for (const double altitude_m : {0.0, 3000.0}) {
+        const BeamGeometry beam(40, altitude_m);
+        for (double arc_m = 500; arc_m <= 460e3; arc_m *= 1.1) {
+            for (double height_m = 0; height_m <= 21e3; height_m += 1000) {
+                const double slant_m = beam.inverse({arc_m, height_m}).range_m;
+                const double flat_m = std::hypot(arc_m, height_m - altitude_m);
+                largest_db = std::max(largest_db, std::abs(20 * std::log10(slant_m / flat_m)));
+            }
+        }
+    }
+    EXPECT_LT(largest_db, 0.0125);
+    EXPECT_GT(largest_db, 0.01);
+}
+
+TEST(Mosaic, NoPartialsSeeNothing) {
+    const auto made = merge(small_domain(), {}, {});
+    ASSERT_TRUE(made);
+    for (const BrickEntry& entry : made->cells.view().bricks) {
+        EXPECT_EQ(entry.kind, BrickKind::uniform);
+        EXPECT_EQ(entry.uniform_status, CellStatus::not_seen);
+    }
+}
+
+TEST(Mosaic, DistancesMadeBeforeChangeNothing) {
+    Partials partials = random_partials(one_byte, 10);
+    const auto expected = merge(partials.domain(), partials.all(), {});
+    for (Partial& partial : partials.all()) {
+        partial.distance = std::make_shared<const SiteDistance>(
+            partials.domain(), *window_of(partials.domain(), *partial.view.spec), partial.site);
+    }
+    const auto made = merge(partials.domain(), partials.all(), {});
+    ASSERT_TRUE(expected && made);
+    expect_same_bits(*expected, *made);
+}
+
+TEST(Mosaic, WhatCannotBeMergedIsABadArgument) {
+    Partials partials = random_partials(one_byte, 11);
+    const std::vector<Partial> good = partials.all();
+    const GridSpec& domain = partials.domain();
+    const auto refused = [&](std::vector<Partial> all, const MosaicOptions& options,
+                             std::string_view why) {
+        const auto made = merge(domain, all, options);
+        ASSERT_FALSE(made) << why;
+        EXPECT_EQ(made.error().code, ErrorCode::bad_argument);
+        EXPECT_NE(made.error().message.find(why), std::string::npos) << made.error().message;
+        const auto whole = merge(domain, good, {});
+        EXPECT_FALSE(update(whole->view(), all, {}, options));
+    };
+    const auto with = [](auto change) {
+        MosaicOptions options;
+        change(options);
+        return options;
+    };
+    refused(good, with([](auto& o) { o.moment = Moment::vel; }), "along its own beams");
+    refused(good, with([](auto& o) { o.moment = Moment::phi; }), "an offset of its own");
+    refused(good, with([](auto& o) {
+                o.moment = Moment::zdr;
+                o.averaging = Averaging::in_z;
+            }),
+            "only reflectivity");
+    refused(good, with([](auto& o) { o.length_m = 999; }), "length");
+    refused(good, with([](auto& o) { o.length_m = std::nan(""); }), "length");
+    refused(good, with([](auto& o) { o.threads = 0; }), "threads");
+    const auto with_one = [&](auto change) {
+        std::vector<Partial> all = good;
+        change(all[2]);
+        return all;
+    };
+    refused(with_one([&](Partial& p) { p.site = good[0].site; }), {}, "twice");
+    refused(with_one([](Partial& p) { p.site.latitude_deg = std::nan(""); }), {}, "on the earth");
+    refused(with_one([](Partial& p) { p.view.quantization.step = 1; }), {}, "quantised");
+    GridSpec other = *good[2].view.spec;
+    other.offset_x_cells += 1;
+    refused(with_one([&](Partial& p) { p.view.spec = &other; }), {}, "whole bricks");
+    refused(with_one([&](Partial& p) { p.view.codes = p.view.codes.first(16); }), {},
+            "whole bricks");
+    const auto elsewhere =
+        std::make_shared<const SiteDistance>(domain, GridWindow{0, 0, 32, 32}, good[2].site);
+    refused(with_one([&](Partial& p) { p.distance = elsewhere; }), {}, "another place");
+
+    const auto previous = merge(domain, good, {});
+    MosaicOptions counted;
+    counted.counts = true;
+    EXPECT_FALSE(update(previous->view(), good, {}, counted)) << "it has no counts";
+}
+
+TEST(Mosaic, NamesAreReadAsTheyAreWritten) {
+    for (const Overlap overlap :
+         {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
+        EXPECT_EQ(overlap_from_name(overlap_name(overlap)), overlap);
+    }
+    EXPECT_FALSE(overlap_from_name("median"));
+}
+
+TEST(FastLog, IsAsAccurateAsStated) {
+    for (double exponent = -125.99; exponent < 127.9; exponent += 0.00071) {
+        const auto x = static_cast<float>(std::exp2(exponent));
+        const double exact = std::log2(static_cast<double>(x));
+        ASSERT_NEAR(static_cast<double>(fast_log2(x)), exact, 4e-7 + 1e-7 * std::abs(exact)) << x;
+    }
+    EXPECT_EQ(fast_log2(1.0F), 0);
+    EXPECT_EQ(fast_log2(0x1p-126F), -126);
+}
+
+TEST(FastExp, IsAsAccurateAsStated) {
+    for (double exponent = -126; exponent < 127; exponent += 0.00057) {
+        const auto x = static_cast<float>(exponent);
+        const double exact = std::exp2(static_cast<double>(x));
+        ASSERT_NEAR(static_cast<double>(fast_exp2(x)), exact, 3e-7 * exact) << x;
+    }
+    EXPECT_EQ(fast_exp2(0), 1);
+    EXPECT_EQ(fast_exp2(-126), 0x1p-126F);
+}
+
+}  // namespace
+}  // namespace stormcellar::grid

@@ -1,0 +1,311 @@
+// Two radars look at the same simulated weather; one of them is made faulty, one fault at a time.
+#include "grid/site_comparison.h"
+
+#include <chrono>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grid/brick_grid.h"
+#include "grid/gridder.h"
+#include "level2/decode.h"
+#include "synth/observe.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::grid {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr UniformMotion motion{24, 9};
+constexpr int seconds_of_fault = 30;
+
+// Nine storms between the two and around them, all going one way at 26 m/s.
+std::string scene_text(const char* station, double longitude_deg, unsigned seed) {
+    std::string text = fmt::format(R"([radar]
+station = "{}"
+latitude_deg = 35
+longitude_deg = {}
+altitude_m = 380
+[weather]
+latitude_deg = 35
+longitude_deg = -97
+[volumes]
+count = 1
+start = "2024-06-01T22:00:00Z"
+[instrument]
+seed = {}
+noise_db = 1
+)",
+                                   station, longitude_deg, seed);
+    for (const double elevation_deg : {0.5, 1.3, 2.2, 3.1, 4.2, 5.6, 7.4, 9.8}) {
+        text += fmt::format(
+            "[[cut]]\nelevation_deg = {}\nazimuth_rate_deg_s = 18\nwaveform = \"surveillance\"\n",
+            elevation_deg);
+    }
+    struct Place {
+        double x_km, y_km, size_km, top_km;
+    };
+    for (const Place& place :
+         {Place{-95, 60, 16, 13}, Place{-60, -75, 18, 14}, Place{-8, 70, 15, 12},
+          Place{2, -10, 14, 13}, Place{50, -80, 17, 14}, Place{85, 50, 16, 12},
+          Place{5, -130, 15, 13}, Place{10, 125, 17, 14}, Place{-40, 20, 13, 11}}) {
+        text += fmt::format(
+            "[[storm]]\nposition_km = [{}, {}]\nvelocity_mps = [{}, {}]\nradii_km = [{}, {}]\n"
+            "orientation_deg = 40\ncore_km = 3\ntop_km = {}\npeak_dbz = 55\ntilt = [0.4, 0.3]\n"
+            "ripple_db = 5\nripple_length_km = 9\n",
+            place.x_km, place.y_km, motion.east_mps, motion.north_mps, place.size_km,
+            0.75 * place.size_km, place.top_km);
+    }
+    return text;
+}
+
+struct Radar {
+    level2::Volume volume;
+    SitePosition site;
+};
+
+Radar radar_at(const char* station, double longitude_deg, unsigned seed) {
+    const auto scene = synth::parse_scene(scene_text(station, longitude_deg, seed), station);
+    EXPECT_TRUE(scene) << scene.error().message;
+    return {synth::observe(*scene, 0), {station, 35, longitude_deg, 380}};
+}
+
+struct Gridded {
+    BrickGrid bricks;
+    Grid grid;  // for its details
+    SitePosition site;
+
+    [[nodiscard]] SiteGrid as_site() const { return {bricks.view(), site, &grid.details}; }
+};
+
+GridSpec domain() {
+    GridSpec spec = default_spec(35, -97);
+    spec.nx = 240;
+    spec.ny = 300;
+    spec.levels_m.resize(24);
+    return spec;
+}
+
+Gridded gridded(const Radar& radar, const GridSpec& spec, UtcTime instant) {
+    const auto geometry = make_column_geometry(radar.site, spec);
+    EXPECT_TRUE(geometry);
+    GridderOptions options;
+    options.frame_time = instant;
+    options.details.add(Detail::age);
+    auto grid = make_grid(radar.volume, radar.site, **geometry, options);
+    EXPECT_TRUE(grid);
+    BrickGrid bricks = BrickGrid::from(*grid, default_quantization(level2::Moment::ref));
+    return {std::move(bricks), std::move(*grid), radar.site};
+}
+
+// Made once: 110 km apart.
+class SiteComparisonTest : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        b_ = new Radar(radar_at("XSYB", -96.4, 2));
+        const Radar a = radar_at("XSYA", -97.6, 1);
+        instant_ = *a.volume.start_time() + std::chrono::seconds{60};
+        good_ = new Gridded(gridded(a, domain(), instant_));
+    }
+    static void TearDownTestSuite() {
+        delete good_;
+        delete b_;
+    }
+
+    static SiteComparison compared(const Radar& b, std::optional<UniformMotion> moves = motion) {
+        const Gridded other = gridded(b, domain(), instant_);
+        ComparisonOptions options;
+        options.motion = moves;
+        const auto found = compare_sites(good_->as_site(), other.as_site(), options);
+        EXPECT_TRUE(found);
+        if (found) print(*found);
+        return found ? *found : SiteComparison{};
+    }
+    static void print(const SiteComparison& of) {
+        const auto text = [](const Estimate& estimate) {
+            return estimate.untold.empty()
+                       ? fmt::format("{:.3f}+-{:.3f}", estimate.value, estimate.standard_error)
+                       : "(" + estimate.untold + ")";
+        };
+        fmt::print(
+            "{}/{}: bias {} dB, azimuth {}, elevation {}, time {} s; {} cells, {} blocks, "
+            "{:.2f} dB\n",
+            of.b, of.a, text(of.bias_db), text(of.azimuth_deg), text(of.elevation_deg),
+            text(of.time_s), of.cells, of.blocks, of.deviation_db);
+    }
+    // Estimates are where they should be, within the accuracy that the header states.
+    static void expect(const SiteComparison& found, double bias_db, double azimuth_deg,
+                       double elevation_deg, double time_s) {
+        EXPECT_NEAR(found.bias_db.value, bias_db, 0.4);
+        EXPECT_NEAR(found.azimuth_deg.value, azimuth_deg, 0.12);
+        EXPECT_NEAR(found.elevation_deg.value, elevation_deg, 0.15);
+        EXPECT_NEAR(found.time_s.value, time_s, 12);
+        EXPECT_THAT(untold(found), IsEmpty());
+    }
+
+    static inline Radar* b_ = nullptr;
+    static inline Gridded* good_ = nullptr;
+    static inline UtcTime instant_;
+};
+
+TEST_F(SiteComparisonTest, WithoutFaultsNoneIsNamed) {
+    const SiteComparison found = compared(*b_);
+    expect(found, 0, 0, 0, 0);
+    EXPECT_THAT(faults(found), IsEmpty());
+}
+
+TEST_F(SiteComparisonTest, HalfADegreeOfAzimuthIsNamedAndNothingElse) {
+    Radar b = *b_;
+    for (level2::Sweep& sweep : b.volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.azimuth_deg = std::fmod(radial.azimuth_deg + 0.5F, 360.0F);
+    }
+    const SiteComparison found = compared(b);
+    expect(found, 0, 0.5, 0, 0);
+    EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: turned clockwise by 0.")));
+}
+
+TEST_F(SiteComparisonTest, HalfADegreeOfElevationIsNamedAndNothingElse) {
+    Radar b = *b_;
+    for (level2::Sweep& sweep : b.volume.sweeps) {
+        if (sweep.vcp_elevation_deg) *sweep.vcp_elevation_deg += 0.5F;
+        for (level2::Radial& radial : sweep.radials)
+            radial.elevation_deg += 0.5F;
+    }
+    for (level2::VcpCut& cut : b.volume.vcp_message->cuts)
+        cut.elevation_deg += 0.5F;
+    const SiteComparison found = compared(b);
+    expect(found, 0, 0, 0.5, 0);
+    EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: raised by 0.")));
+}
+
+TEST_F(SiteComparisonTest, TwoDecibelsAreNamedAndNothingElse) {
+    Radar b = *b_;
+    for (level2::Sweep& sweep : b.volume.sweeps) {
+        for (level2::SweepMoment& moment : sweep.moments)
+            moment.offset += 2 * moment.scale;
+    }
+    const SiteComparison found = compared(b);
+    expect(found, -2, 0, 0, 0);
+    EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: too weak by ")));
+}
+
+TEST_F(SiteComparisonTest, ThirtySecondsAreNamedAndNothingElse) {
+    Radar b = *b_;
+    for (level2::Sweep& sweep : b.volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.time -= std::chrono::seconds{seconds_of_fault};
+    }
+    const SiteComparison found = compared(b);
+    expect(found, 0, 0, 0, seconds_of_fault);
+    EXPECT_THAT(faults(found), ElementsAre(HasSubstr("XSYB against XSYA: clock late by ")));
+}
+
+TEST_F(SiteComparisonTest, WithoutAMotionThereIsNoTime) {
+    const SiteComparison unknown = compared(*b_, std::nullopt);
+    EXPECT_THAT(untold(unknown),
+                ElementsAre("XSYB against XSYA: time not told: the motion is not known"));
+    const SiteComparison still = compared(*b_, UniformMotion{0.5, 0.5});
+    EXPECT_THAT(untold(still),
+                ElementsAre("XSYB against XSYA: time not told: the weather stands still"));
+}
+
+// The same echo, seen five minutes later and 8 km farther: no fault of the antenna.
+TEST_F(SiteComparisonTest, LooksMinutesApartWithoutAMotionTellNoAngles) {
+    Radar b = *b_;
+    for (level2::Sweep& sweep : b.volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.time += std::chrono::minutes{5};
+    }
+    const SiteComparison found = compared(b, std::nullopt);
+    EXPECT_NE(found.azimuth_deg.untold, "");
+    EXPECT_NE(found.elevation_deg.untold, "");
+    EXPECT_NE(found.time_s.untold, "");
+    EXPECT_THAT(faults(found), IsEmpty());
+}
+
+// Other weather at the same places.
+TEST_F(SiteComparisonTest, SitesThatHardlySeeTheSameTellNothing) {
+    Radar b = *b_;
+    for (level2::Sweep& sweep : b.volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.azimuth_deg = std::fmod(radial.azimuth_deg + 40.0F, 360.0F);
+    }
+    const SiteComparison found = compared(b);
+    EXPECT_EQ(untold(found).size(), 4U);
+    EXPECT_THAT(faults(found), IsEmpty());
+}
+
+TEST_F(SiteComparisonTest, WithoutEchoInCommonNothingIsTold) {
+    Radar far = *b_;
+    far.site.longitude_deg = -90;  // 690 km away
+    GridSpec there = domain();
+    there.center_longitude_deg = -90;
+    const Gridded other = gridded(far, there, instant_);
+    const auto found = compare_sites(good_->as_site(), other.as_site(), {});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(untold(*found).size(), 4U);
+    EXPECT_THAT(untold(*found)[0], HasSubstr("no echo where both sites look"));
+    EXPECT_THAT(faults(*found), IsEmpty());
+
+    ComparisonOptions strong;
+    strong.least_dbz = 62;
+    const Gridded near = gridded(*b_, domain(), instant_);
+    const auto few = compare_sites(good_->as_site(), near.as_site(), strong);
+    ASSERT_TRUE(few);
+    EXPECT_THAT(untold(*few)[0], HasSubstr("too little echo in common"));
+}
+
+// A grid of its own projection and place, cells of another size: the same faults.
+TEST_F(SiteComparisonTest, GridsNeedNotBeTheSame) {
+    GridSpec spec = domain();
+    spec.projection = Projection::lambert_conformal;
+    spec.parallels_deg = {35, 35};
+    spec.center_longitude_deg = -96.6;
+    spec.center_latitude_deg = 35.1;
+    spec.spacing_m = 1250;
+    for (double& level_m : spec.levels_m)
+        level_m += 100;
+    const Gridded other = gridded(*b_, spec, instant_);
+    ComparisonOptions options;
+    options.motion = motion;
+    const auto found = compare_sites(good_->as_site(), other.as_site(), options);
+    ASSERT_TRUE(found);
+    print(*found);
+    expect(*found, 0, 0, 0, 0);
+    EXPECT_THAT(faults(*found), IsEmpty());
+}
+
+TEST_F(SiteComparisonTest, BadOptionsAreErrors) {
+    ComparisonOptions options;
+    options.greatest_range_m = 0;
+    EXPECT_EQ(compare_sites(good_->as_site(), good_->as_site(), options).error().code,
+              ErrorCode::bad_argument);
+    options = {};
+    options.motion = UniformMotion{NAN, 0};
+    EXPECT_EQ(compare_sites(good_->as_site(), good_->as_site(), options).error().code,
+              ErrorCode::bad_argument);
+    const CellDetails none;
+    SiteGrid other = good_->as_site();
+    other.details = &none;
+    EXPECT_EQ(compare_sites(good_->as_site(), other, {}).error().code, ErrorCode::bad_argument);
+}
+
+// A grid against itself: nothing at all.
+TEST_F(SiteComparisonTest, AGridAgreesWithItself) {
+    ComparisonOptions options;
+    options.motion = motion;
+    const auto found = compare_sites(good_->as_site(), good_->as_site(), options);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->bias_db.value, 0, 1e-9);
+    EXPECT_NEAR(found->azimuth_deg.value, 0, 1e-9);
+    EXPECT_NEAR(found->elevation_deg.value, 0, 1e-9);
+    EXPECT_NEAR(found->time_s.value, 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace stormcellar::grid

@@ -1,0 +1,26 @@
+// tests/grid/slow_mosaic.h -- the oracle of merging: one cell at a time, in long doubles, with a
+// geodesic for every site and column and a list of all that is known of the cell.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "grid/mosaic.h"
+
+namespace stormcellar::grid {
+
+struct SlowCell {
+    CellStatus status = CellStatus::not_seen;
+    long double value = 0;
+    int count = 0;
+    long double weight = 0;
+    // Two weights that the state hangs on, or two distances, are as good as equal.
+    bool is_close = false;
+};
+
+// Of every cell, by index of the domain's spec.
+[[nodiscard]] std::vector<SlowCell> slow_mosaic(const GridSpec& domain,
+                                                std::span<const Partial> partials,
+                                                const MosaicOptions& options);
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,87 @@
+// The traps that scripts/test --traps relies on do fire, in workers too, and can be masked.
+#include "tests/testing/fp_traps.h"
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "base/floating_point.h"
+#include "base/parallel.h"
+
+namespace stormcellar::testing {
+namespace {
+
+// Not known to the compiler.
+volatile double zero = 0;
+volatile double huge = 1e308;
+volatile double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+template <class Operation>
+void trapped(Operation operation) {
+    std::signal(SIGFPE, SIG_DFL);  // sanitizers have a handler of their own
+    const FpTraps traps;
+    operation();
+    std::_Exit(0);
+}
+
+void keep(double value) {
+    [[maybe_unused]] volatile double kept = value;
+}
+
+TEST(FpTrapsDeathTest, WhatIsNoNumberEndsTheProgram) {
+    const auto by_signal = ::testing::KilledBySignal(SIGFPE);
+    EXPECT_EXIT(trapped([] { keep(1 / zero); }), by_signal, "");
+    EXPECT_EXIT(trapped([] { keep(zero / zero); }), by_signal, "");
+    EXPECT_EXIT(trapped([] { keep(huge * huge); }), by_signal, "");
+    EXPECT_EXIT(trapped([] { keep(nan_value < zero ? 1 : 2); }), by_signal, "");
+    EXPECT_EXIT(trapped([] { keep(std::log10(zero)); }), by_signal, "");
+}
+
+TEST(FpTrapsDeathTest, OrdinaryArithmeticDoesNot) {
+    const auto well = ::testing::ExitedWithCode(0);
+    EXPECT_EXIT(trapped([] { keep(1 / huge / huge); }), well, "") << "underflow";
+    EXPECT_EXIT(trapped([] { keep(std::sqrt(zero + 2)); }), well, "") << "inexact";
+    EXPECT_EXIT(trapped([] { keep(std::isnan(nan_value) ? 1 : 2); }), well, "");
+    EXPECT_EXIT(trapped([] {
+                    const MaskedTraps masked;
+                    keep(1 / zero);
+                }),
+                well, "");
+}
+
+// One piece a thread: each waits for the others, so that the caller cannot do them all.
+TEST(FpTrapsDeathTest, WorkersInheritThem) {
+    const auto all_on = [] {
+        std::atomic<int> begun{0};
+        std::atomic<int> on{0};
+        for_each_piece(4, 4, [&](int) {
+            ++begun;
+            while (begun < 4) {
+            }
+            on += fp_traps_are_on() ? 1 : 0;
+        });
+        std::_Exit(on == 4 ? 0 : 1);
+    };
+    EXPECT_EXIT(trapped(all_on), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(FpTraps, AreAsBeforeAfterwards) {
+    const bool before = fp_traps_are_on();
+    {
+        const FpTraps on;
+        EXPECT_TRUE(fp_traps_are_on());
+        {
+            const MaskedTraps masked;
+            EXPECT_FALSE(fp_traps_are_on());
+        }
+        EXPECT_TRUE(fp_traps_are_on());
+    }
+    EXPECT_EQ(fp_traps_are_on(), before);
+}
+
+}  // namespace
+}  // namespace stormcellar::testing

@@ -1,0 +1,383 @@
+// Values and states that do not mix well, gridded by every method: each test is named by its hazard
+// (DESIGN section 6) and has its answer in closed form.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "grid/beam_geometry.h"
+#include "grid/column_geometry.h"
+#include "grid/site_frame.h"
+#include "tests/hard_cases/grid_case.h"
+
+namespace stormcellar::grid {
+namespace {
+
+// ---- Velocity across the Nyquist fold
+
+constexpr double nyquist_mps = 26;
+// Codes of 16 bits, hundredths of a metre a second.
+std::uint16_t velocity_code(double mps) {
+    return static_cast<std::uint16_t>(std::lround(mps * 100) + 10000);
+}
+
+double folded(double mps, double half_mps) {
+    return mps - 2 * half_mps * std::floor((mps + half_mps) / (2 * half_mps));
+}
+
+// A wind of 26 m/s towards the north-east, which folds where it blows along the beam, and changes
+// with height so that neighbours in all directions straddle the fold.
+double radial_wind_mps(double azimuth_deg, double range_m, double elevation_deg) {
+    const double along = std::cos((azimuth_deg - 45) * M_PI / 180);
+    return (26 + range_m / 1e5 + elevation_deg) * along;
+}
+
+GridCase aliased_volume(const std::vector<double>& nyquists_mps) {
+    std::vector<SweepPlan> plans;
+    for (const double half_mps : nyquists_mps) {
+        SweepPlan plan;
+        plan.cut = static_cast<int>(plans.size()) + 1;
+        plan.elevation_deg = 0.5 + static_cast<double>(plans.size());
+        plan.moment = level2::Moment::vel;
+        plan.word_size_bits = 16;
+        plan.gates = 150;
+        plan.code = [half_mps, elevation_deg = plan.elevation_deg](int radial, int gate) {
+            const double mps = radial_wind_mps(radial + 0.5, 1000.0 * gate, elevation_deg);
+            return velocity_code(half_mps > 0 ? folded(mps, half_mps) : mps);
+        };
+        plans.push_back(plan);
+    }
+    GridCase given;
+    given.moment = level2::Moment::vel;
+    given.site = plains;
+    given.volume = make_volume(plans);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        level2::Sweep& sweep = given.volume.sweeps[i];
+        sweep.moments[0].scale = 100;
+        sweep.moments[0].offset = 10000;
+        for (level2::Radial& radial : sweep.radials)
+            radial.nyquist_mps = static_cast<float>(nyquists_mps[i]);
+    }
+    given.spec = plane_about(plains, 61, 3700, {0.5, 1, 1.5, 2, 3, 4, 5});
+    return given;
+}
+
+double nearest_turn(double a, double b, double half) {
+    return std::abs(std::remainder(a - b, 2 * half));
+}
+
+// Beyond 20 km from the site; nearer, cells are wide in azimuth.
+template <class Visit>
+void for_each_value(const Grid& grid, Visit visit) {
+    for (int iy = 0; iy < grid.spec.ny; ++iy) {
+        for (int ix = 0; ix < grid.spec.nx; ++ix) {
+            const PolarPoint at = SiteFrame::from_plane(grid.spec.x_m(ix), grid.spec.y_m(iy));
+            if (at.arc_m < 20e3) continue;
+            for (int level = 0; level < grid.spec.nz(); ++level) {
+                const std::size_t cell = grid.spec.index(ix, iy, level);
+                if (grid.status[cell] != CellStatus::value) continue;
+                visit(at, static_cast<double>(grid.values[cell]));
+            }
+        }
+    }
+}
+
+// Wind differs by less than 4 m/s between the gates of a cell, so whatever is made of them is
+// within 4 m/s of the wind at its place on the circle: a mean across the fold would be up to 26
+// off.
+TEST(NyquistFold, NoValueLiesInItsMiddleByAnyMethod) {
+    const GridCase given = aliased_volume({nyquist_mps, nyquist_mps, nyquist_mps});
+    for (const Method& method : all_methods(given.moment)) {
+        const Grid grid = grid_of(given, method, -nyquist_mps, nyquist_mps);
+        expect_agrees_with_oracle(given, method, grid);
+        int near_the_fold = 0;
+        for_each_value(grid, [&](const PolarPoint& at, double value) {
+            const double wind = radial_wind_mps(at.azimuth_deg, at.arc_m, 1.5);
+            ASSERT_LT(nearest_turn(value, wind, nyquist_mps), 5)
+                << label(method) << " " << at.azimuth_deg << " " << at.arc_m;
+            if (std::abs(std::abs(wind) - nyquist_mps) < 1) ++near_the_fold;
+        });
+        EXPECT_GT(near_the_fold, 300) << "the hazard is gone";
+    }
+}
+
+// Sweeps fold at different velocities, or do not say (TDWR): no mean of two circles is made. Every
+// value is then a mean of one sweep's gates, so it is within 4 m/s of the wind on one of the
+// circles.
+TEST(NyquistFold, DifferentOrUnknownNyquistVelocitiesAreNeverAveraged) {
+    for (const std::vector<double>& nyquists_mps :
+         {std::vector<double>{22, 26, 31}, std::vector<double>{26, 0, 26},
+          std::vector<double>{0, 0, 0}}) {
+        const GridCase given = aliased_volume(nyquists_mps);
+        for (const Method& method : all_methods(given.moment)) {
+            const Grid grid = grid_of(given, method, -31, 31);
+            for_each_value(grid, [&](const PolarPoint& at, double value) {
+                const double wind = radial_wind_mps(at.azimuth_deg, at.arc_m, 1.5);
+                double off = std::numeric_limits<double>::infinity();
+                for (const double half : nyquists_mps) {
+                    off = std::min(
+                        off, half > 0 ? nearest_turn(value, wind, half) : std::abs(value - wind));
+                }
+                ASSERT_LT(off, 5) << label(method) << " " << at.azimuth_deg << " " << at.arc_m;
+            });
+        }
+    }
+}
+
+TEST(NyquistFold, ANyquistVelocityThatIsNoNumberIsNotKnown) {
+    const GridCase unknown = aliased_volume({0, 0, 0});
+    GridCase no_number = unknown;
+    for (level2::Sweep& sweep : no_number.volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.nyquist_mps = std::nanf("");
+    }
+    for (const Method& method : all_methods(unknown.moment))
+        EXPECT_EQ(grid_of(no_number, method).values, grid_of(unknown, method).values);
+}
+
+// ---- Reflectivity over 100 dB
+
+// A column 100 km to the east that stands in the middle of a gate of each of two sweeps.
+struct Pair {
+    GridCase given;
+    double low_m = 0, high_m = 0;
+};
+using Code = std::function<std::uint16_t(int radial, int gate)>;
+
+Pair pair_of(const Code& low, const Code& high) {
+    Pair pair;
+    GridCase& given = pair.given;
+    std::vector<SweepPlan> plans(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        plans[i].cut = static_cast<int>(i) + 1;
+        plans[i].elevation_deg = i == 0 ? 0.5 : 1.5;
+        plans[i].gates = 150;
+        plans[i].code = i == 0 ? low : high;
+    }
+    given.volume = make_volume(plans);
+    given.site = plains;
+    const BeamGeometry beam(plains.latitude_deg, plains.altitude_m);
+    const double arc_m = beam.forward({100e3, 1}).arc_m;
+    pair.low_m = beam.over(arc_m, 0.5).height_m;
+    pair.high_m = beam.over(arc_m, 1.5).height_m;
+    const GeoPoint there =
+        SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({90.5, arc_m});
+    given.spec = plane_about({"", there.latitude_deg, there.longitude_deg, 0}, 1, 1000, {});
+    return pair;
+}
+
+Code all_of(std::uint16_t code) {
+    return [code](int, int) { return code; };
+}
+
+// The upper sweep's share by each method, of a height `share` of the way up.
+double share_of_high(const Method& method, double share) {
+    switch (method.interpolation) {
+        case Interpolation::nearest:
+            return share > 0.5 ? 1 : 0;
+        case Interpolation::linear:
+        case Interpolation::eight_point:
+            return share;
+        case Interpolation::beam_weighted:
+            break;
+    }
+    // The antenna's pattern over the distance of 1 degree, which is wider than the beam.
+    const auto pattern = [](double off) { return (std::pow(2, -4 * off * off) - 0.0625) / 0.9375; };
+    return pattern(1 - share) / (pattern(share) + pattern(1 - share));
+}
+
+TEST(ReflectivityOver100dB, MeansAreThoseOfLongDoubles) {
+    const long double weak_dbz = -30, strong_dbz = 70;
+    Pair pair = pair_of(all_of(ref_code(-30)), all_of(ref_code(70)));
+    for (const double share : {0.02, 0.1, 0.3, 0.49, 0.51, 0.8, 0.98}) {
+        pair.given.spec.levels_m = {pair.low_m + share * (pair.high_m - pair.low_m)};
+        for (const Method& method : all_methods()) {
+            const long double high = static_cast<long double>(share_of_high(method, share));
+            long double expected = (1 - high) * weak_dbz + high * strong_dbz;
+            if (method.averaging == Averaging::in_z) {
+                const long double z = (1 - high) * std::pow(10.0L, weak_dbz / 10) +
+                                      high * std::pow(10.0L, strong_dbz / 10);
+                expected = 10 * std::log10(z);
+            }
+            const Grid grid = grid_of(pair.given, method, -31, 71);
+            ASSERT_EQ(grid.status[0], CellStatus::value);
+            // 0.15 m of 1.7 km, times 100 dB; rises differ by less than a hundredth.
+            const bool by_beam = method.interpolation == Interpolation::beam_weighted;
+            EXPECT_NEAR(grid.values[0], static_cast<double>(expected), by_beam ? 0.5 : 0.05)
+                << label(method) << " " << share;
+        }
+    }
+}
+
+// Many gates in one cell: one of 70 dBZ among a hundred of -30 dBZ is 50 dBZ in Z, -29 in dB.
+TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
+    const Code one_of_100 = [](int radial, int gate) {
+        return ref_code(radial == 90 && gate == 100 ? 70 : -30);
+    };
+    Pair pair = pair_of(one_of_100, one_of_100);
+    pair.given.spec.spacing_m = 13000;
+    pair.given.spec.levels_m = {(pair.low_m + pair.high_m) / 2};
+    for (const Method& method : all_methods()) {
+        if (method.cell != CellExtent::area) continue;
+        const Grid grid = grid_of(pair.given, method, -31, 71);
+        ASSERT_EQ(grid.status[0], CellStatus::value);
+        const auto value = static_cast<double>(grid.values[0]);
+        // 13 gates along; across 13 km hold 7 or 8 radials of 1.75 km.
+        const double least =
+            method.averaging == Averaging::in_z ? 70 - 10 * std::log10(8 * 14) : -30;
+        const double most =
+            method.averaging == Averaging::in_z ? 70 - 10 * std::log10(7 * 12) : -30 + 100.0 / 84;
+        EXPECT_GE(value, least - 0.01) << label(method);
+        EXPECT_LE(value, most + 0.01) << label(method);
+    }
+}
+
+// A damaged scale makes every code infinite or more than anybody measured: such a sweep is none,
+// and the cells hold what the other one has.
+TEST(ValuesBeyondAllReason, AreNoValues) {
+    for (const float scale : {1e-38F, -1e-38F, 1e-3F, std::numeric_limits<float>::denorm_min()}) {
+        Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
+        pair.given.volume.sweeps[0].moments[0].scale = scale;
+        pair.given.spec.levels_m = {pair.low_m, pair.high_m};
+        for (const Method& method : all_methods()) {
+            if (method.cell == CellExtent::area) continue;  // levels reach half way
+            const Grid grid = grid_of(pair.given, method);
+            EXPECT_EQ(grid.status[0], CellStatus::not_seen) << label(method) << " " << scale;
+            EXPECT_EQ(grid.status[1], CellStatus::value) << label(method) << " " << scale;
+            EXPECT_NEAR(grid.values[1], 10, 0.01) << label(method) << " " << scale;
+        }
+    }
+}
+
+// Codes of 16 bits can say 30,000 dBZ, which is more than a float can hold as Z.
+TEST(ValuesBeyondAllReason, AreNeverInfiniteInZ) {
+    Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
+    for (level2::Sweep& sweep : pair.given.volume.sweeps) {
+        level2::SweepMoment& moment = sweep.moments[0];
+        moment.codes16.assign(moment.codes8.size(), 60000);
+        moment.codes8.clear();
+        moment.word_size_bits = 16;
+    }
+    pair.given.spec.levels_m = {(pair.low_m + pair.high_m) / 2};
+    for (const Method& method : all_methods())
+        EXPECT_EQ(grid_of(pair.given, method, 0, 40000).status[0], CellStatus::value);
+}
+
+// ---- The status rule, by every method
+
+struct Mixed {
+    const char* what;
+    std::uint16_t low, high;  // codes; 2 stands for not seen
+    double share;             // of the upper sweep
+    CellStatus expected;
+};
+constexpr std::uint16_t unseen_code = 2;
+const std::uint16_t echo = ref_code(30);
+
+// Every pair of states on either side of one half, as docs/geometry.md has the rule.
+std::vector<Mixed> mixtures() {
+    const auto value = CellStatus::value;
+    const auto quiet = CellStatus::no_echo;
+    const auto fold = CellStatus::range_folded;
+    const auto unseen = CellStatus::not_seen;
+    return {
+        {"value, value", echo, echo, 0.4, value},
+        {"value, some no echo", echo, below_threshold, 0.4, value},
+        {"value, more no echo", echo, below_threshold, 0.6, quiet},
+        {"no echo, more value", below_threshold, echo, 0.6, value},
+        {"value, some folded", echo, range_folded, 0.4, value},
+        {"value, more folded", echo, range_folded, 0.6, fold},
+        {"value, some not seen", echo, unseen_code, 0.4, value},
+        {"value, more not seen", echo, unseen_code, 0.6, unseen},
+        {"no echo, no echo", below_threshold, below_threshold, 0.6, quiet},
+        {"no echo, some folded", below_threshold, range_folded, 0.4, quiet},
+        {"no echo, more folded", below_threshold, range_folded, 0.6, fold},
+        {"no echo, some not seen", below_threshold, unseen_code, 0.4, quiet},
+        {"no echo, more not seen", below_threshold, unseen_code, 0.6, unseen},
+        {"folded, folded", range_folded, range_folded, 0.4, fold},
+        {"folded, some not seen", range_folded, unseen_code, 0.4, fold},
+        {"folded, more not seen", range_folded, unseen_code, 0.6, unseen},
+        {"not seen, more value", unseen_code, echo, 0.6, value},
+        {"not seen, not seen", unseen_code, unseen_code, 0.4, unseen},
+    };
+}
+
+// Gates are not seen beyond a radial's last one, which is cut off 10 km short of the column.
+void hide(level2::Sweep& sweep) {
+    for (std::uint16_t& count : sweep.moments[0].gate_counts)
+        count = 90;
+}
+
+TEST(StatusRule, EveryPairOfStatesUpTheColumnByEveryMethod) {
+    for (const Mixed& mixed : mixtures()) {
+        Pair pair = pair_of(all_of(mixed.low), all_of(mixed.high));
+        if (mixed.low == unseen_code) hide(pair.given.volume.sweeps[0]);
+        if (mixed.high == unseen_code) hide(pair.given.volume.sweeps[1]);
+        pair.given.spec.levels_m = {pair.low_m + mixed.share * (pair.high_m - pair.low_m)};
+        for (const Method& method : all_methods()) {
+            const Grid grid = grid_of(pair.given, method);
+            EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
+        }
+    }
+}
+
+// The same within one sweep: of the gates that lie in a cell, or of the two about a point in
+// azimuth. A pattern of radials makes the shares; 100 radials of one state, then of the other.
+TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
+    for (const Mixed& mixed : mixtures()) {
+        if (mixed.low == unseen_code || mixed.high == unseen_code) continue;
+        const Code two = [&mixed](int radial, int) {
+            return radial <= 90 ? mixed.low : mixed.high;
+        };
+        Pair pair = pair_of(two, two);
+        // The border lies at 91 degrees; the cell's centre a bit on this or that side of it.
+        const double azimuth_deg = 90.5 + mixed.share;
+        const double arc_m =
+            BeamGeometry(plains.latitude_deg, plains.altitude_m).forward({100e3, 1}).arc_m;
+        const GeoPoint there =
+            SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({azimuth_deg, arc_m});
+        pair.given.spec.center_latitude_deg = there.latitude_deg;
+        pair.given.spec.center_longitude_deg = there.longitude_deg;
+        pair.given.spec.levels_m = {(pair.low_m + pair.high_m) / 2};
+        for (const Method& method : all_methods()) {
+            if (method.cell == CellExtent::area) continue;  // holds whole radials: below
+            const Grid grid = grid_of(pair.given, method);
+            EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
+        }
+        // Some 29 km: 16 or 17 radials, of which about 2 are on the wrong side of the centre.
+        pair.given.spec.spacing_m = 29000;
+        const double shift_deg = mixed.share < 0.5 ? -2 : 2;
+        const GeoPoint wide =
+            SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({91 + shift_deg, arc_m});
+        pair.given.spec.center_latitude_deg = wide.latitude_deg;
+        pair.given.spec.center_longitude_deg = wide.longitude_deg;
+        for (const Method& method : all_methods()) {
+            if (method.cell != CellExtent::area) continue;
+            const Grid grid = grid_of(pair.given, method);
+            EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
+        }
+    }
+}
+
+// No echo enters a value at its gate's detection limit, by its weight.
+TEST(StatusRule, NoEchoEntersAtItsDetectionLimitByEveryMethod) {
+    Pair pair = pair_of(all_of(echo), all_of(below_threshold));
+    const double share = 0.35;
+    pair.given.spec.levels_m = {pair.low_m + share * (pair.high_m - pair.low_m)};
+    const double limit_dbz = -41.5 + 20 * std::log10(100);
+    for (const Method& method : all_methods()) {
+        const double high = share_of_high(method, share);
+        double expected = (1 - high) * 30 + high * limit_dbz;
+        if (method.averaging == Averaging::in_z) {
+            expected = 10 * std::log10((1 - high) * std::pow(10, 3.0) +
+                                       high * std::pow(10, limit_dbz / 10));
+        }
+        const Grid grid = grid_of(pair.given, method);
+        ASSERT_EQ(grid.status[0], CellStatus::value) << label(method);
+        EXPECT_NEAR(grid.values[0], expected, 0.2) << label(method);
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::grid
