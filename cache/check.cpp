@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "cache/format.h"
+#include "grid/sweep_clock.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -24,6 +26,12 @@ bool time_is_possible(UtcTime time) {
 bool is_finite(const grid::SitePosition& site) {
     return std::isfinite(site.latitude_deg) && std::isfinite(site.longitude_deg) &&
            std::isfinite(site.altitude_m);
+}
+
+bool is_possible(const grid::SweepTime& sweep) {
+    return std::abs(sweep.elevation_deg) <= 90 && time_is_possible(sweep.start) &&
+           sweep.first_azimuth_deg >= 0 && sweep.first_azimuth_deg <= 360 &&
+           sweep.degrees_per_s >= 0 && sweep.degrees_per_s <= grid::fastest_turn_deg_per_s;
 }
 
 bool is_possible(const grid::Quantization& quantization) {
@@ -104,15 +112,24 @@ Status check_description(const GridDescription& description,
     if (!std::all_of(description.sites.begin(), description.sites.end(), is_finite)) {
         return fail(ErrorCode::corrupt, "a site's position is not a number");
     }
+    const auto& sweeps = description.provenance.sweeps;
+    if (!std::all_of(sweeps.begin(), sweeps.end(),
+                     [](const grid::SweepTime& sweep) { return is_possible(sweep); })) {
+        return fail(ErrorCode::corrupt, "a sweep has an impossible angle, time or speed");
+    }
     return {};
 }
 
 Status check_bricks(std::span<const BrickEntry> bricks, std::span<const std::byte> states,
-                    const grid::Quantization& quantization) {
+                    const grid::Quantization& quantization, Packing packing) {
+    const std::uint64_t brick_bytes =
+        grid::brick_cells * static_cast<std::uint64_t>(quantization.code_bytes);
     std::uint64_t blocks = 0;
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const BrickEntry& entry = bricks[i];
-        bool good = entry.reserved == 0;
+        const bool is_packed = packing != Packing::none && entry.kind == BrickKind::stored;
+        bool good = is_packed ? entry.packed_bytes >= 1 && entry.packed_bytes <= brick_bytes
+                              : entry.packed_bytes == 0;
         switch (entry.kind) {
             case BrickKind::uniform:
                 good = good && is_uniform_form(entry);
@@ -136,6 +153,12 @@ Status check_bricks(std::span<const BrickEntry> bricks, std::span<const std::byt
         return fail(ErrorCode::corrupt, "a brick without values claims to have one");
     }
     return {};
+}
+
+std::uint64_t packed_size(std::span<const BrickEntry> bricks) {
+    return std::accumulate(
+        bricks.begin(), bricks.end(), std::uint64_t{0},
+        [](std::uint64_t sum, const BrickEntry& entry) { return sum + entry.packed_bytes; });
 }
 
 CodeRange code_range(std::span<const std::byte> codes, int code_bytes) {

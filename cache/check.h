@@ -19,11 +19,15 @@ namespace stormcellar::cache {
 [[nodiscard]] Status check_description(const GridDescription& description,
                                        const grid::Quantization& quantization);
 
-// Every entry is one of the three kinds in its only form: unused fields zero, counts and codes in
-// range, status blocks used once each and in order; and no status block claims a value.
+// Every entry is one of the three kinds in its only form: unused fields zero, counts, codes and
+// packed sizes in range, status blocks used once each and in order; and no status block claims a
+// value.
 [[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
                                   std::span<const std::byte> states,
-                                  const grid::Quantization& quantization);
+                                  const grid::Quantization& quantization, Packing packing);
+
+// What all stored bricks take together, packed.
+[[nodiscard]] std::uint64_t packed_size(std::span<const grid::BrickEntry> bricks);
 
 [[nodiscard]] std::uint64_t brick_count(const grid::GridSpec& spec);
 

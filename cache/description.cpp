@@ -1,5 +1,6 @@
 #include "cache/description.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -23,6 +24,12 @@ enum class RecordKind : std::uint16_t {
     note = 9,
     site = 10,
     source_modified = 11,
+    parallels = 12,
+    effects = 13,
+    predicted_error = 14,
+    sweep = 15,
+    frame = 16,
+    audit = 17,
 };
 
 struct RecordHead {
@@ -62,6 +69,21 @@ void append_site(std::vector<std::byte>& bytes, const grid::SitePosition& site) 
     append_record(bytes, RecordKind::site, contents);
 }
 
+// As a record holds it.
+struct StoredSweep {
+    double elevation_deg = 0;
+    std::int64_t start_ms = 0;
+    double first_azimuth_deg = 0;
+    double degrees_per_s = 0;
+};
+static_assert(sizeof(StoredSweep) == 32);
+
+void append_sweep(std::vector<std::byte>& bytes, const grid::SweepTime& sweep) {
+    const StoredSweep stored{sweep.elevation_deg, sweep.start.time_since_epoch().count(),
+                             sweep.first_azimuth_deg, sweep.degrees_per_s};
+    append_record(bytes, RecordKind::sweep, std::as_bytes(std::span(&stored, 1)));
+}
+
 std::string text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -82,7 +104,32 @@ bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     return true;
 }
 
-// False when the contents have a size that their kind cannot have.
+bool read_sweep(std::span<const std::byte> bytes, GridDescription& description) {
+    StoredSweep stored;
+    if (!read_number(bytes, stored)) return false;
+    description.provenance.sweeps.push_back({stored.elevation_deg,
+                                             UtcTime{std::chrono::milliseconds{stored.start_ms}},
+                                             stored.first_azimuth_deg, stored.degrees_per_s});
+    return true;
+}
+
+bool read_frame(std::span<const std::byte> bytes, GridDescription& description) {
+    std::array<std::int32_t, 2> numbers{};
+    if (!read_number(bytes, numbers)) return false;
+    description.provenance.provisional = numbers[0] != 0;
+    description.provenance.revision = numbers[1];
+    return true;
+}
+
+bool read_audit(std::span<const std::byte> bytes, std::vector<grid::AuditRow>& rows) {
+    if (bytes.size() % sizeof(grid::AuditRow) != 0) return false;
+    std::vector<grid::AuditRow> read(bytes.size() / sizeof(grid::AuditRow));
+    if (!read.empty()) std::memcpy(read.data(), bytes.data(), bytes.size());
+    rows = std::move(read);
+    return std::all_of(rows.begin(), rows.end(), grid::is_possible);
+}
+
+// False when the contents have a size or numbers that their kind cannot have.
 bool read_record(RecordKind kind, std::span<const std::byte> contents,
                  GridDescription& description) {
     grid::Provenance& provenance = description.provenance;
@@ -105,6 +152,12 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
         case RecordKind::software_version:
             provenance.software_version = text_of(contents);
             return true;
+        case RecordKind::effects:
+            provenance.effects = text_of(contents);
+            return true;
+        case RecordKind::predicted_error:
+            provenance.predicted_error = text_of(contents);
+            return true;
         case RecordKind::vcp: {
             std::int32_t number = 0;
             const bool whole = read_number(contents, number);
@@ -122,8 +175,16 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
             return true;
         case RecordKind::source_modified:
             return read_number(contents, provenance.source_modified_ns);
+        case RecordKind::parallels:
+            return read_number(contents, description.spec.parallels_deg);
         case RecordKind::site:
             return read_site(contents, description);
+        case RecordKind::sweep:
+            return read_sweep(contents, description);
+        case RecordKind::frame:
+            return read_frame(contents, description);
+        case RecordKind::audit:
+            return read_audit(contents, provenance.audit);
     }
     return true;  // of a later version
 }
@@ -142,6 +203,10 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
     append_text(bytes, RecordKind::beam_model, provenance.beam_model);
     append_text(bytes, RecordKind::averaging, provenance.averaging);
     append_text(bytes, RecordKind::software_version, provenance.software_version);
+    if (!provenance.effects.empty()) append_text(bytes, RecordKind::effects, provenance.effects);
+    if (!provenance.predicted_error.empty()) {
+        append_text(bytes, RecordKind::predicted_error, provenance.predicted_error);
+    }
     const std::int32_t vcp = provenance.vcp;
     append_record(bytes, RecordKind::vcp, std::as_bytes(std::span(&vcp, 1)));
     const std::int32_t partial = provenance.partial ? 1 : 0;
@@ -150,8 +215,22 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
     append_record(bytes, RecordKind::source_modified, std::as_bytes(std::span(&modified_ns, 1)));
     for (const auto& note : provenance.notes)
         append_text(bytes, RecordKind::note, note);
+    if (description.spec.projection == grid::Projection::lambert_conformal) {
+        append_record(bytes, RecordKind::parallels,
+                      std::as_bytes(std::span(description.spec.parallels_deg)));
+    }
     for (const auto& site : description.sites)
         append_site(bytes, site);
+    for (const auto& sweep : provenance.sweeps)
+        append_sweep(bytes, sweep);
+    if (provenance.revision != 0 || provenance.provisional) {
+        const std::array<std::int32_t, 2> frame = {provenance.provisional ? 1 : 0,
+                                                   provenance.revision};
+        append_record(bytes, RecordKind::frame, std::as_bytes(std::span(frame)));
+    }
+    if (!provenance.audit.empty()) {
+        append_record(bytes, RecordKind::audit, std::as_bytes(std::span(provenance.audit)));
+    }
     return bytes;
 }
 
@@ -169,8 +248,8 @@ Status decode_description(std::span<const std::byte> bytes, GridDescription& des
         }
         if (!read_record(static_cast<RecordKind>(head.kind), bytes.first(head.length),
                          description)) {
-            return fail(ErrorCode::corrupt, "a record of kind {} cannot have {} bytes", head.kind,
-                        head.length);
+            return fail(ErrorCode::corrupt, "a record of kind {} cannot have these {} bytes",
+                        head.kind, head.length);
         }
         bytes = bytes.subspan(padded);
     }

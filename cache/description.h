@@ -13,10 +13,11 @@
 
 namespace stormcellar::cache {
 
-// The parts of a description that are not in the header: sites and provenance.
+// The parts of a description that are not in the header: sites, provenance and standard parallels.
 [[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
 
-// Fills sites and provenance. corrupt when a record runs past the end or has an impossible size.
+// Fills these. corrupt when a record runs past the end or has an impossible size
+// or, of an audit, impossible numbers.
 [[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
                                         GridDescription& description);
 

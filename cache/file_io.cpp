@@ -20,7 +20,6 @@ tl::unexpected<Error> system_failure(int error_number) {
     return fail(code_of(error_number), "{}", std::system_category().message(error_number));
 }
 
-// Fills all of `bytes`; a file that ends before is truncated.
 }  // namespace
 
 Status read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> bytes) {
@@ -65,6 +64,7 @@ Result<Descriptor> open_for_reading(const std::filesystem::path& path) {
 }
 
 Map::~Map() {
+    registration_.release();  // before the addresses may become another's
     if (start_ != nullptr) ::munmap(const_cast<std::byte*>(start_), size_);
 }
 

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include "base/result.h"
+#include "cache/map_registry.h"
 
 namespace stormcellar::cache {
 
@@ -30,23 +31,29 @@ class Descriptor {
     int number_;
 };
 
-// A read-only map of a whole file. (Of the whole, because an offset must be a multiple of the
-// machine's page, which may be larger than the format's.)
+// A read-only map of a whole file, known to the guard of cache/map_guard.h. (Of the whole, because
+// an offset must be a multiple of the machine's page, which may be larger than the format's.)
 class Map {
   public:
     static Result<Map> of(const Descriptor& file, std::uint64_t size);
     Map(Map&& other) noexcept
-        : start_(std::exchange(other.start_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+        : start_(std::exchange(other.start_, nullptr)),
+          size_(std::exchange(other.size_, 0)),
+          registration_(std::move(other.registration_)) {}
     Map& operator=(Map&&) = delete;
     Map(const Map&) = delete;
     Map& operator=(const Map&) = delete;
     ~Map();
     [[nodiscard]] std::span<const std::byte> bytes() const { return {start_, size_}; }
+    // Whether the guard has put zeros in the place of the map.
+    [[nodiscard]] bool was_cut() const { return registration_.was_cut(); }
 
   private:
-    Map(const std::byte* start, std::size_t size) : start_(start), size_(size) {}
+    Map(const std::byte* start, std::size_t size)
+        : start_(start), size_(size), registration_(start, size) {}
     const std::byte* start_;
     std::size_t size_;
+    MapRegistration registration_;
 };
 
 // Opens for reading; never blocks on a FIFO.

@@ -27,13 +27,20 @@ inline constexpr std::uint64_t max_description_bytes = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t max_bricks = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t max_metadata_bytes = std::uint64_t{1} << 29;
 inline constexpr std::uint64_t status_block_bytes = 1024;
+inline constexpr std::uint32_t projection_count = 3;
+
+// Bits of required_features.
+inline constexpr std::uint32_t feature_window = 1;  // the offsets are not both 0
+// Bricks of codes are packed one by one and follow each other without holes.
+inline constexpr std::uint32_t packed_codes = 2;
+inline constexpr std::uint32_t known_features = feature_window | packed_codes;
 
 // At offset 0; the rest of the first page is zero.
 struct FileHeader {
     std::array<unsigned char, 8> magic{};
     std::uint32_t byte_order = 0;
     std::uint32_t version = 0;
-    std::uint32_t required_features = 0;  // bits that a reader must know; none are defined
+    std::uint32_t required_features = 0;  // bits that a reader must know
     std::uint32_t header_size = 0;        // 4096
     std::uint64_t file_size = 0;
     std::uint64_t checksum = 0;  // XXH3 of all bytes before the codes, this field as zero
@@ -49,7 +56,7 @@ struct FileHeader {
     std::uint32_t nx = 0, ny = 0, nz = 0;
     double center_latitude_deg = 0;
     double center_longitude_deg = 0;
-    double spacing_m = 0;
+    double spacing = 0;  // metres; degrees for latitude_longitude
     std::uint32_t moment = 0;
     std::uint32_t code_bytes = 0;
     float first_value = 0;
@@ -59,9 +66,11 @@ struct FileHeader {
     std::int64_t time_ms = 0;  // since 1970-01-01T00:00Z
     std::int64_t start_time_ms = 0;
     std::int64_t end_time_ms = 0;
+    double offset_x_cells = 0;  // of a window of a larger grid
+    double offset_y_cells = 0;
 };
 static_assert(std::is_trivially_copyable_v<FileHeader>);
-static_assert(sizeof(FileHeader) == 200);
+static_assert(sizeof(FileHeader) == 216);
 static_assert(offsetof(FileHeader, magic) == 0);
 static_assert(offsetof(FileHeader, byte_order) == 8);
 static_assert(offsetof(FileHeader, version) == 12);
@@ -83,7 +92,7 @@ static_assert(offsetof(FileHeader, ny) == 112);
 static_assert(offsetof(FileHeader, nz) == 116);
 static_assert(offsetof(FileHeader, center_latitude_deg) == 120);
 static_assert(offsetof(FileHeader, center_longitude_deg) == 128);
-static_assert(offsetof(FileHeader, spacing_m) == 136);
+static_assert(offsetof(FileHeader, spacing) == 136);
 static_assert(offsetof(FileHeader, moment) == 144);
 static_assert(offsetof(FileHeader, code_bytes) == 148);
 static_assert(offsetof(FileHeader, first_value) == 152);
@@ -95,6 +104,8 @@ static_assert(offsetof(FileHeader, bricks_z) == 172);
 static_assert(offsetof(FileHeader, time_ms) == 176);
 static_assert(offsetof(FileHeader, start_time_ms) == 184);
 static_assert(offsetof(FileHeader, end_time_ms) == 192);
+static_assert(offsetof(FileHeader, offset_x_cells) == 200);
+static_assert(offsetof(FileHeader, offset_y_cells) == 208);
 
 // An entry of the brick table stands on disk as it stands in memory.
 using grid::BrickEntry;
@@ -105,7 +116,7 @@ static_assert(offsetof(BrickEntry, value_count) == 2);
 static_assert(offsetof(BrickEntry, min_code) == 4);
 static_assert(offsetof(BrickEntry, max_code) == 6);
 static_assert(offsetof(BrickEntry, status_index) == 8);
-static_assert(offsetof(BrickEntry, reserved) == 12);
+static_assert(offsetof(BrickEntry, packed_bytes) == 12);
 static_assert(offsetof(BrickEntry, checksum) == 16);
 static_assert(static_cast<int>(grid::BrickKind::uniform) == 0);
 static_assert(static_cast<int>(grid::BrickKind::status_only) == 1);
@@ -115,6 +126,8 @@ static_assert(static_cast<int>(grid::CellStatus::no_echo) == 1);
 static_assert(static_cast<int>(grid::CellStatus::range_folded) == 2);
 static_assert(static_cast<int>(grid::CellStatus::value) == 3);
 static_assert(static_cast<int>(grid::Projection::azimuthal_equidistant) == 0);
+static_assert(static_cast<int>(grid::Projection::latitude_longitude) == 1);
+static_assert(static_cast<int>(grid::Projection::lambert_conformal) == 2);
 static_assert(static_cast<int>(level2::Moment::ref) == 0);
 static_assert(static_cast<int>(level2::Moment::cfp) == 6);
 
@@ -142,6 +155,12 @@ struct Layout {
     at.codes_offset = round_up(at.states_offset + states_size, page_size);
     at.codes_size = bricks * grid::brick_cells * code_bytes;
     at.file_size = at.codes_offset + at.codes_size;
+    return at;
+}
+// The same where the codes are packed, into so many bytes.
+[[nodiscard]] constexpr Layout packed_layout(Layout at, std::uint64_t codes_size) {
+    at.codes_size = codes_size;
+    at.file_size = at.codes_offset + codes_size;
     return at;
 }
 

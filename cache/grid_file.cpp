@@ -2,11 +2,12 @@
 //
 // All that steers the reader (header, table, states, names) is read into memory of our own and
 // checked there, so that another program that alters or cuts the file later cannot lead us astray.
-// Only the codes stay on disk and are mapped.
+// Only codes that are not packed stay on disk and are mapped.
 #include "cache/grid_file.h"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "cache/file_io.h"
 #include "cache/format.h"
 #include "cache/grid_file_mapping.h"
+#include "cache/packing.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -31,21 +33,32 @@ Status check_identity(const FileHeader& header) {
     if (header.byte_order != format::byte_order_mark) {
         return fail(ErrorCode::unsupported, "was written in another byte order");
     }
-    if (header.version != format::version || header.required_features != 0) {
+    const bool known = (header.required_features & ~format::known_features) == 0;
+    if (header.version != format::version || !known) {
         return fail(ErrorCode::unsupported,
-                    "has version {} and features {:#x}, this software reads version {}",
-                    header.version, header.required_features, format::version);
+                    "has version {} and features {:#x}, this software reads version {} and "
+                    "features {:#x}",
+                    header.version, header.required_features, format::version,
+                    format::known_features);
     }
-    const bool possible = header.header_size == format::page_size && header.nx >= 1 &&
-                          header.nx <= 16384 && header.ny >= 1 && header.ny <= 16384 &&
-                          header.nz >= 1 && header.nz <= 1024 &&
-                          (header.code_bytes == 1 || header.code_bytes == 2) &&
-                          header.brick_edge == grid::brick_edge && header.projection == 0 &&
-                          header.moment < static_cast<std::uint32_t>(level2::moment_count) &&
-                          header.description_size <= format::max_description_bytes &&
-                          header.states_size <= format::max_metadata_bytes;
+    const bool is_window = header.offset_x_cells != 0 || header.offset_y_cells != 0;
+    if (is_window != ((header.required_features & format::feature_window) != 0)) {
+        return fail(ErrorCode::corrupt, "the header contradicts itself on being a window");
+    }
+    const bool possible =
+        header.header_size == format::page_size && header.nx >= 1 && header.nx <= 16384 &&
+        header.ny >= 1 && header.ny <= 16384 && header.nz >= 1 && header.nz <= 1024 &&
+        (header.code_bytes == 1 || header.code_bytes == 2) &&
+        header.brick_edge == grid::brick_edge && header.projection < format::projection_count &&
+        header.moment < static_cast<std::uint32_t>(level2::moment_count) &&
+        header.description_size <= format::max_description_bytes &&
+        header.states_size <= format::max_metadata_bytes;
     if (!possible) return fail(ErrorCode::corrupt, "the header holds impossible sizes");
     return {};
+}
+
+bool is_packed(const FileHeader& header) {
+    return (header.required_features & format::packed_codes) != 0;
 }
 
 // Every offset must be the one that the sizes give: there is no other layout.
@@ -58,8 +71,12 @@ Result<format::Layout> checked_layout(const FileHeader& header) {
         header.bricks_z != along(header.nz) || bricks > format::max_bricks) {
         return fail(ErrorCode::corrupt, "the header holds an impossible number of bricks");
     }
-    const format::Layout at = format::layout_of(header.nz, header.description_size, bricks,
-                                                header.states_size, header.code_bytes);
+    format::Layout at = format::layout_of(header.nz, header.description_size, bricks,
+                                          header.states_size, header.code_bytes);
+    // Packed codes are never longer; how long they are, the table must say, too.
+    if (is_packed(header) && header.codes_size <= at.codes_size) {
+        at = format::packed_layout(at, header.codes_size);
+    }
     const bool same = header.levels_offset == at.levels_offset &&
                       header.description_offset == at.description_offset &&
                       header.table_offset == at.table_offset &&
@@ -92,9 +109,13 @@ GridDescription description_of(const FileHeader& header, std::span<const std::by
     spec.projection = static_cast<grid::Projection>(header.projection);
     spec.center_latitude_deg = header.center_latitude_deg;
     spec.center_longitude_deg = header.center_longitude_deg;
-    spec.spacing_m = header.spacing_m;
+    const bool in_degrees = spec.projection == grid::Projection::latitude_longitude;
+    spec.spacing_m = in_degrees ? 0 : header.spacing;
+    spec.spacing_deg = in_degrees ? header.spacing : 0;
     spec.nx = static_cast<int>(header.nx);
     spec.ny = static_cast<int>(header.ny);
+    spec.offset_x_cells = header.offset_x_cells;
+    spec.offset_y_cells = header.offset_y_cells;
     spec.levels_m.resize(header.nz);
     std::memcpy(spec.levels_m.data(), levels.data(), levels.size());
     description.moment = static_cast<level2::Moment>(header.moment);
@@ -133,7 +154,7 @@ Result<Metadata> read_metadata(const Descriptor& file, std::uint64_t file_size) 
     return metadata;
 }
 
-grid::BrickView view_of(const Metadata& metadata, std::span<const std::byte> file) {
+grid::BrickView view_of(const Metadata& metadata) {
     const FileHeader& header = metadata.header;
     const format::Layout& at = metadata.at;
     grid::BrickView view;
@@ -141,13 +162,63 @@ grid::BrickView view_of(const Metadata& metadata, std::span<const std::byte> fil
     view.bricks_x = static_cast<int>(header.bricks_x);
     view.bricks_y = static_cast<int>(header.bricks_y);
     view.bricks_z = static_cast<int>(header.bricks_z);
-    view.codes = file.subspan(at.codes_offset, at.codes_size);
     // The table's place is a multiple of 8 in memory that operator new gave.
     view.bricks = {reinterpret_cast<const BrickEntry*>(metadata.bytes.data() + at.table_offset),
                    (at.states_offset - at.table_offset) / sizeof(BrickEntry)};
     view.states =
         std::span<const std::byte>(metadata.bytes).subspan(at.states_offset, header.states_size);
     return view;
+}
+
+// The codes as a view shows them, and what holds them.
+struct Codes {
+    std::optional<Map> map;
+    SparseMemory unpacked;
+    std::span<const std::byte> view;
+};
+
+// Each stored brick in its place, with the checksum that its entry has.
+Status unpack_all(std::span<const std::byte> packed, const grid::BrickView& view,
+                  std::span<std::byte> places) {
+    const std::size_t brick_bytes =
+        grid::brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
+    for (std::size_t i = 0; i < view.bricks.size(); ++i) {
+        const BrickEntry& entry = view.bricks[i];
+        if (entry.kind != grid::BrickKind::stored) continue;
+        const auto place = places.subspan(i * brick_bytes, brick_bytes);
+        Status unpacked = unpack_brick(packed.first(entry.packed_bytes), place);
+        if (unpacked && xxh3_64(place) != entry.checksum) {
+            unpacked = fail(ErrorCode::corrupt, "brick {} has a wrong checksum", i);
+        }
+        if (!unpacked) return unpacked;
+        packed = packed.subspan(entry.packed_bytes);
+    }
+    return {};
+}
+
+Result<Codes> codes_of(const Descriptor& file, const Metadata& metadata,
+                       const grid::BrickView& view) {
+    const format::Layout& at = metadata.at;
+    Codes codes;
+    if (!is_packed(metadata.header)) {
+        Result<Map> map = Map::of(file, at.file_size);
+        if (!map) return pass_on(map);
+        codes.view = map->bytes().subspan(at.codes_offset, at.codes_size);
+        codes.map.emplace(std::move(*map));
+        return codes;
+    }
+    if (packed_size(view.bricks) != at.codes_size) {
+        return fail(ErrorCode::corrupt, "the table and the header differ in the codes' size");
+    }
+    std::vector<std::byte> packed(at.codes_size);
+    if (Status read = read_at(file, at.codes_offset, packed); !read) return pass_on(read);
+    Result<SparseMemory> places =
+        SparseMemory::of(view.bricks.size() * grid::brick_cells *
+                         static_cast<std::uint64_t>(view.quantization.code_bytes));
+    if (!places) return pass_on(places);
+    if (Status all = unpack_all(packed, view, places->bytes()); !all) return pass_on(all);
+    codes.view = places->bytes();
+    return Codes{std::nullopt, std::move(*places), codes.view};
 }
 
 }  // namespace
@@ -169,16 +240,19 @@ Result<GridFile> GridFile::open(const std::filesystem::path& path) {
     Status good = decode_description(
         bytes.subspan(at.description_offset, metadata->header.description_size), description);
     if (!good) return failure(good.error());
-    Result<Map> map = Map::of(*file, at.file_size);
-    if (!map) return failure(map.error());
-    grid::BrickView view = view_of(*metadata, map->bytes());
+    grid::BrickView view = view_of(*metadata);
+    const Packing packing = is_packed(metadata->header) ? Packing::lz4 : Packing::none;
     good = check_description(description, view.quantization);
-    if (good) good = check_bricks(view.bricks, view.states, view.quantization);
+    if (good) good = check_bricks(view.bricks, view.states, view.quantization, packing);
     if (!good) return failure(good.error());
+    auto codes = codes_of(*file, *metadata, view);
+    if (!codes) return failure(codes.error());
+    view.codes = codes->view;
 
     auto mapping = std::make_unique<Mapping>(
-        Mapping{path, std::move(*file), std::move(metadata->bytes), std::move(*map), at,
-                static_cast<std::uint64_t>(facts->st_blocks) * 512, std::move(description), view});
+        Mapping{path, std::move(*file), std::move(metadata->bytes), std::move(codes->map),
+                std::move(codes->unpacked), at, static_cast<std::uint64_t>(facts->st_blocks) * 512,
+                std::move(description), view});
     mapping->view.spec = &mapping->description.spec;
     return GridFile(std::move(mapping));
 }
@@ -194,6 +268,10 @@ const GridDescription& GridFile::description() const {
 
 grid::BrickView GridFile::view() const {
     return mapping_->view;
+}
+
+Packing GridFile::packing() const {
+    return mapping_->map ? Packing::none : Packing::lz4;
 }
 
 std::uint64_t GridFile::bytes_on_disk() const {

@@ -4,9 +4,10 @@
 // fsync and rename, and validated before anything in it is trusted: magic, version, sizes, offsets
 // and the checksum of header, brick table and states at open; checksums of bricks on verify().
 // Header, table, states and names are read into memory and checked there; only the codes are
-// mapped. So a file that another program alters later may show wrong values until verify(), but
-// never leads a reader outside its memory. Each open file holds one descriptor.
-// Thread contract: a GridFile is immutable after open; views may be used from many threads.
+// mapped, or, where they are packed, unpacked into memory and checked, too. So a file that another
+// program alters later may show wrong values until verify(), but never leads a reader outside its
+// memory. Each open file holds one descriptor. Thread contract: a GridFile is immutable after open;
+// views may be used from many threads.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,10 @@
 #include "grid/grid.h"
 
 namespace stormcellar::cache {
+
+// How bricks of codes stand in a file. Packed ones take a third to three quarters of the space, are
+// unpacked into memory of the reader's own when the file is opened, and need no map.
+enum class Packing { none, lz4 };
 
 // All of a grid but its cells.
 struct GridDescription {
@@ -39,7 +44,16 @@ struct GridDescription {
 [[nodiscard]] Result<std::uint64_t> write_grid_file(FileSystem& file_system,
                                                     const std::filesystem::path& path,
                                                     const GridDescription& description,
-                                                    const grid::BrickView& view);
+                                                    const grid::BrickView& view,
+                                                    Packing packing = Packing::none);
+
+// What that file may take on disk at most, in bytes, on a file system that allocates blocks of
+// `block_bytes` (a power of two): each block that a byte falls into, and room for the lists of
+// blocks that the file system itself keeps (1 in 64, and 4). Bounds such as those of
+// write_grid_file are not checked. Too low only where a file system allocates what nobody wrote.
+[[nodiscard]] std::uint64_t most_bytes_on_disk(const GridDescription& description,
+                                               const grid::BrickView& view,
+                                               std::uint64_t block_bytes);
 
 class GridFile {
   public:
@@ -56,9 +70,12 @@ class GridFile {
     [[nodiscard]] const GridDescription& description() const;
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this GridFile lives
     [[nodiscard]] std::uint64_t bytes_on_disk() const;
+    [[nodiscard]] Packing packing() const;
     // Whether the file still has the size that it had when it was opened: truncated or corrupt when
-    // another program cut or lengthened it. One system call. Codes of a file that is cut between
-    // this call and their use raise SIGBUS, as with any map; nothing of ours ever cuts a file.
+    // another program cut or lengthened it. One system call. Codes of a file that is cut before
+    // their use raise SIGBUS, as with any map, unless the program has the guard of
+    // cache/map_guard.h: then they read as 0 (not seen), and this says truncated afterwards. So ask
+    // after a view was used, too. Nothing of ours ever cuts a file.
     [[nodiscard]] Status check_whole() const;
     // Reads the whole file again (not through the map, so a cut file is an error here): header,
     // table and states are as they were opened; every stored brick has its checksum, minimum,

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "cache/file_io.h"
 #include "cache/format.h"
 #include "cache/grid_file.h"
+#include "cache/packing.h"
 
 namespace stormcellar::cache {
 
@@ -16,15 +18,20 @@ struct GridFile::Mapping {
     std::filesystem::path path;
     Descriptor file;
     std::vector<std::byte> metadata;  // all bytes before the codes, checked
-    Map map;
+    std::optional<Map> map;           // none: the codes are packed
+    SparseMemory unpacked;
     format::Layout at;
     std::uint64_t bytes_on_disk = 0;
     GridDescription description;
     grid::BrickView view;
 
+    [[nodiscard]] Status check_map() const;
     [[nodiscard]] Status check_unchanged_size() const;
     [[nodiscard]] Status check_metadata() const;
     [[nodiscard]] Status check_stored_bricks() const;
+    // The codes of a stored brick, or an error; `offset` is where they stand, and then the next.
+    [[nodiscard]] Status read_brick(std::size_t brick, std::uint64_t& offset,
+                                    std::span<std::byte> codes) const;
     [[nodiscard]] Status check_holes() const;
     [[nodiscard]] Status check_zeros(std::uint64_t begin, std::uint64_t end) const;
     [[nodiscard]] std::uint64_t brick_bytes() const {

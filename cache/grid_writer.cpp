@@ -12,6 +12,7 @@
 #include "cache/description.h"
 #include "cache/format.h"
 #include "cache/grid_file.h"
+#include "cache/packing.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -49,6 +50,7 @@ Status check_view(const GridDescription& description, const BrickView& view) {
 struct Tables {
     std::vector<BrickEntry> bricks;
     std::vector<std::byte> states;
+    std::vector<std::byte> packed;  // the codes of all stored bricks, where they are packed
 };
 
 std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
@@ -60,7 +62,7 @@ std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
 // The table in its only form: unused fields zero, status blocks once each and in order. So the
 // same cells give the same bytes, whoever made the view. Counts and checksums are made from the
 // cells, not copied, so that a file never disagrees with its own table.
-Tables canonical_tables(const BrickView& view) {
+Tables canonical_tables(const BrickView& view, Packing packing) {
     Tables tables;
     tables.bricks.reserve(view.bricks.size());
     for (std::size_t i = 0; i < view.bricks.size(); ++i) {
@@ -83,6 +85,11 @@ Tables canonical_tables(const BrickView& view) {
             entry.min_code = range.min_code;
             entry.max_code = range.max_code;
             entry.checksum = xxh3_64(codes);
+            if (packing != Packing::none) {
+                const std::vector<std::byte> packed = pack_brick(codes);
+                entry.packed_bytes = static_cast<std::uint32_t>(packed.size());
+                tables.packed.insert(tables.packed.end(), packed.begin(), packed.end());
+            }
         }
         tables.bricks.push_back(entry);
     }
@@ -91,12 +98,15 @@ Tables canonical_tables(const BrickView& view) {
 
 format::FileHeader header_of(const GridDescription& description, const BrickView& view,
                              const format::Layout& at, std::uint64_t description_size,
-                             std::uint64_t states_size) {
+                             std::uint64_t states_size, Packing packing) {
     const grid::GridSpec& spec = description.spec;
     format::FileHeader header;
     header.magic = format::magic;
     header.byte_order = format::byte_order_mark;
     header.version = format::version;
+    const bool is_window = spec.offset_x_cells != 0 || spec.offset_y_cells != 0;
+    header.required_features = (is_window ? format::feature_window : 0) |
+                               (packing == Packing::none ? 0 : format::packed_codes);
     header.header_size = static_cast<std::uint32_t>(format::page_size);
     header.file_size = at.file_size;
     header.levels_offset = at.levels_offset;
@@ -113,7 +123,8 @@ format::FileHeader header_of(const GridDescription& description, const BrickView
     header.nz = static_cast<std::uint32_t>(spec.nz());
     header.center_latitude_deg = spec.center_latitude_deg;
     header.center_longitude_deg = spec.center_longitude_deg;
-    header.spacing_m = spec.spacing_m;
+    header.spacing =
+        spec.projection == grid::Projection::latitude_longitude ? spec.spacing_deg : spec.spacing_m;
     header.moment = static_cast<std::uint32_t>(description.moment);
     header.code_bytes = static_cast<std::uint32_t>(view.quantization.code_bytes);
     header.first_value = view.quantization.first_value;
@@ -125,6 +136,8 @@ format::FileHeader header_of(const GridDescription& description, const BrickView
     header.time_ms = milliseconds_of(description.time);
     header.start_time_ms = milliseconds_of(description.start_time);
     header.end_time_ms = milliseconds_of(description.end_time);
+    header.offset_x_cells = spec.offset_x_cells;
+    header.offset_y_cells = spec.offset_y_cells;
     return header;
 }
 
@@ -137,10 +150,10 @@ void put(std::vector<std::byte>& bytes, std::uint64_t offset, std::span<const T>
 std::vector<std::byte> metadata_bytes(const GridDescription& description, const BrickView& view,
                                       const format::Layout& at,
                                       std::span<const std::byte> description_bytes,
-                                      const Tables& tables) {
+                                      const Tables& tables, Packing packing) {
     std::vector<std::byte> bytes(at.codes_offset);
     format::FileHeader header =
-        header_of(description, view, at, description_bytes.size(), tables.states.size());
+        header_of(description, view, at, description_bytes.size(), tables.states.size(), packing);
     put(bytes, 0, std::span<const format::FileHeader>(&header, 1));
     put(bytes, at.levels_offset, std::span<const double>(description.spec.levels_m));
     put(bytes, at.description_offset, description_bytes);
@@ -193,18 +206,19 @@ GridDescription describe(const grid::Grid& grid) {
 
 Result<std::uint64_t> write_grid_file(FileSystem& file_system, const std::filesystem::path& path,
                                       const GridDescription& description,
-                                      const grid::BrickView& view) {
+                                      const grid::BrickView& view, Packing packing) {
     Status good = check_description(description, view.quantization);
     if (good) good = check_view(description, view);
     if (!good) return pass_on(bad_argument(path, good));
-    const Tables tables = canonical_tables(view);
-    good = check_bricks(tables.bricks, tables.states, view.quantization);
+    const Tables tables = canonical_tables(view, packing);
+    good = check_bricks(tables.bricks, tables.states, view.quantization, packing);
     if (!good) return pass_on(bad_argument(path, good));
 
     const std::vector<std::byte> names = encode_description(description);
-    const format::Layout at = format::layout_of(
-        description.spec.levels_m.size(), names.size(), tables.bricks.size(), tables.states.size(),
-        static_cast<std::uint64_t>(view.quantization.code_bytes));
+    format::Layout at = format::layout_of(description.spec.levels_m.size(), names.size(),
+                                          tables.bricks.size(), tables.states.size(),
+                                          static_cast<std::uint64_t>(view.quantization.code_bytes));
+    if (packing != Packing::none) at = format::packed_layout(at, tables.packed.size());
     if (names.size() > format::max_description_bytes) {
         return fail(ErrorCode::bad_argument, "{}: {} bytes of names and notes, more than {}",
                     path.native(), names.size(), format::max_description_bytes);
@@ -216,19 +230,51 @@ Result<std::uint64_t> write_grid_file(FileSystem& file_system, const std::filesy
 
     Result<AtomicFile> file = AtomicFile::create(file_system, path);
     if (!file) return pass_on(file);
-    const std::vector<std::byte> metadata = metadata_bytes(description, view, at, names, tables);
+    const std::vector<std::byte> metadata =
+        metadata_bytes(description, view, at, names, tables, packing);
     Status written = file->set_size(at.file_size);
     if (written) written = file->write_at(0, metadata);
-    if (written) written = write_codes(*file, view, at);
+    if (written && packing != Packing::none) {
+        written = file->write_at(at.codes_offset, tables.packed);
+    } else if (written) {
+        written = write_codes(*file, view, at);
+    }
     if (written) written = file->commit();
     if (!written) return pass_on(written);
 
+    if (packing != Packing::none) return size_on_disk(path, at.file_size);
     const auto stored =
         std::count_if(tables.bricks.begin(), tables.bricks.end(),
                       [](const BrickEntry& b) { return b.kind == BrickKind::stored; });
     return size_on_disk(
         path, metadata.size() + static_cast<std::uint64_t>(stored) * grid::brick_cells *
                                     static_cast<std::uint64_t>(view.quantization.code_bytes));
+}
+
+std::uint64_t most_bytes_on_disk(const GridDescription& description, const grid::BrickView& view,
+                                 std::uint64_t block_bytes) {
+    const auto of_kind = [&](BrickKind kind) {
+        return static_cast<std::uint64_t>(
+            std::count_if(view.bricks.begin(), view.bricks.end(),
+                          [kind](const BrickEntry& entry) { return entry.kind == kind; }));
+    };
+    const auto code_bytes = static_cast<std::uint64_t>(view.quantization.code_bytes);
+    const format::Layout at =
+        format::layout_of(description.spec.levels_m.size(), encode_description(description).size(),
+                          view.bricks.size(),
+                          of_kind(BrickKind::status_only) * format::status_block_bytes, code_bytes);
+    // Blocks of the metadata, then of each stored brick that are not those of the one before.
+    std::uint64_t end_block = format::round_up(at.codes_offset, block_bytes) / block_bytes;
+    std::uint64_t blocks = end_block;
+    for (std::size_t i = 0; i < view.bricks.size(); ++i) {
+        if (view.bricks[i].kind != BrickKind::stored) continue;
+        const std::uint64_t begin = at.codes_offset + i * grid::brick_cells * code_bytes;
+        const std::uint64_t end = begin + grid::brick_cells * code_bytes;
+        const std::uint64_t first = std::max(end_block, begin / block_bytes);
+        end_block = std::max(end_block, format::round_up(end, block_bytes) / block_bytes);
+        blocks += end_block - std::min(first, end_block);
+    }
+    return (blocks + blocks / 64 + 4) * block_bytes;
 }
 
 }  // namespace stormcellar::cache

@@ -1,25 +1,31 @@
 // cache/store.h -- the directory of grid files.
 //
-// Layout: CACHE/DOMAIN/MOMENT/YYYYMMDD/DOMAIN_MOMENT_YYYYMMDD_HHMMSS_mmm.scg, the time being the
-// grid's. There is no index: the names are the index, so nothing can disagree with the files. The
-// default domain of a station is its ICAO. A grid committed again for the same time replaces the
-// old one; a reader keeps the file that it has open. Symbolic links inside the store are not
-// followed, and whatever has not such a name at such a place is not ours: never listed or touched.
-// Times are from 1970 to 9999.
-// Thread contract: one Store may be used by many threads; many processes may read, one writes.
+// Layout and names: cache/grid_name.h. There is no index: the names are the index, so nothing can
+// disagree with the files. The default domain of a station is its ICAO. A grid committed again for
+// the same time replaces the old one; a reader keeps the file that it has open. Symbolic links
+// inside the store are not followed, and whatever has not such a name at such a place is not ours:
+// never listed or touched. Times are from 1970 to 9999.
+// A store that was opened to roll keeps its budgets (cache/budget.h) at each commit and at each
+// roll(), which must be called every few seconds: the file system's filling, ages, and what other
+// programs changed in the cache are looked at only there.
+// Thread contract: one Store may be used by many threads; many processes may read and evict, one
+// writes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/file_system.h"
 #include "base/result.h"
 #include "base/utc_time.h"
+#include "cache/budget.h"
 #include "cache/grid_file.h"
+#include "cache/grid_name.h"
 
 namespace stormcellar::cache {
 
@@ -29,23 +35,80 @@ struct StoreEntry {
     UtcTime time;
     std::filesystem::path path;
     std::uint64_t bytes_on_disk = 0;
+    bool pinned = false;
 };
+
+// How full a file system is, for the user that we are: capacity is what is used and what is free
+// for us.
+struct Filling {
+    std::uint64_t used_bytes = 0, capacity_bytes = 0;
+};
+[[nodiscard]] Result<Filling> filling_of(const std::filesystem::path& directory);
+
+// What a rolling store asks the world; tests answer themselves.
+struct Surroundings {
+    std::function<UtcTime()> now = now_utc;
+    std::function<Result<Filling>(const std::filesystem::path&)> filling = filling_of;
+};
+
+// Since the roll before, commits included.
+struct RollReport {
+    std::uint64_t evicted = 0, evicted_bytes = 0;
+    // A budget that cannot be kept, a file that cannot be removed, a directory that cannot be read:
+    // one line each.
+    std::vector<std::string> problems;
+};
+
+struct StoreUsage {
+    std::uint64_t grids = 0, pinned = 0;
+    std::uint64_t bytes = 0;  // on disk; of files being written what they may take at most
+    std::optional<std::uint64_t> budget_bytes;
+    std::uint64_t evicted = 0, evicted_bytes = 0, not_kept = 0;  // since the store was opened
+    bool operator==(const StoreUsage&) const = default;
+};
+
+class Roller;
 
 class Store {
   public:
     // Creates the directory when it is missing. sweep_temporary: remove leftovers of a killed
-    // writer; only the one writer (the daemon) may ask for it.
+    // writer; only the one writer (the daemon) may ask for it. Keeps no budget.
     static Result<Store> open_for_writing(FileSystem& file_system, std::filesystem::path directory,
                                           bool sweep_temporary);
+    // For the one writer: sweeps, counts what is there, and keeps the budgets from here on.
+    // bad_argument when another process has opened the cache so.
+    static Result<Store> open_rolling(FileSystem& file_system, std::filesystem::path directory,
+                                      Budgets budgets, Surroundings surroundings = {});
     // not_found when the directory does not exist.
     static Result<Store> open_for_reading(std::filesystem::path directory);
 
-    // The path at which the grid now stands. bad_argument for a domain name that is not
-    // [A-Za-z0-9][A-Za-z0-9_-]{0,63}, for a store that was opened for reading, and as
-    // write_grid_file. On success the grid survives a power cut, new directories included.
+    // How bricks of the grids that are committed from now on stand in their files; before commit()
+    // is called by more than one thread. As they are, unless asked for.
+    void pack_with(Packing packing) { packing_ = packing; }
+
+    // The path at which the grid now stands; empty when the budgets do not keep it (it is older
+    // than the age, or the oldest of a full cache): then nothing was written. bad_argument for what
+    // is no domain's name, for a store that was opened for reading, and as write_grid_file.
+    // over_budget for the newest grid of its domain, or a pinned one, when there is no room for it:
+    // the newest stay until a newer one stands, so a budget must hold two of each domain. On
+    // success the grid survives a power cut, new directories included. On a full disk the oldest
+    // grids go, where a budget of bytes or percent is set; no_space when that does not help.
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
                                          const grid::BrickView& view) const;
+    // Whether the budgets would keep a grid of this time, if it is as large as others are on
+    // average. For asking before long work; commit() decides.
+    [[nodiscard]] bool would_keep(const std::string& domain, level2::Moment moment,
+                                  UtcTime time) const;
+
+    // Of a rolling store; nothing happens in another.
+    RollReport roll() const;
+    void set_budgets(Budgets budgets) const;  // kept from the next commit or roll on
+    [[nodiscard]] std::optional<StoreUsage> usage() const;
+
+    // Takes a grid away for good, as one that is damaged; not_found when it is not there any more.
+    // A reader keeps the file that it has open.
+    Status remove(const StoreEntry& entry) const;
 
     // Where a grid of this name stands or would stand. bad_argument as commit.
     [[nodiscard]] Result<std::filesystem::path> path_of(const std::string& domain,
@@ -64,14 +127,19 @@ class Store {
     struct DurableDirectories;
     Store(FileSystem* file_system, std::filesystem::path directory);
     Status make_directory(const std::filesystem::path& directory) const;
+    Status write(FileSystem& file_system, const std::filesystem::path& path,
+                 const GridDescription& description, const grid::BrickView& view) const;
+    Result<std::filesystem::path> commit_within_budgets(const GridName& name,
+                                                        const std::filesystem::path& path,
+                                                        const GridDescription& description,
+                                                        const grid::BrickView& view) const;
 
     FileSystem* file_system_;  // null: opened for reading
     std::filesystem::path directory_;
+    Packing packing_ = Packing::none;
     // Those whose own names are known to be on disk; shared by copies of a store.
     std::shared_ptr<DurableDirectories> durable_;
+    std::shared_ptr<Roller> roller_;  // null: keeps no budget; shared by copies
 };
-
-// Whether a name may stand for a domain: [A-Za-z0-9][A-Za-z0-9_-]{0,63}.
-[[nodiscard]] bool is_domain_name(std::string_view name);
 
 }  // namespace stormcellar::cache

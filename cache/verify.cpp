@@ -23,18 +23,26 @@ using grid::BrickEntry;
 using grid::BrickKind;
 
 Status GridFile::check_whole() const {
-    Status whole = mapping_->check_unchanged_size();
+    Status whole = mapping_->check_map();
     if (!whole) return with_path(mapping_->path, whole.error());
     return {};
 }
 
 Status GridFile::verify() const {
-    Status good = mapping_->check_unchanged_size();
+    Status good = mapping_->check_map();
     if (good) good = mapping_->check_metadata();
     if (good) good = mapping_->check_stored_bricks();
-    if (good) good = mapping_->check_holes();
+    if (good && mapping_->map) good = mapping_->check_holes();
     if (!good) return with_path(mapping_->path, good.error());
     return {};
+}
+
+// A file that was cut and has its old size again has been changed all the same, and what the map
+// showed since then are zeros.
+Status GridFile::Mapping::check_map() const {
+    if (Status same = check_unchanged_size(); !same) return same;
+    if (!map || !map->was_cut()) return {};
+    return fail(ErrorCode::truncated, "was cut, or could not be read, while it was in use");
 }
 
 Status GridFile::Mapping::check_unchanged_size() const {
@@ -67,8 +75,18 @@ Status GridFile::Mapping::check_metadata() const {
     return {};
 }
 
+Status GridFile::Mapping::read_brick(std::size_t brick, std::uint64_t& offset,
+                                     std::span<std::byte> codes) const {
+    if (map) return read_at(file, at.codes_offset + brick * codes.size(), codes);
+    std::vector<std::byte> packed(view.bricks[brick].packed_bytes);
+    if (Status read = read_at(file, offset, packed); !read) return read;
+    offset += packed.size();
+    return unpack_brick(packed, codes);
+}
+
 Status GridFile::Mapping::check_stored_bricks() const {
     std::vector<std::byte> codes(brick_bytes());
+    std::uint64_t offset = at.codes_offset;  // of packed ones, which follow each other
     std::uint64_t stored = 0;
     std::uint64_t damaged = 0;
     std::optional<std::size_t> first;
@@ -76,10 +94,10 @@ Status GridFile::Mapping::check_stored_bricks() const {
         const BrickEntry& entry = view.bricks[i];
         if (entry.kind != BrickKind::stored) continue;
         ++stored;
-        Status read = read_at(file, at.codes_offset + i * codes.size(), codes);
-        if (!read) return read;
+        const Status read = read_brick(i, offset, codes);
+        if (!read && read.error().code != ErrorCode::corrupt) return read;
         const CodeRange expected{entry.value_count, entry.min_code, entry.max_code};
-        if (xxh3_64(codes) == entry.checksum &&
+        if (read && xxh3_64(codes) == entry.checksum &&
             code_range(codes, view.quantization.code_bytes) == expected) {
             continue;
         }

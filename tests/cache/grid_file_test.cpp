@@ -1,10 +1,14 @@
 #include "cache/grid_file.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <fstream>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "base/checksum.h"
 #include "cache/format.h"
 #include "tests/cache/small_grid.h"
 #include "tests/testing/power_cut_file_system.h"
@@ -63,11 +67,138 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_EQ(about.sites[0].altitude_m, 519.1);
     EXPECT_EQ(about.provenance.source_files, grid.provenance.source_files);
     EXPECT_EQ(about.provenance.method, "column-linear");
+    EXPECT_EQ(about.provenance.effects, grid.provenance.effects);
+    EXPECT_EQ(about.provenance.predicted_error, "position 714 m");
     EXPECT_EQ(about.provenance.notes, grid.provenance.notes);
+    EXPECT_EQ(about.provenance.sweeps, grid.provenance.sweeps);
+    EXPECT_TRUE(about.provenance.provisional);
+    EXPECT_EQ(about.provenance.revision, 3);
     EXPECT_EQ(about.provenance.vcp, 21);
     EXPECT_TRUE(about.provenance.partial);
+    EXPECT_EQ(about.provenance.audit, grid.provenance.audit);
 }
 INSTANTIATE_TEST_SUITE_P(CodeBytes, GridFileTest, ::testing::Values(1, 2));
+
+TEST_F(GridFileTest, EveryProjectionComesBack) {
+    grid::Grid grid = testing::small_grid();
+    grid.spec.projection = grid::Projection::latitude_longitude;
+    grid.spec.spacing_m = 0;
+    grid.spec.spacing_deg = 0.0123;
+    const auto round_trip = [&] {
+        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
+        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
+        const auto file = GridFile::open(path_);
+        EXPECT_TRUE(file);
+        return file ? file->description().spec : grid::GridSpec{};
+    };
+    EXPECT_EQ(round_trip(), grid.spec);
+    grid.spec.projection = grid::Projection::lambert_conformal;
+    grid.spec.spacing_m = 3000;
+    grid.spec.spacing_deg = 0;
+    grid.spec.parallels_deg = {33, 45.5};
+    EXPECT_EQ(round_trip(), grid.spec);
+}
+
+TEST_F(GridFileTest, AWindowComesBackAndOldReadersAreTold) {
+    grid::Grid grid = testing::small_grid();
+    const auto header_of = [&](double offset_x, double offset_y) {
+        grid.spec.offset_x_cells = offset_x;
+        grid.spec.offset_y_cells = offset_y;
+        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
+        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
+        const auto file = GridFile::open(path_);
+        EXPECT_TRUE(file);
+        EXPECT_EQ(file.value().description().spec, grid.spec);
+        format::FileHeader header;
+        std::memcpy(&header, bytes_of(path_).data(), sizeof header);
+        return header;
+    };
+    EXPECT_EQ(header_of(0, 0).required_features, 0U);
+    EXPECT_EQ(header_of(0, -0.5).required_features, format::feature_window);
+    const format::FileHeader header = header_of(-1000, 31.5);
+    EXPECT_EQ(header.required_features, format::feature_window);
+    EXPECT_EQ(header.offset_x_cells, -1000);
+    EXPECT_EQ(header.offset_y_cells, 31.5);
+}
+
+TEST_F(GridFileTest, AWindowThatContradictsItselfIsRefused) {
+    ASSERT_TRUE(write(real_file_system()));
+    const auto good = bytes_of(path_);
+    const auto opened_with = [&](std::uint32_t features, double offset) {
+        auto bytes = good;
+        format::FileHeader header;
+        std::memcpy(&header, bytes.data(), sizeof header);
+        header.required_features = features;
+        header.offset_y_cells = offset;
+        header.checksum = 0;
+        std::memcpy(bytes.data(), &header, sizeof header);
+        header.checksum = xxh3_64(std::span(bytes).first(header.codes_offset));
+        std::memcpy(bytes.data(), &header, sizeof header);
+        overwrite(path_, bytes);
+        const auto file = GridFile::open(path_);
+        return file ? ErrorCode::empty : file.error().code;
+    };
+    EXPECT_EQ(opened_with(0, 0), ErrorCode::empty) << "sealing works";
+    EXPECT_EQ(opened_with(1, 2.5), ErrorCode::empty);
+    EXPECT_EQ(opened_with(0, 2.5), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with(1, 0), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with(1, 0.3), ErrorCode::corrupt) << "not a half";
+    EXPECT_EQ(opened_with(1, std::nan("")), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with(4, 0), ErrorCode::unsupported);
+    EXPECT_EQ(opened_with(5, 2.5), ErrorCode::unsupported);
+}
+
+// Reads and re-seals a file whose header or records were changed on purpose.
+TEST_F(GridFileTest, AProjectionThatDoesNotFitItsNumbersIsCorrupt) {
+    ASSERT_TRUE(write(real_file_system()));
+    const auto good = bytes_of(path_);
+    const auto opened_as = [&](std::uint32_t projection, double spacing) {
+        auto bytes = good;
+        format::FileHeader header;
+        std::memcpy(&header, bytes.data(), sizeof header);
+        header.projection = projection;
+        header.spacing = spacing;
+        header.checksum = 0;
+        std::memcpy(bytes.data(), &header, sizeof header);
+        header.checksum = xxh3_64(std::span(bytes).first(header.codes_offset));
+        std::memcpy(bytes.data(), &header, sizeof header);
+        overwrite(path_, bytes);
+        const auto file = GridFile::open(path_);
+        return file ? ErrorCode::empty : file.error().code;
+    };
+    EXPECT_EQ(opened_as(0, 1000), ErrorCode::empty) << "sealing works";
+    EXPECT_EQ(opened_as(1, 0.01), ErrorCode::empty) << "degrees";
+    EXPECT_EQ(opened_as(1, 1000), ErrorCode::corrupt) << "1000 degrees";
+    EXPECT_EQ(opened_as(2, 1000), ErrorCode::corrupt) << "no parallels";
+    EXPECT_EQ(opened_as(3, 1000), ErrorCode::corrupt);
+    EXPECT_EQ(opened_as(0xFFFFFFFF, 1000), ErrorCode::corrupt);
+}
+
+TEST_F(GridFileTest, AGridThatWasNotAuditedHasNoRows) {
+    grid::Grid grid = testing::small_grid();
+    grid.provenance.audit.clear();
+    const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
+    ASSERT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
+    const auto file = GridFile::open(path_);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_TRUE(file->description().provenance.audit.empty());
+}
+
+// Whoever writes what no audit can give writes a file that nobody opens.
+TEST_F(GridFileTest, AnImpossibleAuditIsCorrupt) {
+    const auto opened_with = [&](auto change) {
+        grid::Grid grid = testing::small_grid();
+        change(grid.provenance.audit.front());
+        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
+        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
+        const auto file = GridFile::open(path_);
+        return file ? ErrorCode::empty : file.error().code;
+    };
+    EXPECT_EQ(opened_with([](grid::AuditRow&) {}), ErrorCode::empty);
+    EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.rms = NAN; }), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.count = 951; }), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.range_to_m = 0; }), ErrorCode::corrupt);
+}
 
 TEST_F(GridFileTest, SmallGridHoldsEveryKindOfBrick) {
     std::set<grid::BrickKind> kinds;
@@ -176,6 +307,71 @@ TEST_F(GridFileTest, FullDiskLeavesNothing) {
     file_system.set_space(6000);
     EXPECT_EQ(write(file_system).error().code, ErrorCode::no_space);
     EXPECT_TRUE(fs::is_empty(directory_.path()));
+}
+
+class PackedGridFile : public GridFileTest {
+  protected:
+    Result<std::uint64_t> pack(FileSystem& file_system, int code_bytes = 1) {
+        const grid::BrickGrid made = bricks(code_bytes);
+        return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view(),
+                               Packing::lz4);
+    }
+};
+
+TEST_P(PackedGridFile, HoldsTheSameCellsInLessSpace) {
+    ASSERT_TRUE(write(real_file_system(), GetParam()));
+    const auto plain_size = fs::file_size(path_);
+    const auto plain = GridFile::open(path_);
+    ASSERT_TRUE(pack(real_file_system(), GetParam()));
+    const auto packed = GridFile::open(path_);
+    ASSERT_TRUE(packed) << packed.error().message;
+    EXPECT_EQ(plain->packing(), Packing::none);
+    EXPECT_EQ(packed->packing(), Packing::lz4);
+    EXPECT_TRUE(packed->verify());
+    EXPECT_LT(fs::file_size(path_), plain_size);
+    EXPECT_TRUE(std::ranges::equal(packed->view().codes, plain->view().codes)) << "places too";
+    EXPECT_EQ(grid::to_dense(packed->view()).status, grid::to_dense(plain->view()).status);
+    const auto first = bytes_of(path_);
+    ASSERT_TRUE(pack(real_file_system(), GetParam()));
+    EXPECT_EQ(bytes_of(path_), first);
+}
+INSTANTIATE_TEST_SUITE_P(CodeBytes, PackedGridFile, ::testing::Values(1, 2));
+
+// Those before the codes are guarded as in every file.
+TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const auto bytes = bytes_of(path_);
+    format::FileHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    ASSERT_LT(header.codes_offset, bytes.size());
+    for (std::size_t i = header.codes_offset; i < bytes.size(); ++i) {
+        auto flipped = bytes;
+        flipped[i] ^= std::byte{0x10};
+        overwrite(path_, flipped);
+        ASSERT_EQ(GridFile::open(path_).error().code, ErrorCode::corrupt) << "byte " << i;
+    }
+}
+
+TEST_F(PackedGridFile, IsInMemoryWhenItsFileIsCut) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const auto file = GridFile::open(path_);
+    ASSERT_TRUE(file);
+    const auto before = grid::to_dense(file->view()).values;
+    fs::resize_file(path_, 4096);
+    EXPECT_EQ(grid::to_dense(file->view()).values, before);
+    EXPECT_EQ(file->check_whole().error().code, ErrorCode::truncated);
+    EXPECT_FALSE(file->verify());
+    EXPECT_FALSE(GridFile::open(path_));
+}
+
+TEST_F(PackedGridFile, AnAlteredFileIsFoundByVerify) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const auto file = GridFile::open(path_);
+    ASSERT_TRUE(file);
+    auto bytes = bytes_of(path_);
+    bytes.back() ^= std::byte{1};
+    overwrite(path_, bytes);
+    EXPECT_EQ(file->verify().error().code, ErrorCode::corrupt);
 }
 
 TEST_F(GridFileTest, OtherThingsAreNamed) {

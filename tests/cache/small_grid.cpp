@@ -1,5 +1,7 @@
 #include "tests/cache/small_grid.h"
 
+#include <limits>
+
 namespace stormcellar::testing {
 
 grid::Grid small_grid() {
@@ -20,10 +22,20 @@ grid::Grid small_grid() {
     made.provenance.method = "column-linear";
     made.provenance.beam_model = "4/3 earth";
     made.provenance.averaging = "dBZ";
+    made.provenance.effects = "frame: WGS84 table";
+    made.provenance.predicted_error = "position 714 m";
     made.provenance.software_version = "test";
     made.provenance.vcp = 21;
     made.provenance.partial = true;
     made.provenance.notes = {"a note"};
+    made.provenance.provisional = true;
+    made.provenance.revision = 3;
+    made.provenance.sweeps = {{0.5, made.start_time, 12.25, 18.5},
+                              {1.5, made.start_time + std::chrono::seconds{25}, 300, 0}};
+    made.provenance.audit = {
+        {0.48F, 0, 60e3F, 1000, 950, 400, 1.25F, -0.0625F},
+        {0.48F, 240e3F, std::numeric_limits<float>::infinity(), 7, 0, 0, 0, 0},
+    };
     made.values.assign(made.spec.cell_count(), 0.0F);
     made.status.assign(made.spec.cell_count(), CellStatus::not_seen);
     for (int iy = 0; iy < made.spec.ny; ++iy) {

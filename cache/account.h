@@ -1,0 +1,139 @@
+// cache/account.h -- what the cache holds, and what would have to go. Inside the cache room only.
+//
+// Pure bookkeeping: it reads no file and asks no clock. Grids are ordered by the time that counts:
+// their own, or, where that is more than 10 minutes in the future, the time at which the file was
+// written, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
+// Victims are never pinned, being written or evicted (busy), stuck, or the newest of their domain
+// and moment.
+// Thread contract: one thread at a time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cache/budget.h"
+#include "cache/grid_name.h"
+
+namespace stormcellar::cache {
+
+struct GridFacts {
+    std::uint64_t bytes = 0;  // on disk
+    UtcTime written;
+    bool pinned = false;
+};
+
+class Account {
+  public:
+    static constexpr std::chrono::minutes tolerated_future{10};
+
+    // What time it is. Grids whose time has come are believed from now on.
+    void set_now(UtcTime now);
+
+    // Adds the grid or replaces what is known of it; it is neither busy nor stuck then.
+    void put(const GridName& name, const GridFacts& facts);
+    void erase(const GridName& name);
+    [[nodiscard]] const GridFacts* find(const GridName& name) const;
+    [[nodiscard]] bool is_busy(const GridName& name) const;
+    void set_pinned(const GridName& name);
+    void set_busy(const GridName& name);     // no victim until put() or erase()
+    void set_leaving(const GridName& name);  // busy, and its bytes will soon be free
+    void set_stuck(const GridName& name);    // could not be removed: no victim until put()
+    // The names of one domain and moment within these times.
+    [[nodiscard]] std::vector<GridName> names(const std::string& domain, level2::Moment moment,
+                                              UtcTime from, UtcTime to) const;
+
+    // Bytes beside those of the grids: of files being written or left over.
+    void reserve(std::string_view group, std::uint64_t bytes);
+    void release(std::string_view group, std::uint64_t bytes);
+
+    [[nodiscard]] std::uint64_t used() const { return used_; }
+    [[nodiscard]] std::uint64_t used(std::string_view group) const;
+    [[nodiscard]] std::size_t grid_count() const { return grids_; }
+    [[nodiscard]] std::size_t pinned_count() const { return pinned_; }
+    [[nodiscard]] std::vector<std::string> groups() const;
+
+    // The newest time of a group that counts; none when it has none.
+    [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
+    // Whether a grid of this name is or would be the newest of its domain and moment.
+    [[nodiscard]] bool is_newest(const GridName& name) const;
+    // Whether a grid of this name would stay whatever happens: it is the newest, or pinned already.
+    [[nodiscard]] bool is_to_stay(const GridName& name) const;
+    // Whether a grid of this name is older than the group's age, and not protected from it.
+    [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
+
+    // Whether so many bytes more fit now.
+    [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
+                            const Budgets& budgets) const;
+    // Which grids must go so that `bytes` of this grid fit, oldest first, beside what is leaving
+    // already; none when it cannot be. Only those are taken that are older than it, unless it is to
+    // stay.
+    [[nodiscard]] std::optional<std::vector<GridName>> room_for(const GridName& name,
+                                                                std::uint64_t bytes,
+                                                                const Budgets& budgets) const;
+    // The oldest grids that hold so many bytes on disk: of all where the budget of all limits
+    // space, else of the grid's group. By the same rule, and fewer where there are no more.
+    [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
+                                               const Budgets& budgets) const;
+
+    // At most `most` of the oldest, so that the group (empty: all) holds `bytes` or less.
+    [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
+                                                std::size_t most) const;
+    [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
+                                                std::size_t most) const;
+
+  private:
+    struct Entry {
+        GridFacts facts;
+        UtcTime counted;
+        bool busy = false, leaving = false, stuck = false;
+        [[nodiscard]] bool may_go() const { return !facts.pinned && !busy && !stuck; }
+    };
+    using Item = std::pair<const GridName, Entry>;
+    struct ByAge {
+        using is_transparent = void;
+        using Key = std::pair<UtcTime, const GridName*>;
+        static Key key(const Item* item) { return {item->second.counted, &item->first}; }
+        static Key key(const Key& key) { return key; }
+        bool operator()(const auto& a, const auto& b) const {
+            const Key first = key(a), second = key(b);
+            if (first.first != second.first) return first.first < second.first;
+            return *first.second < *second.second;
+        }
+    };
+    using Order = std::set<const Item*, ByAge>;  // those that may go
+    struct Group {
+        std::map<GridName, Entry> grids;
+        Order order;
+        std::uint64_t used = 0, leaving = 0;
+    };
+    using Groups = std::map<std::string, Group, std::less<>>;
+
+    [[nodiscard]] const Group* group_of_name(std::string_view group) const;
+    [[nodiscard]] bool believed(UtcTime time) const { return time <= now_ + tolerated_future; }
+    [[nodiscard]] std::optional<UtcTime> newest_of(const Group& group, const std::string& domain,
+                                                   level2::Moment moment) const;
+    [[nodiscard]] bool is_protected(const Item& item) const;
+    [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
+    Item* find_item(const GridName& name);
+    void enter(Group& group, Item& item);
+    void withdraw(Group& group, Item& item);
+    void count(Group& group, const Item& item, bool add);
+    template <class Change>
+    void change(const GridName& name, Change what);
+
+    UtcTime now_{};
+    Groups groups_;
+    Order order_;
+    std::set<std::pair<UtcTime, GridName>> future_;
+    std::uint64_t used_ = 0, leaving_ = 0;
+    std::size_t grids_ = 0, pinned_ = 0;
+};
+
+}  // namespace stormcellar::cache

@@ -1,0 +1,65 @@
+// cache/directories.h -- what stands in the directories of a cache. Inside the cache room only.
+//
+// Symbolic links are not followed; what has not a grid's name at a grid's place is not ours and is
+// left out, as is what vanishes while it is looked at. A directory that is not there holds nothing.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "base/file_system.h"
+#include "base/result.h"
+#include "base/utc_time.h"
+#include "cache/grid_name.h"
+
+namespace stormcellar::cache {
+
+[[nodiscard]] tl::unexpected<Error> directory_failure(const std::filesystem::path& path,
+                                                      const std::error_code& error);
+
+// Sorted.
+[[nodiscard]] Result<std::vector<std::string>> domains_in(const std::filesystem::path& cache);
+[[nodiscard]] Result<std::vector<level2::Moment>> moments_in(const std::filesystem::path& domain);
+[[nodiscard]] Result<std::vector<std::string>> days_in(const std::filesystem::path& moment);
+
+// One day of one moment of one domain.
+struct Day {
+    std::string domain;
+    level2::Moment moment = level2::Moment::ref;
+    std::string day;  // "20220317"
+    auto operator<=>(const Day&) const = default;
+};
+[[nodiscard]] std::filesystem::path relative_path(const Day& day);
+[[nodiscard]] Result<std::vector<Day>> all_days(const std::filesystem::path& cache);
+
+struct FoundGrid {
+    UtcTime time;
+    std::uint64_t bytes_on_disk = 0;
+    UtcTime written;  // when the file was last changed
+    bool pinned = false;
+};
+// None when no regular file stands there.
+[[nodiscard]] std::optional<FoundGrid> look_at_grid(const std::filesystem::path& path,
+                                                    UtcTime time);
+
+struct FoundTemporary {
+    std::string name;
+    std::uint64_t bytes_on_disk = 0;
+};
+struct DayContents {
+    std::vector<FoundGrid> grids;  // by time; only those from `from` to `to`
+    std::vector<FoundTemporary> temporaries;
+};
+[[nodiscard]] Result<DayContents> read_day(const std::filesystem::path& cache, const Day& day,
+                                           UtcTime from = UtcTime{},
+                                           UtcTime to = last_possible_time);
+
+// Removes every file whose name says that it is being written: what a killed writer left. Only for
+// who knows that nobody writes.
+[[nodiscard]] Status sweep_temporaries(FileSystem& file_system, const std::filesystem::path& cache);
+
+}  // namespace stormcellar::cache

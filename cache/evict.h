@@ -1,0 +1,46 @@
+// cache/evict.h -- evicting by hand, beside a daemon that writes and evicts too.
+//
+// The choice is a list, so it can be shown before anything is done. Pinned grids are never taken,
+// and a grid that is pinned after it was chosen is left where it is.
+// Thread contract: any thread, any process.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/file_system.h"
+#include "base/result.h"
+#include "cache/store.h"
+
+namespace stormcellar::cache {
+
+struct EvictionOrder {
+    std::string domain;  // a domain with its parts, or one part; empty: all
+    // A grid goes when any of these asks for it. By time the newest go too; bytes and older_than
+    // keep the newest of each domain, as budgets do.
+    std::optional<UtcTime> to;           // up to this time, itself included
+    std::optional<std::uint64_t> bytes;  // the oldest, until the rest takes no more than this
+    std::optional<std::chrono::milliseconds> older_than;  // before the newest of the same domain
+};
+
+struct EvictionPlan {
+    std::vector<StoreEntry> victims;  // oldest first
+    std::size_t looked_at = 0;        // grids of the domain
+    std::size_t pinned = 0;           // how many of them are pinned
+    std::uint64_t bytes_left = 0;     // on disk, of those that stay
+};
+[[nodiscard]] Result<EvictionPlan> plan_eviction(const Store& store, const EvictionOrder& order,
+                                                 UtcTime now);
+
+struct EvictionReport {
+    std::vector<StoreEntry> evicted;
+    std::vector<std::string> problems;  // what could not be removed, one line each
+};
+// Each grid that is reported as evicted stays away after a power cut, unless a problem says that
+// its directory could not be synced.
+[[nodiscard]] EvictionReport evict(FileSystem& file_system, const std::vector<StoreEntry>& victims);
+
+}  // namespace stormcellar::cache

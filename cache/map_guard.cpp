@@ -1,0 +1,67 @@
+#include "cache/map_guard.h"
+
+#include <cerrno>
+#include <csignal>
+#include <mutex>
+
+#include <sys/mman.h>
+
+#include "cache/map_registry.h"
+
+namespace stormcellar::cache {
+namespace {
+
+// What SIGBUS did before; written once, before the handler can run.
+struct sigaction former_action = {};
+
+// Zeros in the place of a map that is in one of ours, for good.
+bool take_fault(void* address) {
+    const auto range = cut_map_at(reinterpret_cast<std::uintptr_t>(address));
+    if (!range) return false;
+    void* const start = reinterpret_cast<void*>(range->begin);
+    return ::mmap(start, range->end - range->begin, PROT_READ,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED | MAP_NORESERVE, -1, 0) != MAP_FAILED;
+}
+
+// The fault happens again, or the signal is sent again, and does what it does without any handler.
+void end_by_signal(int signal, bool sent) {
+    struct sigaction standard = {};
+    standard.sa_handler = SIG_DFL;
+    ::sigaction(signal, &standard, nullptr);
+    if (sent) ::raise(signal);
+}
+
+void pass_to_former(int signal, siginfo_t* info, void* context, bool sent) {
+    if ((former_action.sa_flags & SA_SIGINFO) != 0) {
+        former_action.sa_sigaction(signal, info, context);
+    } else if (former_action.sa_handler == SIG_IGN && sent) {
+        return;
+    } else if (former_action.sa_handler == SIG_DFL || former_action.sa_handler == SIG_IGN) {
+        end_by_signal(signal, sent);
+    } else {
+        former_action.sa_handler(signal);
+    }
+}
+
+void on_bus_error(int signal, siginfo_t* info, void* context) {
+    const int error_number = errno;
+    const bool sent = info->si_code <= 0;  // by kill(): there is no address then
+    if (sent || !take_fault(info->si_addr)) pass_to_former(signal, info, context, sent);
+    errno = error_number;
+}
+
+}  // namespace
+
+void install_map_guard() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        ::sigaction(SIGBUS, nullptr, &former_action);
+        struct sigaction action = {};
+        action.sa_sigaction = on_bus_error;
+        action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+        sigemptyset(&action.sa_mask);
+        ::sigaction(SIGBUS, &action, nullptr);
+    });
+}
+
+}  // namespace stormcellar::cache

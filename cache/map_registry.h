@@ -1,0 +1,50 @@
+// cache/map_registry.h -- which addresses are maps of ours, readable in a signal handler.
+//
+// Inside the cache room only. Thread contract: all functions may be called from many threads at
+// once; cut_map_at() also in a signal handler: it takes no lock and no memory.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace stormcellar::cache {
+
+// One place of the registry. Places are used again and never given back, so that a handler may
+// walk them at any time.
+struct MapPlace {
+    std::atomic<bool> taken{false};
+    std::atomic<std::uint32_t> changes{0};  // odd while begin and end do not belong together
+    std::atomic<std::uintptr_t> begin{0}, end{0};
+    std::atomic<bool> cut{false};
+};
+
+// Keeps a map in the registry while it lives. The map must outlive it.
+class MapRegistration {
+  public:
+    MapRegistration() = default;  // of no map
+    MapRegistration(const void* start, std::size_t size);
+    MapRegistration(MapRegistration&& other) noexcept
+        : place_(std::exchange(other.place_, nullptr)) {}
+    MapRegistration& operator=(MapRegistration&&) = delete;
+    MapRegistration(const MapRegistration&) = delete;
+    MapRegistration& operator=(const MapRegistration&) = delete;
+    ~MapRegistration() { release(); }
+
+    void release();
+    // Whether a read inside the map has failed since it was registered.
+    [[nodiscard]] bool was_cut() const { return place_ != nullptr && place_->cut.load(); }
+
+  private:
+    MapPlace* place_ = nullptr;
+};
+
+struct MapRange {
+    std::uintptr_t begin = 0, end = 0;
+};
+// The registered map that holds the address, marked as cut; none when no map does.
+[[nodiscard]] std::optional<MapRange> cut_map_at(std::uintptr_t address);
+
+}  // namespace stormcellar::cache

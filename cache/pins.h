@@ -1,0 +1,38 @@
+// cache/pins.h -- grids that must stay, and taking others away.
+//
+// A pin is an empty file beside the grid, X.scg.pin, so any process may set one and it outlives
+// them all. It belongs to the name: a grid that is replaced stays pinned. Pinning and evicting hold
+// the lock of the day's directory (flock, given back by the system when its holder dies), so that a
+// grid whose pin was set is never taken: a pin either comes in time or its setter learns that the
+// grid is gone. Thread contract: any thread, any process. Errors name the path.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "base/file_system.h"
+#include "base/result.h"
+
+namespace stormcellar::cache {
+
+inline constexpr std::string_view pin_extension = ".pin";
+[[nodiscard]] bool is_pinned(const std::filesystem::path& grid);
+
+// not_found when no grid stands there. On success the pin survives a power cut. To pin a pinned
+// grid is no error.
+[[nodiscard]] Status pin_grid(FileSystem& file_system, const std::filesystem::path& grid);
+// Whether there was a pin; the grid need not be there.
+[[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
+
+enum class Evicted { gone, pinned, missing };
+// Unlinks the file of a grid that is not pinned. A reader that has it open keeps its bytes, and
+// the space is given back when the last of them closes it. The name may come back after a power cut
+// until the directory is synced.
+[[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
+                                         const std::filesystem::path& grid);
+
+// Removes the directory of a day, then those of its moment and its domain, as far as they are
+// empty.
+void remove_empty_directories(const std::filesystem::path& day);
+
+}  // namespace stormcellar::cache

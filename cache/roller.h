@@ -1,0 +1,132 @@
+// cache/roller.h -- keeps a cache within its budgets while it is written to. Inside the cache room
+// only; cache/store.h is the door.
+//
+// Holds the account of what stands in the cache, made from the names at the start and corrected
+// from them at each roll(): files that others removed, added or pinned are noticed there.
+// A commit reserves what its file may take at most before the first byte is written, and where that
+// does not fit, evicts first; the unlinked names are synced away before their room is used again.
+// Files are removed one by one and each removal is whole, so a crash leaves grids or none.
+// Thread contract: any thread. No lock is held while files are removed or written, and who waits
+// for another's commit or eviction holds nothing.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/file_system.h"
+#include "base/result.h"
+#include "cache/account.h"
+#include "cache/budget.h"
+#include "cache/directories.h"
+#include "cache/file_io.h"
+#include "cache/store.h"
+
+namespace stormcellar::cache {
+
+class Roller;
+
+// Room for one file that is being written. When it goes, the account takes what then stands at the
+// grid's place, new, old or nothing.
+class Reservation {
+  public:
+    Reservation(Roller& roller, GridName name, std::uint64_t bytes)
+        : roller_(&roller), name_(std::move(name)), bytes_(bytes) {}
+    Reservation(Reservation&& other) noexcept
+        : roller_(std::exchange(other.roller_, nullptr)),
+          name_(std::move(other.name_)),
+          bytes_(other.bytes_) {}
+    Reservation& operator=(Reservation&&) = delete;
+    Reservation(const Reservation&) = delete;
+    Reservation& operator=(const Reservation&) = delete;
+    ~Reservation();
+
+  private:
+    Roller* roller_;
+    GridName name_;
+    std::uint64_t bytes_;
+};
+
+class Roller {
+  public:
+    // Sweeps what a killed writer left and brings the cache within its budgets. bad_argument when
+    // another process has opened it so.
+    static Result<std::unique_ptr<Roller>> open(FileSystem& file_system,
+                                                std::filesystem::path directory, Budgets budgets,
+                                                Surroundings surroundings);
+
+    // None: the budgets would evict the grid at once, so it need not be written. over_budget: it is
+    // the newest of its domain or pinned, and what stands may not go or is not enough. One commit
+    // of a name at a time: the others wait.
+    Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
+    // A full disk refused this grid: evicts the oldest grids that hold so many bytes. False when
+    // the budgets do not provide for that or nothing may go.
+    bool make_room(const GridName& name, std::uint64_t bytes);
+    // A temporary file that could not be removed: counted, and removed at a later roll.
+    void add_leftover(std::string_view group, const std::filesystem::path& path);
+
+    RollReport roll();
+    void set_budgets(Budgets budgets);
+    [[nodiscard]] StoreUsage usage() const;
+    [[nodiscard]] bool would_keep(const GridName& name);
+    [[nodiscard]] std::uint64_t block_bytes() const { return block_bytes_; }
+
+  private:
+    friend class Reservation;
+    using Lock = std::unique_lock<std::mutex>;
+    struct DayState {
+        std::int64_t modified_ns = -1;  // of the directory when it was read; -1: read it again
+        std::uint64_t foreign_bytes = 0;
+    };
+    struct Leftover {
+        std::filesystem::path path;
+        std::string group;
+        std::uint64_t bytes = 0;
+    };
+
+    Roller(FileSystem& file_system, std::filesystem::path directory, Budgets budgets,
+           Surroundings surroundings, Descriptor lock);
+    void settle(const GridName& name, std::uint64_t reserved);
+    void evict(Lock& lock, const std::vector<GridName>& victims);
+    void evict_all(Lock& lock, const std::function<std::vector<GridName>()>& choose);
+    void keep_budget(Lock& lock, const std::string& group, const std::optional<Filling>& filling,
+                     RollReport& report);
+    void note_reached(const std::string& group, std::uint64_t bytes);
+    Status reread(bool all);
+    Status reread_day(const Day& day, bool even_unchanged);
+    void adopt(const Day& day, const DayContents& contents);
+    void remove_leftovers();
+    [[nodiscard]] std::filesystem::path path_of(const GridName& name) const {
+        return directory_ / relative_path(name);
+    }
+
+    FileSystem& file_system_;
+    const std::filesystem::path directory_;
+    const Surroundings surroundings_;
+    const Descriptor lock_;  // on the directory itself, against a second writer
+    std::uint64_t block_bytes_ = 4096;
+
+    std::mutex rolling_;        // one roll at a time
+    int rolls_ = 0;             // guarded by rolling_
+    mutable std::mutex mutex_;  // all below
+    std::condition_variable changed_;
+    Budgets budgets_;
+    Account account_;
+    std::set<GridName> in_flight_;   // being written or evicted
+    std::set<std::string> reached_;  // groups that were full since the last roll; empty name: all
+    std::map<Day, DayState> days_;
+    std::vector<Leftover> leftovers_;
+    std::uint64_t evicted_ = 0, evicted_bytes_ = 0, not_kept_ = 0;
+    std::uint64_t reported_ = 0, reported_bytes_ = 0;
+    std::vector<std::string> problems_;  // since the last roll
+};
+
+}  // namespace stormcellar::cache

@@ -1,0 +1,196 @@
+// The part of the roller that looks at the whole cache every few seconds: what others changed in
+// it, what has grown too old, and how full the file system is.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <sys/stat.h>
+
+#include "base/byte_size.h"
+#include "cache/roller.h"
+
+namespace stormcellar::cache {
+namespace {
+
+namespace fs = std::filesystem;
+
+// So many files are removed before others may look at the account again. Oldest first goes through
+// the directories of all domains in turn, and each is synced once a batch: at 64 a batch nearly
+// every file cost a sync.
+constexpr std::size_t batch = 2048;
+// Every directory is read again after so many rolls, even one that seems unchanged.
+constexpr int rolls_between_full_readings = 60;
+// A directory that changed just now may change again without its time showing it.
+constexpr std::int64_t settling_ns = 2'000'000'000;
+
+std::int64_t nanoseconds_now() {
+    return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+struct Span {
+    UtcTime from, to;
+};
+std::optional<Span> span_of(const Day& day) {
+    const auto from = parse_compact(day.day + "_000000");
+    if (!from) return std::nullopt;  // eight digits that are no date: nothing of ours is in it
+    return Span{*from, *from + std::chrono::days{1} - std::chrono::milliseconds{1}};
+}
+
+std::string whose(const std::string& group) {
+    return group.empty() ? "the cache" : group;
+}
+
+}  // namespace
+
+Status Roller::reread(bool all) {
+    const auto days = all_days(directory_);
+    if (!days) return pass_on(days);
+    for (const Day& day : *days) {
+        if (Status read = reread_day(day, all); !read) return read;
+    }
+    const Lock lock(mutex_);
+    for (auto day = days_.begin(); day != days_.end();) {
+        const bool stands = std::binary_search(days->begin(), days->end(), day->first);
+        if (!stands && !fs::exists(directory_ / relative_path(day->first))) {
+            adopt(day->first, {});
+            day = days_.erase(day);
+        } else {
+            ++day;
+        }
+    }
+    return {};
+}
+
+// Under the lock, so that no grid of ours comes or goes between the reading and the account.
+Status Roller::reread_day(const Day& day, bool even_unchanged) {
+    const Lock lock(mutex_);
+    struct stat facts {};
+    if (::stat((directory_ / relative_path(day)).c_str(), &facts) != 0) return {};
+    const std::int64_t modified_ns =
+        std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec;
+    DayState& state = days_[day];
+    if (!even_unchanged && state.modified_ns == modified_ns) return {};
+    const auto contents = read_day(directory_, day);
+    if (!contents) return pass_on(contents);
+    adopt(day, *contents);
+    const bool settled = std::abs(nanoseconds_now() - modified_ns) > settling_ns;
+    state.modified_ns = settled ? modified_ns : -1;
+    return {};
+}
+
+// What is being written or evicted is left to who does it.
+void Roller::adopt(const Day& day, const DayContents& contents) {
+    account_.set_now(surroundings_.now());
+    if (const auto span = span_of(day)) {
+        for (const GridName& name : account_.names(day.domain, day.moment, span->from, span->to)) {
+            const auto found = std::lower_bound(
+                contents.grids.begin(), contents.grids.end(), name.time,
+                [](const FoundGrid& grid, UtcTime time) { return grid.time < time; });
+            const bool stands = found != contents.grids.end() && found->time == name.time;
+            if (!stands && !in_flight_.contains(name)) account_.erase(name);
+        }
+    }
+    for (const FoundGrid& grid : contents.grids) {
+        const GridName name{day.domain, day.moment, grid.time};
+        if (in_flight_.contains(name)) continue;
+        account_.put(name, {grid.bytes_on_disk, grid.written, grid.pinned});
+    }
+    // Files that this process writes are reserved or among the leftovers.
+    std::uint64_t foreign = 0;
+    for (const FoundTemporary& temporary : contents.temporaries) {
+        if (!temporary.name.starts_with(own_temporary_prefix())) foreign += temporary.bytes_on_disk;
+    }
+    std::uint64_t& known = days_[day].foreign_bytes;
+    const std::string_view group = group_of(day.domain);
+    account_.reserve(group, foreign);
+    account_.release(group, std::exchange(known, foreign));
+}
+
+void Roller::add_leftover(std::string_view group, const fs::path& path) {
+    struct stat facts {};
+    if (::lstat(path.c_str(), &facts) != 0) return;
+    const Lock lock(mutex_);
+    const std::uint64_t bytes = static_cast<std::uint64_t>(facts.st_blocks) * 512;
+    leftovers_.push_back({path, std::string(group), bytes});
+    account_.reserve(group, bytes);
+}
+
+void Roller::remove_leftovers() {
+    std::erase_if(leftovers_, [&](const Leftover& leftover) {
+        const Status removed = file_system_.remove(leftover.path);
+        if (!removed && removed.error().code != ErrorCode::not_found) return false;
+        account_.release(leftover.group, leftover.bytes);
+        return true;
+    });
+}
+
+// One budget: of a group, or of all when the name is empty. `filling` is what it would be if all
+// that was evicted since it was read is free by now.
+void Roller::keep_budget(Lock& lock, const std::string& group,
+                         const std::optional<Filling>& filling, RollReport& report) {
+    const Budget budget = group.empty() ? budgets_.total : budgets_.of(group);
+    const auto held = [&] { return group.empty() ? account_.used() : account_.used(group); };
+    const bool reached = reached_.erase(group) > 0;
+    std::optional<std::uint64_t> target, limit;
+    if (budget.bytes) {
+        limit = budget.bytes;
+        if (reached || held() > *limit) target = budgets_.low_mark(*limit);
+    }
+    bool disk_too_full = false;
+    if (budget.file_system_percent && filling) {
+        const auto allowed = static_cast<std::uint64_t>(
+            static_cast<double>(filling->capacity_bytes) * *budget.file_system_percent / 100);
+        const std::uint64_t over = filling->used_bytes - std::min(filling->used_bytes, allowed);
+        const std::uint64_t ours = held() - std::min(held(), over);
+        disk_too_full = over > 0 && ours < limit.value_or(ours + 1);
+        if (disk_too_full) {
+            limit = ours;
+            target = std::min(target.value_or(ours), budgets_.low_mark(ours));
+        }
+    }
+    if (target) evict_all(lock, [&] { return account_.down_to(group, *target, batch); });
+    if (!limit || held() <= *limit) return;
+    report.problems.push_back(
+        disk_too_full
+            ? fmt::format("the file system is more than {} % full and {} has nothing left that may "
+                          "go: {} are pinned or the newest of their domains",
+                          *budget.file_system_percent, whose(group), format_byte_size(held()))
+            : fmt::format("{} holds {}, more than its budget of {}: they are pinned, the newest of "
+                          "their domains, or cannot be removed",
+                          whose(group), format_byte_size(held()), format_byte_size(*limit)));
+}
+
+RollReport Roller::roll() {
+    const std::scoped_lock one_at_a_time(rolling_);
+    RollReport report;
+    const bool all = ++rolls_ % rolls_between_full_readings == 0;
+    if (const Status read = reread(all); !read) report.problems.push_back(read.error().message);
+
+    Lock lock(mutex_);
+    remove_leftovers();
+    account_.set_now(surroundings_.now());
+    const std::vector<std::string> groups = account_.groups();
+    for (const std::string& group : groups)
+        evict_all(lock, [&] { return account_.expired(group, budgets_, batch); });
+
+    auto filling = surroundings_.filling(directory_);
+    if (!filling) report.problems.push_back(filling.error().message);
+    std::uint64_t counted = evicted_bytes_;
+    const auto filling_now = [&]() -> std::optional<Filling> {
+        if (!filling) return std::nullopt;
+        const std::uint64_t freed = evicted_bytes_ - std::exchange(counted, evicted_bytes_);
+        filling->used_bytes -= std::min(filling->used_bytes, freed);
+        return *filling;
+    };
+    for (const std::string& group : groups)
+        keep_budget(lock, group, filling_now(), report);
+    keep_budget(lock, "", filling_now(), report);
+
+    report.evicted = evicted_ - std::exchange(reported_, evicted_);
+    report.evicted_bytes = evicted_bytes_ - std::exchange(reported_bytes_, evicted_bytes_);
+    report.problems.insert(report.problems.end(), problems_.begin(), problems_.end());
+    problems_.clear();
+    return report;
+}
+
+}  // namespace stormcellar::cache

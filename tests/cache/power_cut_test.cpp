@@ -1,0 +1,128 @@
+// A power cut, or a disk that fails for good, at each single operation of a store that rolls.
+#include <map>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "cache/pins.h"
+#include "cache/store.h"
+#include "tests/cache/sized_grid.h"
+#include "tests/testing/metered_file_system.h"
+#include "tests/testing/power_cut_file_system.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cache {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::minutes;
+
+const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+constexpr std::uint64_t budget = 260'000;
+
+Budgets budgets() {
+    Budgets made;
+    made.total.bytes = budget;
+    made.low_watermark = 0.6;
+    return made;
+}
+
+struct Promises {
+    std::map<fs::path, std::string> grids;  // the notes of what commit() said stands, by path
+    std::optional<fs::path> pinned;
+};
+
+// Fills the cache beyond its budget over two days, replaces a grid, pins one, rolls.
+void live(FileSystem& disk, const fs::path& cache, Promises& promised) {
+    const auto store = Store::open_rolling(disk, cache, budgets());
+    if (!store) return;
+    int number = 0;
+    const auto commit = [&](int minute, int stored) {
+        ++number;
+        const auto path =
+            testing::commit_sized(*store, "A", noon + minutes{minute}, stored, number);
+        if (path && !path->empty()) promised.grids[*path] = std::to_string(number);
+    };
+    for (const int minute : {700, 710, 720, 725, 730})
+        commit(minute, 4);
+    const auto path = *store->path_of("A", level2::Moment::ref, noon + minutes{710});
+    if (pin_grid(disk, path)) promised.pinned = path;
+    commit(730, 6);
+    for (const int minute : {740, 750, 760})
+        commit(minute, 3);
+    store->roll();
+    commit(770, 4);
+}
+
+std::string note_of(const fs::path& path) {
+    const auto file = GridFile::open(path);
+    return file ? file->description().provenance.notes.at(0) : file.error().message;
+}
+
+// Every grid that is there is whole, the budget holds now and after the next start, and then
+// nothing is left over. The newest grid that was promised is there, as it was promised or later.
+void check(const fs::path& cache, const Promises& promised) {
+    if (!fs::exists(cache)) return;
+    EXPECT_LE(testing::allocated_bytes(cache), budget);
+    {
+        const auto store = *Store::open_for_reading(cache);
+        for (const StoreEntry& entry : testing::all_grids(store))
+            EXPECT_EQ(testing::trouble_in(entry), "");
+    }
+    testing::MeteredFileSystem disk(cache);
+    const auto store = Store::open_rolling(disk, cache, budgets());
+    ASSERT_TRUE(store) << store.error().message;
+    EXPECT_LE(testing::allocated_bytes(cache), budget);
+    EXPECT_EQ(store->usage()->bytes, testing::allocated_bytes(cache));
+    for (const auto& entry : fs::recursive_directory_iterator(cache)) {
+        EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix));
+    }
+    if (promised.pinned) {
+        EXPECT_TRUE(fs::exists(*promised.pinned) && is_pinned(*promised.pinned));
+    }
+    if (promised.grids.empty()) return;
+    const auto& [newest, number] = *promised.grids.rbegin();
+    ASSERT_TRUE(fs::exists(newest)) << newest;
+    EXPECT_GE(std::stoi(note_of(newest)), std::stoi(number));
+}
+
+std::uint64_t operations_of_a_whole_life() {
+    const testing::TemporaryDirectory directory;
+    testing::PowerCutFileSystem disk;
+    Promises promised;
+    live(disk, directory / "cache", promised);
+    return disk.operation_count();
+}
+
+// The room of a grid is used again only when its removal is on disk: else a cut would bring it back
+// beside what took its room.
+TEST(RollingPowerCut, LeavesWholeGridsAndTheBudgetAtEachOperation) {
+    const std::uint64_t operations = operations_of_a_whole_life();
+    ASSERT_GT(operations, 80U);
+    for (std::uint64_t at = 0; at <= operations; ++at) {
+        SCOPED_TRACE(at);
+        const testing::TemporaryDirectory directory;
+        testing::PowerCutFileSystem disk;
+        disk.fail_from(at);
+        Promises promised;
+        live(disk, directory / "cache", promised);
+        disk.power_cut();
+        check(directory / "cache", promised);
+    }
+}
+
+TEST(RollingPowerCut, ADiskThatFailsForGoodLeavesWholeGridsAndTheBudget) {
+    const std::uint64_t operations = operations_of_a_whole_life();
+    for (std::uint64_t at = 0; at <= operations; at += 3) {
+        SCOPED_TRACE(at);
+        const testing::TemporaryDirectory directory;
+        testing::PowerCutFileSystem disk;
+        disk.fail_from(at);
+        Promises promised;
+        live(disk, directory / "cache", promised);
+        check(directory / "cache", promised);
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::cache

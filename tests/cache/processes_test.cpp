@@ -1,0 +1,150 @@
+// Readers beside a writer that evicts, and writers that are killed: in processes of their own.
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "cache/store.h"
+#include "tests/cache/sized_grid.h"
+#include "tests/testing/metered_file_system.h"
+#include "tests/testing/slow_down.h"
+#include "tests/testing/temporary_directory.h"
+
+extern char** environ;
+
+namespace stormcellar::cache {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using std::chrono::minutes;
+
+const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+constexpr std::uint64_t budget = 400'000;
+
+pid_t start(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), CACHE_WORKER);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    EXPECT_EQ(posix_spawn(&child, CACHE_WORKER, nullptr, nullptr, argv.data(), environ), 0);
+    return child;
+}
+
+int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+Budgets budgets() {
+    Budgets made;
+    made.total.bytes = budget;
+    return made;
+}
+
+// "Many readers while the daemon writes and evicts: a reader keeps the file it has open."
+TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
+    const testing::TemporaryDirectory directory;
+    const fs::path cache = directory / "cache";
+    testing::MeteredFileSystem disk(cache);
+    const Store store = *Store::open_rolling(disk, cache, budgets());
+    ASSERT_TRUE(testing::commit_sized(store, "A", noon - minutes{1}));
+    const pid_t reader = start({"read", cache, directory / "stop"});
+
+    std::atomic<bool> stop{false};
+    std::atomic<int> read{0}, held{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 3; ++i) {
+        threads.emplace_back([&] {
+            // Each grid is kept open until after the next ones: most are evicted by then.
+            std::vector<std::pair<fs::path, GridFile>> open;
+            const auto close_all = [&] {
+                for (const auto& [path, file] : open) {
+                    EXPECT_TRUE(file.verify());
+                    EXPECT_EQ(grid::to_dense(file.view()).values.size(),
+                              file.description().spec.cell_count());
+                    if (!fs::exists(path)) ++held;
+                    ++read;
+                }
+                open.clear();
+            };
+            while (!stop) {
+                for (const StoreEntry& entry : testing::all_grids(store)) {
+                    auto file = GridFile::open(entry.path);
+                    if (!file) {
+                        EXPECT_EQ(file.error().code, ErrorCode::not_found);
+                        continue;
+                    }
+                    open.emplace_back(entry.path, std::move(*file));
+                }
+                std::this_thread::sleep_for(milliseconds{5});
+                close_all();
+            }
+        });
+    }
+    for (int minute = 0; minute < 200; ++minute)
+        EXPECT_TRUE(testing::commit_sized(store, "A", noon + minutes{minute}, 1 + minute % 8));
+    stop = true;
+    for (auto& thread : threads)
+        thread.join();
+    std::ofstream(directory / "stop") << "stop";
+    EXPECT_EQ(wait_for(reader), 0);
+    EXPECT_GT(read, 0);
+    EXPECT_GT(held, 0) << "no reader held a grid that was evicted";
+    EXPECT_GT(store.usage()->evicted, 150U);
+    EXPECT_LE(disk.most(), budget);
+}
+
+// False when the file does not come within a minute.
+bool wait_for_file(const fs::path& path) {
+    for (int i = 0; i < 30'000; ++i) {
+        if (fs::exists(path)) return true;
+        std::this_thread::sleep_for(milliseconds{2});
+    }
+    return false;
+}
+
+// After each kill -9, at a random moment: whole grids, within the budget, and the next writer
+// starts.
+TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
+    const testing::TemporaryDirectory directory;
+    const fs::path cache = directory / "cache";
+    std::mt19937 random(3);
+    int seen = 0;
+    for (int round = 0; round < 30 / testing::slow_down; ++round) {
+        SCOPED_TRACE(round);
+        const fs::path begun = directory / ("begun-" + std::to_string(round));
+        const pid_t writer =
+            start({"write", cache, std::to_string(budget), std::to_string(round), begun});
+        // Every third one dies early, perhaps while it starts.
+        if (round % 3 != 2) {
+            EXPECT_TRUE(wait_for_file(begun));
+        }
+        std::this_thread::sleep_for(milliseconds{random() % 50});
+        kill(writer, SIGKILL);
+        ASSERT_EQ(wait_for(writer), -SIGKILL) << "it had ended by itself";
+        if (!fs::exists(cache)) continue;
+        EXPECT_LE(testing::allocated_bytes(cache), budget);
+        for (const StoreEntry& entry : testing::all_grids(*Store::open_for_reading(cache))) {
+            EXPECT_EQ(testing::trouble_in(entry), "");
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 0);
+    const Store store = *Store::open_rolling(real_file_system(), cache, budgets());
+    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache));
+    EXPECT_GT(store.usage()->grids, 0U);
+    for (const auto& entry : fs::recursive_directory_iterator(cache))
+        EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix));
+}
+
+}  // namespace
+}  // namespace stormcellar::cache

@@ -1,0 +1,30 @@
+// tests/cache/sized_grid.h -- small grids of several sizes on disk, made once.
+#pragma once
+
+#include "cache/grid_file.h"
+#include "cache/store.h"
+#include "grid/brick_grid.h"
+
+namespace stormcellar::testing {
+
+inline constexpr int most_bricks = 8;
+
+// 128 x 16 x 16 cells, of whose 8 bricks `stored` (1 to 8) are stored, every second one first, so
+// that runs and holes vary. Of 16-bit codes: 8 KiB a brick.
+[[nodiscard]] const grid::BrickGrid& sized_grid(int stored);
+
+// What is said of such a grid; `number` goes into its notes, so that files can be told apart.
+[[nodiscard]] cache::GridDescription sized_description(UtcTime time, int number = 0);
+
+// Commits such a grid.
+[[nodiscard]] Result<std::filesystem::path> commit_sized(const cache::Store& store,
+                                                         const std::string& domain, UtcTime time,
+                                                         int stored = 4, int number = 0);
+
+// Every grid of a cache, by domain, moment and time.
+[[nodiscard]] std::vector<cache::StoreEntry> all_grids(const cache::Store& store);
+
+// That each of them opens, verifies and has a sized grid's cells; "" or what is wrong.
+[[nodiscard]] std::string trouble_in(const cache::StoreEntry& entry);
+
+}  // namespace stormcellar::testing
