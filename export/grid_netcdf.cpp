@@ -6,11 +6,10 @@
 
 #include <netcdf.h>
 
+#include "export/grid_coordinates.h"
 #include "export/moment_text.h"
 #include "export/netcdf_builder.h"
-#include "grid/beam_geometry.h"
-#include "grid/column_geometry.h"
-#include "grid/site_frame.h"
+#include "grid/method.h"
 
 namespace stormcellar::netcdf {
 namespace {
@@ -19,7 +18,6 @@ using grid::CellStatus;
 using grid::Grid;
 
 constexpr std::size_t largest_chunk_side = 512;
-constexpr const char* mapping_name = "azimuthal_equidistant";
 
 struct Dimensions {
     int time, z, y, x;
@@ -59,70 +57,17 @@ void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
     const int time = file.variable("time", NC_DOUBLE, {size.time});
     define_coordinate(file, time, "time", "seconds since 1970-01-01T00:00:00Z", "T");
     file.text(time, "calendar", "standard");
-    file.text(time, "long_name", "start of the volume");
+    file.text(time, "long_name", grid.frame_time ? "frame time" : "start of the volume");
     const int z = file.variable("z", NC_DOUBLE, {size.z});
     define_coordinate(file, z, "altitude", "m", "Z");
     file.text(z, "positive", "up");
     file.text(z, "long_name", "height above mean sea level");
-    const int y = file.variable("y", NC_DOUBLE, {size.y});
-    define_coordinate(file, y, "projection_y_coordinate", "m", "Y");
-    file.text(y, "long_name", "distance north of the centre");
-    const int x = file.variable("x", NC_DOUBLE, {size.x});
-    define_coordinate(file, x, "projection_x_coordinate", "m", "X");
-    file.text(x, "long_name", "distance east of the centre");
-
     const std::array<double, 1> seconds = {
-        std::chrono::duration<double>(grid.time.time_since_epoch()).count()};
+        std::chrono::duration<double>(grid.frame_time.value_or(grid.time).time_since_epoch())
+            .count()};
     file.write(time, seconds);
     file.write(z, std::span(grid.spec.levels_m));
-    std::vector<double> places_m;
-    places_m.reserve(static_cast<std::size_t>(std::max(grid.spec.nx, grid.spec.ny)));
-    for (int iy = 0; iy < grid.spec.ny; ++iy)
-        places_m.push_back(grid.spec.y_m(iy));
-    file.write(y, std::span<const double>(places_m));
-    places_m.clear();
-    for (int ix = 0; ix < grid.spec.nx; ++ix)
-        places_m.push_back(grid.spec.x_m(ix));
-    file.write(x, std::span<const double>(places_m));
-}
-
-void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const Dimensions& size,
-                     int deflate_level) {
-    std::vector<double> latitudes_deg;
-    std::vector<double> longitudes_deg;
-    for (int iy = 0; iy < spec.ny; ++iy) {
-        for (int ix = 0; ix < spec.nx; ++ix) {
-            const grid::GeoPoint point = grid::column_position(spec, ix, iy);
-            latitudes_deg.push_back(point.latitude_deg);
-            longitudes_deg.push_back(point.longitude_deg);
-        }
-    }
-    const auto write = [&](const char* name, const char* standard_name, const char* units,
-                           const std::vector<double>& values) {
-        const int variable = file.variable(name, NC_DOUBLE, {size.y, size.x});
-        file.deflate(variable, deflate_level);
-        file.text(variable, "standard_name", standard_name);
-        file.text(variable, "units", units);
-        file.write(variable, std::span(values));
-    };
-    write("lat", "latitude", "degrees_north", latitudes_deg);
-    write("lon", "longitude", "degrees_east", longitudes_deg);
-}
-
-void write_mapping(NetcdfBuilder& file, const grid::GridSpec& spec) {
-    const int mapping = file.variable(mapping_name, NC_INT, {});
-    file.text(mapping, "grid_mapping_name", mapping_name);
-    file.number(mapping, "latitude_of_projection_origin", spec.center_latitude_deg);
-    file.number(mapping, "longitude_of_projection_origin", spec.center_longitude_deg);
-    file.number(mapping, "false_easting", 0.0);
-    file.number(mapping, "false_northing", 0.0);
-    file.number(mapping, "semi_major_axis", grid::wgs84_semi_major_m);
-    file.number(mapping, "inverse_flattening", 1 / grid::wgs84_flattening);
-    file.number(mapping, "longitude_of_prime_meridian", 0.0);
-    file.text(
-        mapping, "comment",
-        "x and y are geodesic on WGS84 from the centre; heights above mean sea level are used "
-        "as heights above the ellipsoid (about 1 m at 230 km)");
+    write_map_axes(file, grid.spec, {size.y, size.x});
 }
 
 int define_field(NetcdfBuilder& file, const char* name, int type, const Dimensions& size,
@@ -131,9 +76,35 @@ int define_field(NetcdfBuilder& file, const char* name, int type, const Dimensio
     file.chunks(variable, {1, 1, std::min<std::size_t>(spec.ny, largest_chunk_side),
                            std::min<std::size_t>(spec.nx, largest_chunk_side)});
     file.deflate(variable, deflate_level);
-    file.text(variable, "coordinates", "lat lon");
-    file.text(variable, "grid_mapping", mapping_name);
+    refer_to_map(file, variable, spec);
     return variable;
+}
+
+struct DetailText {
+    const char* name;
+    const char* long_name;
+    const char* units;
+    std::string comment;
+};
+
+DetailText describe_detail(grid::Detail detail, const Grid& grid) {
+    switch (detail) {
+        case grid::Detail::age:
+            return {"age", "time of observation from the time of the grid", "s",
+                    fmt::format("seconds after {}, negative before it: mean of the nearest radials "
+                                "of the sweeps that the cell is made of, by weight",
+                                format_utc(grid.frame_time.value_or(grid.time)))};
+        case grid::Detail::height_offset:
+            return {"beam_height_offset", "height of the cell above the centre of the nearest beam",
+                    "m", "of the sweeps that the cell is made of"};
+        case grid::Detail::distance:
+            return {"gate_distance", "distance from the cell to the centre of the nearest gate",
+                    "m", "of the nearest gates of the sweeps that the cell is made of"};
+        case grid::Detail::weight:
+            break;
+    }
+    return {"sample_weight", "share of the cell's weight that was seen", "1",
+            "the rest lies in gaps or beyond the gates; below one half a cell is not seen"};
 }
 
 void write_field(NetcdfBuilder& file, const Grid& grid, const Dimensions& size, int deflate_level) {
@@ -145,8 +116,16 @@ void write_field(NetcdfBuilder& file, const Grid& grid, const Dimensions& size, 
     file.text(field, "long_name", names.long_name);
     if (names.cf_name != nullptr) file.text(field, "standard_name", names.cf_name);
     file.text(field, "units", level2::moment_units(grid.moment));
-    file.text(field, "cell_methods", "area: point");
-    file.text(field, "ancillary_variables", "status");
+    file.text(field, "cell_methods",
+              grid::cell_extent_of(grid.provenance.method) == grid::CellExtent::area
+                  ? "area: mean"
+                  : "area: point");
+    std::string beside = "status";
+    for (const grid::Detail detail : grid::all_details) {
+        if (grid.details.set().has(detail))
+            beside += fmt::format(" {}", describe_detail(detail, grid).name);
+    }
+    file.text(field, "ancillary_variables", beside);
     const auto values = in_file_order<float>(grid.spec, [&](std::size_t cell) {
         return grid.status[cell] == CellStatus::value ? grid.values[cell] : fill;
     });
@@ -176,6 +155,25 @@ void write_status(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
     file.write(status, std::span(cells));
 }
 
+void write_details(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
+                   int deflate_level) {
+    for (const grid::Detail detail : grid::all_details) {
+        if (!grid.details.set().has(detail)) continue;
+        const DetailText text = describe_detail(detail, grid);
+        const int variable =
+            define_field(file, text.name, NC_FLOAT, size, grid.spec, deflate_level);
+        constexpr float fill = NC_FILL_FLOAT;
+        file.fill_value(variable, fill);
+        file.text(variable, "long_name", text.long_name);
+        file.text(variable, "units", text.units);
+        file.text(variable, "comment", text.comment);
+        const auto cells = in_file_order<float>(grid.spec, [&](std::size_t cell) {
+            return grid.details.at(detail, cell).value_or(fill);
+        });
+        file.write(variable, std::span(cells));
+    }
+}
+
 void write_sites(NetcdfBuilder& file, const Grid& grid) {
     std::vector<double> latitudes_deg;
     std::vector<double> longitudes_deg;
@@ -189,6 +187,15 @@ void write_sites(NetcdfBuilder& file, const Grid& grid) {
     file.numbers(NetcdfBuilder::file, "station_latitude_deg", latitudes_deg);
     file.numbers(NetcdfBuilder::file, "station_longitude_deg", longitudes_deg);
     file.numbers(NetcdfBuilder::file, "station_antenna_altitude_m", altitudes_m);
+}
+
+// A line a range class, over all sweeps.
+std::string audit_text(const Grid& grid) {
+    const std::string_view unit = grid::difference_unit(grid.moment);
+    std::vector<std::string> lines = {"grid minus gates, scanned as the radar did"};
+    for (const grid::AuditRow& row : grid::pooled_by_range(grid.provenance.audit))
+        lines.push_back(fmt::format("{}: {}", grid::range_text(row), errors_text(row, unit)));
+    return joined(lines, "\n");
 }
 
 void write_provenance(NetcdfBuilder& file, const Grid& grid) {
@@ -210,11 +217,16 @@ void write_provenance(NetcdfBuilder& file, const Grid& grid) {
     file.text(global, "time_coverage_start", format_utc(grid.start_time));
     file.text(global, "time_coverage_end", format_utc(grid.end_time));
     file.text(global, "method", from.method);
+    if (!from.effects.empty()) file.text(global, "effects", from.effects);
+    if (!from.predicted_error.empty()) {
+        file.text(global, "predicted_error", from.predicted_error);
+    }
     file.text(global, "beam_model", from.beam_model);
     file.text(global, "averaging", from.averaging);
     if (from.vcp != 0) file.number(global, "vcp", from.vcp);
     file.text(global, "volume", from.partial ? "partial" : "complete");
     if (!from.notes.empty()) file.text(global, "notes", joined(from.notes, "\n"));
+    if (!from.audit.empty()) file.text(global, "audit", audit_text(grid));
 }
 
 Status check(const Grid& grid, const GridWriteOptions& options) {
@@ -223,6 +235,10 @@ Status check(const Grid& grid, const GridWriteOptions& options) {
     if (grid.values.size() != cells || grid.status.size() != cells) {
         return fail(ErrorCode::bad_argument, "the grid has {} values and {} states for {} cells",
                     grid.values.size(), grid.status.size(), cells);
+    }
+    if (grid.details.set().any() && grid.details.size() != cells) {
+        return fail(ErrorCode::bad_argument, "the grid has details of {} cells for {} cells",
+                    grid.details.size(), cells);
     }
     if (options.deflate_level < 0 || options.deflate_level > 9) {
         return fail(ErrorCode::bad_argument, "the deflate level must be 0 to 9, not {}",
@@ -240,9 +256,10 @@ Result<std::vector<std::byte>> build(const Grid& grid, const GridWriteOptions& o
     write_provenance(file, grid);
     write_axes(file, grid, size);
     write_mapping(file, grid.spec);
-    write_positions(file, grid.spec, size, options.deflate_level);
+    write_positions(file, grid.spec, {size.y, size.x}, options.deflate_level);
     write_field(file, grid, size, options.deflate_level);
     write_status(file, grid, size, options.deflate_level);
+    write_details(file, grid, size, options.deflate_level);
     return file.finish();
 }
 

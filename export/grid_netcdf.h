@@ -2,12 +2,14 @@
 //
 // Dimensions time (1), z, y, x. The field is named by its moment (REF), a float with _FillValue for
 // every cell that holds no value; the byte variable `status` keeps the four states apart by
-// flag_values and flag_meanings. Coordinates time, z, y, x in CF units, lat and lon of each column;
-// grid mapping azimuthal_equidistant on WGS84; provenance as global attributes.
-// The file is made in memory and appears whole or not at all (base/file_system.h); the same grid
-// gives the same cells and attributes, which name no time of writing.
-// Thread contract: any thread; calls wait for each other, because the netCDF library is not
-// thread-safe.
+// flag_values and flag_meanings. Where the grid has details (grid/cell_details.h), they are floats
+// beside it: age (s, from the time coordinate), beam_height_offset and gate_distance (m) and
+// sample_weight (1), _FillValue where nothing is known. The time is the frame time, which is the
+// start of the volume unless another was asked for. Coordinates time, z, y, x in CF units and the
+// grid mapping of the projection on WGS84 (export/grid_coordinates.h); provenance as global
+// attributes. The file is made in memory and appears whole or not at all (base/file_system.h); the
+// same grid gives the same cells and attributes, which name no time of writing. Thread contract:
+// any thread; calls wait for each other, because the netCDF library is not thread-safe.
 #pragma once
 
 #include <filesystem>

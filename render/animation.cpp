@@ -11,7 +11,19 @@
 namespace stormcellar::render {
 namespace {
 
-using MakeEncoder = std::unique_ptr<FrameEncoder> (*)(const AnimationOptions&);
+using MakeEncoder = Result<std::unique_ptr<FrameEncoder>> (*)(const AnimationOptions&);
+
+template <std::unique_ptr<FrameEncoder> (*make)(const AnimationOptions&)>
+Result<std::unique_ptr<FrameEncoder>> make_built_in(const AnimationOptions& options) {
+    return make(options);
+}
+
+#if STORMCELLAR_VIDEO
+template <VideoContainer container>
+Result<std::unique_ptr<FrameEncoder>> make_video(const AnimationOptions& options) {
+    return make_video_encoder(container, options);
+}
+#endif
 
 struct Format {
     std::string_view ending;
@@ -19,16 +31,12 @@ struct Format {
 };
 
 constexpr std::array formats {
-    Format{".webp", make_webp_encoder}, Format{".gif", make_gif_encoder},
-        Format{".apng", make_apng_encoder},
+    Format{".webp", make_built_in<make_webp_encoder>},
+        Format{".gif", make_built_in<make_gif_encoder>},
+        Format{".apng", make_built_in<make_apng_encoder>},
 #if STORMCELLAR_VIDEO
-        Format{".mp4",
-               [](const AnimationOptions& options) {
-                   return make_video_encoder(VideoContainer::mp4, options);
-               }},
-        Format{".webm", [](const AnimationOptions& options) {
-                   return make_video_encoder(VideoContainer::webm, options);
-               }},
+        Format{".mp4", make_video<VideoContainer::mp4>},
+        Format{".webm", make_video<VideoContainer::webm>},
 #endif
 };
 
@@ -145,7 +153,9 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
     for (const Format& format : formats) {
         if (ending != format.ending) continue;
         if (auto writable = probe(output, file_system); !writable) return pass_on(writable);
-        return std::make_unique<FileWriter>(output, format.make(options), file_system);
+        auto encoder = format.make(options);
+        if (!encoder) return tl::unexpected(named(output, encoder.error()));
+        return std::make_unique<FileWriter>(output, std::move(*encoder), file_system);
     }
     if (ending == ".mp4" || ending == ".webm") {
         return fail(ErrorCode::bad_argument,

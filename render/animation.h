@@ -7,7 +7,9 @@
 //          times in 1/100 s, at least 2/100; metadata as a comment
 //   .apng  lossless; alpha kept; metadata as tEXt chunks
 //   .mp4   H.264 (CRF 16, BT.709), or MPEG-4 part 2 where FFmpeg has no H.264 encoder
-//   .webm  VP9, or VP8; both only in a build with STORMCELLAR_VIDEO
+//   .webm  VP9, or VP8; both only in a build with STORMCELLAR_VIDEO, by a module that is loaded
+//   when
+//          such a writer is created, from where it is installed with the program
 //   NAME/  a directory of frame_0000.png, frame_0001.png, ...; alpha kept
 // Loops run for ever where the format has it (MP4, WebM and PNG files do not). Video has even
 // sizes: an odd picture gets its last column or row twice. Alpha is dropped where it is not named
@@ -46,8 +48,9 @@ struct AnimationOptions {
 class AnimationWriter {
   public:
     // bad_argument: an ending that this build does not know (the message names those it does), or
-    // options outside their range. The reason of the system when the file could not be written, so
-    // that nobody draws frames for nothing. `file_system` must outlive the writer.
+    // options outside their range. unsupported: the module of videos is not there. The reason of
+    // the system when the file could not be written, so that nobody draws frames for nothing.
+    // `file_system` must outlive the writer.
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());

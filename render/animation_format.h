@@ -34,9 +34,14 @@ class FrameEncoder {
 [[nodiscard]] std::unique_ptr<FrameEncoder> make_gif_encoder(const AnimationOptions& options);
 [[nodiscard]] std::unique_ptr<FrameEncoder> make_apng_encoder(const AnimationOptions& options);
 enum class VideoContainer { mp4, webm };
-// Only in a build with STORMCELLAR_VIDEO.
-[[nodiscard]] std::unique_ptr<FrameEncoder> make_video_encoder(VideoContainer container,
-                                                               const AnimationOptions& options);
+// From the module of videos (render/video_module.cpp), in a build with STORMCELLAR_VIDEO.
+// unsupported: the module or a library that it needs is not there.
+[[nodiscard]] Result<std::unique_ptr<FrameEncoder>> make_video_encoder(
+    VideoContainer container, const AnimationOptions& options);
+// What the module exports, by that name and in C's manner; the caller owns it.
+using MakeVideoEncoder = FrameEncoder* (*)(VideoContainer, const AnimationOptions&);
+inline constexpr const char* video_module_file = "stormcellar_video.so";
+inline constexpr const char* video_module_entry = "stormcellar_make_video_encoder";
 
 // The output is the directory's name, with its '/'.
 [[nodiscard]] Result<std::unique_ptr<AnimationWriter>> make_png_directory_writer(

@@ -1,4 +1,4 @@
-// MP4 and WebM through FFmpeg's libavcodec and libavformat.
+// MP4 and WebM through FFmpeg's libavcodec and libavformat: the module of videos.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -207,10 +207,10 @@ class VideoEncoder final : public FrameEncoder {
 };
 
 }  // namespace
-
-std::unique_ptr<FrameEncoder> make_video_encoder(VideoContainer container,
-                                                 const AnimationOptions& options) {
-    return std::make_unique<VideoEncoder>(container, options);
-}
-
 }  // namespace stormcellar::render
+
+extern "C" __attribute__((visibility("default"))) stormcellar::render::FrameEncoder*
+stormcellar_make_video_encoder(stormcellar::render::VideoContainer container,
+                               const stormcellar::render::AnimationOptions& options) {
+    return std::make_unique<stormcellar::render::VideoEncoder>(container, options).release();
+}

@@ -11,8 +11,8 @@ namespace {
 
 // The column under a ground point; -1 beyond the grid.
 std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
-    const double ix = std::floor(p.x_m / spec.spacing_m + 0.5 * spec.nx);
-    const double iy = std::floor(p.y_m / spec.spacing_m + 0.5 * spec.ny);
+    const double ix = std::floor(p.x_m / spec.cell_width_m() + 0.5 * spec.nx);
+    const double iy = std::floor(p.y_m / spec.cell_height_m() + 0.5 * spec.ny);
     if (!(ix >= 0 && ix < spec.nx && iy >= 0 && iy < spec.ny)) return -1;
     return static_cast<std::ptrdiff_t>(iy) * spec.nx + static_cast<std::ptrdiff_t>(ix);
 }

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <GeographicLib/AzimuthalEquidistant.hpp>
-#include <GeographicLib/Geodesic.hpp>
-
+#include "grid/projection.h"
 #include "render/shades.h"
 
 namespace stormcellar::render {
@@ -16,13 +14,38 @@ constexpr double radians = std::numbers::pi / 180;
 constexpr int ring_points = 240;
 constexpr double text_size = 10;
 
-GroundPoint site_point(const grid::GridSpec& spec, const grid::SitePosition& site) {
-    const GeographicLib::AzimuthalEquidistant map(GeographicLib::Geodesic::WGS84());
-    GroundPoint p;
-    map.Forward(spec.center_latitude_deg, spec.center_longitude_deg, site.latitude_deg,
-                site.longitude_deg, p.x_m, p.y_m);
-    return p;
-}
+// A site and what lies about it, in metres of the picture's ground.
+class SiteMap {
+  public:
+    SiteMap(const grid::GridSpec& spec, const grid::SitePosition& site)
+        : spec_(spec),
+          projection_(spec),
+          frame_(site.latitude_deg, site.longitude_deg),
+          site_(point({site.latitude_deg, site.longitude_deg})) {}
+
+    [[nodiscard]] GroundPoint site() const { return site_; }
+
+    // An azimuthal equidistant map shows a ring as a circle, near enough; others do not.
+    [[nodiscard]] GroundPoint about(double azimuth_rad, double arc_m) const {
+        if (spec_.projection == grid::Projection::azimuthal_equidistant) {
+            return {site_.x_m + arc_m * std::sin(azimuth_rad),
+                    site_.y_m + arc_m * std::cos(azimuth_rad)};
+        }
+        return point(frame_.to_geo({azimuth_rad / radians, arc_m}));
+    }
+
+  private:
+    [[nodiscard]] GroundPoint point(grid::GeoPoint place) const {
+        const grid::ColumnPoint column = projection_.to_column(place);
+        return {(column.x - 0.5 * (spec_.nx - 1)) * spec_.cell_width_m(),
+                (column.y - 0.5 * (spec_.ny - 1)) * spec_.cell_height_m()};
+    }
+
+    const grid::GridSpec& spec_;
+    grid::GridProjection projection_;
+    grid::SiteFrame frame_;
+    GroundPoint site_;
+};
 
 Point on_canvas(const MapLines& lines, double x_m, double y_m, double height_m) {
     const Pixel p = lines.geometry->project(x_m, y_m, height_m);
@@ -57,25 +80,23 @@ bool inside_picture(const MapLines& lines, Point p, double margin) {
            p.y <= lines.top + lines.geometry->height() - margin;
 }
 
-void draw_ring(Canvas& canvas, const MapLines& lines, GroundPoint site, double radius_m) {
+void draw_ring(Canvas& canvas, const MapLines& lines, const SiteMap& map, double radius_m) {
     std::vector<Point> ring;
+    ring.reserve(ring_points);
     for (int i = 0; i < ring_points; ++i) {
         const double turn = 2 * std::numbers::pi * i / ring_points;
-        ring.push_back(on_ground(
-            lines, {site.x_m + radius_m * std::sin(turn), site.y_m + radius_m * std::cos(turn)}));
+        ring.push_back(on_ground(lines, map.about(turn, radius_m)));
     }
     canvas.line(ring, lines.scale, shades::ring, true);
 }
 
 // Distances stand on the rings where they come nearest to the viewer.
-void label_rings(Canvas& canvas, const Fonts& fonts, const MapLines& lines, GroundPoint site) {
+void label_rings(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const SiteMap& map) {
     const double size = text_size * lines.scale;
-    const double azimuth = lines.camera.azimuth_deg * radians;
-    Point last = on_ground(lines, site);
+    Point last = on_ground(lines, map.site());
     for (int i = 1; i <= 40; ++i) {
         const double radius = i * lines.ring_spacing_m;
-        const GroundPoint p = {site.x_m + radius * std::sin(azimuth),
-                               site.y_m + radius * std::cos(azimuth)};
+        const GroundPoint p = map.about(lines.camera.azimuth_deg * radians, radius);
         const Point at = on_ground(lines, p);
         if (!inside_grid(lines, p) || !inside_picture(lines, at, 2 * size)) return;
         if (std::abs(at.y - last.y) < 1.6 * size) continue;
@@ -161,7 +182,7 @@ void draw_north(Canvas& canvas, const Fonts& fonts, const MapLines& lines) {
 
 void draw_site(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
                const grid::SitePosition& site) {
-    const GroundPoint p = site_point(*lines.spec, site);
+    const GroundPoint p = SiteMap(*lines.spec, site).site();
     const Point at = on_ground(lines, p);
     if (!inside_grid(lines, p) || !inside_picture(lines, at, 4 * lines.scale)) return;
     for (const auto& [half, colour] :
@@ -184,7 +205,8 @@ std::vector<Point> picture_polygon(const MapLines& lines) {
 }  // namespace
 
 double drawn_ring_spacing(const grid::GridSpec& spec, double asked_m) {
-    const double reach = std::hypot(spec.nx * spec.spacing_m, spec.ny * spec.spacing_m) / 2;
+    const double reach =
+        std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m()) / 2;
     double spacing = asked_m;
     while (reach / spacing > 20)
         spacing *= 2;
@@ -202,14 +224,15 @@ void draw_rings(Canvas& canvas, const Fonts& fonts, const MapLines& lines) {
     if (lines.heights) draw_heights(canvas, fonts, lines);
     canvas.unclip();
     if (lines.sites->size() != 1) return;
-    const GroundPoint site = site_point(*lines.spec, lines.sites->front());
+    const SiteMap map(*lines.spec, lines.sites->front());
+    const GroundPoint site = map.site();
     const double reach = std::hypot(lines.geometry->half_x_m(), lines.geometry->half_y_m()) +
                          std::hypot(site.x_m, site.y_m);
     canvas.clip_both(ground_polygon(lines), picture_polygon(lines));
     for (int i = 1; i * lines.ring_spacing_m < reach && i <= 40; ++i) {
-        draw_ring(canvas, lines, site, i * lines.ring_spacing_m);
+        draw_ring(canvas, lines, map, i * lines.ring_spacing_m);
     }
-    label_rings(canvas, fonts, lines, site);
+    label_rings(canvas, fonts, lines, map);
     canvas.unclip();
 }
 

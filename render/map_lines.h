@@ -3,8 +3,10 @@
 // Everything is projected by the ViewGeometry of the picture; `left` and `top` say where that
 // picture lies on the canvas. Range rings stand on the ground round a single site; a grid of
 // several sites has marks and no rings.
-// Accuracy: a ring round a site that is not the grid's centre is drawn as a circle of the map,
-// off by less than 0.1 % of its radius within 500 km of the centre.
+// Accuracy: on an azimuthal equidistant map a ring round a site that is not the grid's centre is
+// drawn as a circle of the map, off by less than 0.1 % of its radius within 500 km of the centre;
+// on the others it goes through 240 points at the ring's distance. Sites are where the map has
+// them.
 #pragma once
 
 #include <vector>

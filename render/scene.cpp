@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/floating_point.h"
+
 namespace stormcellar::render {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr std::array<Named, 2> products = {
 
 // NaN is outside every range.
 Status check_range(std::string_view what, double value, double low, double high) {
-    if (value >= low && value <= high) return {};
+    if (is_within(value, low, high)) return {};
     return fail(ErrorCode::bad_argument, "{} must be {} to {}, not {}", what, low, high, value);
 }
 

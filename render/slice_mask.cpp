@@ -46,10 +46,10 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
                 Box box{};
                 reach(
                     bx, spec.nx, -geometry.half_x_m(), geometry.half_x_m(),
-                    [&](int i) { return spec.x_m(i); }, box.low[0], box.high[0]);
+                    [&](int i) { return spec.x_from_middle_m(i); }, box.low[0], box.high[0]);
                 reach(
                     by, spec.ny, -geometry.half_y_m(), geometry.half_y_m(),
-                    [&](int i) { return spec.y_m(i); }, box.low[1], box.high[1]);
+                    [&](int i) { return spec.y_from_middle_m(i); }, box.low[1], box.high[1]);
                 reach(
                     bz, spec.nz(), geometry.bottom_m(), geometry.top_m(),
                     [&](int i) { return spec.levels_m[static_cast<std::size_t>(i)]; }, box.low[2],

@@ -22,9 +22,10 @@ class RayMaker {
         : geometry_(geometry),
           slices_(slices),
           step_m_((geometry.far_m() - geometry.near_m()) / slices),
-          spacing_m_(spec.spacing_m),
-          first_x_m_(spec.x_m(0)),
-          first_y_m_(spec.y_m(0)),
+          width_m_(spec.cell_width_m()),
+          height_m_(spec.cell_height_m()),
+          first_x_m_(spec.x_from_middle_m(0)),
+          first_y_m_(spec.y_from_middle_m(0)),
           z_slope_(levels.is_uniform() ? levels.slope() : 1),
           z_offset_(levels.is_uniform() ? levels.offset() : 0),
           low_{-geometry.half_x_m(), -geometry.half_y_m(),
@@ -36,13 +37,13 @@ class RayMaker {
     [[nodiscard]] RayPacket packet(int left, int y, int width) const {
         RayPacket rays{};
         const Vec3& forward = geometry_.forward();
-        rays.step_x = static_cast<float>(forward[0] * step_m_ / spacing_m_);
-        rays.step_y = static_cast<float>(forward[1] * step_m_ / spacing_m_);
+        rays.step_x = static_cast<float>(forward[0] * step_m_ / width_m_);
+        rays.step_y = static_cast<float>(forward[1] * step_m_ / height_m_);
         rays.step_z = static_cast<float>(forward[2] * step_m_ * z_slope_);
         for (int i = 0; i < packet_rays; ++i) {
             const Vec3 start = geometry_.point({left + i + 0.5, y + 0.5}, geometry_.near_m());
-            rays.x[i] = static_cast<float>((start[0] - first_x_m_) / spacing_m_);
-            rays.y[i] = static_cast<float>((start[1] - first_y_m_) / spacing_m_);
+            rays.x[i] = static_cast<float>((start[0] - first_x_m_) / width_m_);
+            rays.y[i] = static_cast<float>((start[1] - first_y_m_) / height_m_);
             rays.z[i] = static_cast<float>(z_offset_ + start[2] * z_slope_);
             if (left + i < width) clip(start, rays.enter[i], rays.leave[i]);
         }
@@ -72,7 +73,7 @@ class RayMaker {
     const ViewGeometry& geometry_;
     int slices_;
     double step_m_;
-    double spacing_m_, first_x_m_, first_y_m_;
+    double width_m_, height_m_, first_x_m_, first_y_m_;
     double z_slope_, z_offset_;
     Vec3 low_, high_;
 };

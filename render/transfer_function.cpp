@@ -54,7 +54,7 @@ TransferEntry entry_of(const std::vector<Sums>& sums, std::size_t low, std::size
 }  // namespace
 
 double extinction_per_m(double dbz, double opacity) {
-    if (!(dbz >= static_cast<double>(lowest_class_dbz))) return 0;
+    if (!std::isgreaterequal(dbz, static_cast<double>(lowest_class_dbz))) return 0;
     const double haze = haze_at_5_dbz * std::pow(10.0, (dbz - 5) / haze_decade_db);
     const double core = core_at_50_dbz * std::pow(10.0, (dbz - 50) / core_decade_db);
     return opacity * (haze + core) / reference_step_m;

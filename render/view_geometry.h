@@ -1,7 +1,8 @@
 // render/view_geometry.h -- where points of the grid are in the picture.
 //
 // Drawn space: x east, y north and z = height above sea level times the vertical exaggeration, in
-// metres from the grid's centre. The camera is orthographic; it looks at the middle of the box
+// metres from the grid's centre (of a latitude-longitude grid as its centre has them, see
+// GridSpec::cell_width_m()). The camera is orthographic; it looks at the middle of the box
 // that holds the grid (the grid's cells, and the ground below them). At zoom 1 that box just fits
 // into the picture.
 // Pixels: (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first pixel.

@@ -4,6 +4,8 @@
 
 #include "base/station_table.h"
 #include "base/toml_file.h"
+#include "grid/site_frame.h"
+#include "synth/read_instrument.h"
 
 namespace stormcellar::synth {
 namespace {
@@ -218,6 +220,39 @@ Layer read_layer(TomlTable& table) {
     return layer;
 }
 
+Wave read_wave(TomlTable table) {
+    Wave wave;
+    wave.most_db = table.number("wave_db", {0, 40}).value_or(0);
+    wave.length_m = table.number("wave_length_km", lengths_km).value_or(10) * km;
+    wave.azimuth_deg = table.number("wave_azimuth_deg", directions_deg).value_or(90);
+    return wave;
+}
+
+Box read_box(TomlTable& table) {
+    Box box;
+    box.footprint = read_footprint(table);
+    box.base_m = table.number("base_km", heights_km).value_or(0) * km;
+    box.top_m = needed_number(table, "top_km", heights_km) * km;
+    if (box.top_m <= box.base_m) table.complain("top_km", "must be above base_km");
+    box.peak_dbz = needed_number(table, "peak_dbz", peaks_dbz);
+    box.edge_m = table.number("edge_km", {0.001, 100}).value_or(0.5) * km;
+    box.wave = read_wave(table);
+    return box;
+}
+
+// Where the radar stands in the plane about the weather's own origin; none: that is the radar.
+std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
+    const bool has_latitude = weather.has("latitude_deg");
+    if (has_latitude != weather.has("longitude_deg")) {
+        weather.complain(has_latitude ? "longitude_deg" : "latitude_deg", "is missing");
+        return std::nullopt;
+    }
+    const auto latitude_deg = weather.number("latitude_deg", {-90, 90});
+    const auto longitude_deg = weather.number("longitude_deg", {-180, 180});
+    if (!latitude_deg || !longitude_deg) return std::nullopt;
+    return stand_of(site, *latitude_deg, *longitude_deg);
+}
+
 Result<Scene> scene_of(TomlFile& file) {
     TomlTable root = file.root();
     Scene scene;
@@ -229,11 +264,31 @@ Result<Scene> scene_of(TomlFile& file) {
     for (TomlTable& table : root.tables("layer")) {
         scene.weather.layers.push_back(read_layer(table));
     }
+    for (TomlTable& table : root.tables("box")) {
+        scene.weather.boxes.push_back(read_box(table));
+    }
+    if (const auto stand = read_stand(root.section("weather"), scene.site)) {
+        scene.weather = seen_from(scene.weather, *stand);
+    }
+    scene.instrument = read_instrument(root.section("instrument"),
+                                       static_cast<int>(scene.schedule.pattern.cuts.size()));
     if (const Status read = file.finish(); !read) return pass_on(read);
     return scene;
 }
 
 }  // namespace
+
+Stand stand_of(const Site& site, double latitude_deg, double longitude_deg) {
+    const grid::SiteFrame origin(latitude_deg, longitude_deg);
+    const grid::SiteFrame radar(site.latitude_deg, site.longitude_deg);
+    const grid::PolarPoint there = origin.to_polar({site.latitude_deg, site.longitude_deg});
+    const grid::PolarPoint back = radar.to_polar({latitude_deg, longitude_deg});
+    const grid::PlanePoint place = grid::SiteFrame::to_plane(there);
+    // At the origin itself north is north.
+    const double turn_deg =
+        there.arc_m > 0 ? std::remainder(there.azimuth_deg + 180 - back.azimuth_deg, 360) : 0;
+    return {place.x_m, place.y_m, turn_deg};
+}
 
 UtcTime Schedule::start_of(int volume) const {
     return start + std::chrono::milliseconds(std::llround(1000 * interval_s * volume));

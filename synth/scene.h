@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "base/utc_time.h"
+#include "synth/instrument.h"
 #include "synth/truth.h"
 #include "synth/vcp.h"
 
@@ -34,8 +35,13 @@ struct Schedule {
 struct Scene {
     Site site;
     Schedule schedule;
-    Weather weather;
+    Weather weather;  // in the plane about the site, wherever the file has its origin
+    Instrument instrument;
 };
+
+// Where a radar stands in the plane of weather whose origin is that place: so two scenes with one
+// origin are two radars that look at the same weather.
+[[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
 // `name` stands for the file in messages.
 [[nodiscard]] Result<Scene> parse_scene(std::string_view toml, const std::string& name);

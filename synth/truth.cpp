@@ -20,6 +20,40 @@ struct Offset {
     double north_m = 0;
 };
 
+// Clockwise.
+Offset turned(const Offset& offset, double turn_deg) {
+    const double sine = std::sin(turn_deg * degree);
+    const double cosine = std::cos(turn_deg * degree);
+    return {offset.east_m * cosine + offset.north_m * sine,
+            offset.north_m * cosine - offset.east_m * sine};
+}
+
+// The footprint as a radar has it that stands there.
+void move(Footprint& footprint, const Stand& stand) {
+    const Offset place =
+        turned({footprint.x_m - stand.x_m, footprint.y_m - stand.y_m}, -stand.turn_deg);
+    const Offset motion =
+        turned({footprint.motion.east_mps, footprint.motion.north_mps}, -stand.turn_deg);
+    footprint.x_m = place.east_m;
+    footprint.y_m = place.north_m;
+    footprint.motion = {motion.east_m, motion.north_m};
+    footprint.orientation_deg -= stand.turn_deg;
+}
+
+void move(Storm& storm, const Stand& stand) {
+    move(storm.footprint, stand);
+    const Offset tilt = turned({storm.tilt_east, storm.tilt_north}, -stand.turn_deg);
+    storm.tilt_east = tilt.east_m;
+    storm.tilt_north = tilt.north_m;
+    storm.ripple.turn_deg -= stand.turn_deg;
+    if (!storm.hook) return;
+    const Offset center = turned({storm.hook->x_m, storm.hook->y_m}, -stand.turn_deg);
+    storm.hook->x_m = center.east_m;
+    storm.hook->y_m = center.north_m;
+    storm.hook->from_deg -= stand.turn_deg;
+    storm.hook->to_deg -= stand.turn_deg;
+}
+
 // Of a point from a footprint's centre, which leans by `lean`.
 Offset offset_from(const Footprint& footprint, const Point& point, double t_s,
                    const Offset& lean = {}) {
@@ -51,9 +85,10 @@ Offset lean_of(const Storm& storm, double z_m) {
 double ripple_db(const Ripple& ripple, const Offset& offset, double z_m) {
     if (ripple.most_db == 0) return 0;
     const double scale = 2 * std::numbers::pi / ripple.length_m;
-    const double a = std::sin(scale * (offset.east_m + 0.31 * offset.north_m + 0.4 * z_m));
-    const double b = std::sin(scale * (0.618 * offset.north_m - 0.382 * offset.east_m) + 1.1);
-    const double c = std::sin(scale * (0.23 * offset.east_m + 1.37 * offset.north_m) + 2.3);
+    const Offset own = ripple.turn_deg == 0 ? offset : turned(offset, -ripple.turn_deg);
+    const double a = std::sin(scale * (own.east_m + 0.31 * own.north_m + 0.4 * z_m));
+    const double b = std::sin(scale * (0.618 * own.north_m - 0.382 * own.east_m) + 1.1);
+    const double c = std::sin(scale * (0.23 * own.east_m + 1.37 * own.north_m) + 2.3);
     return ripple.most_db * (a + b + c) / 3;
 }
 
@@ -113,6 +148,23 @@ double layer_dbz(const Layer& layer, const Point& point, double t_s) {
            ripple_db(layer.ripple, offset, point.z_m);
 }
 
+double box_dbz(const Box& box, const Point& point, double t_s) {
+    if (point.z_m < box.base_m || point.z_m > box.top_m) return nothing;
+    const Offset offset = offset_from(box.footprint, point, t_s);
+    const double sine = std::sin(box.footprint.orientation_deg * degree);
+    const double cosine = std::cos(box.footprint.orientation_deg * degree);
+    const double along_m = std::abs(offset.east_m * sine + offset.north_m * cosine);
+    const double across_m = std::abs(offset.east_m * cosine - offset.north_m * sine);
+    const double squared_distance = square(std::max(0.0, along_m - box.footprint.major_m)) +
+                                    square(std::max(0.0, across_m - box.footprint.minor_m));
+    const double flat_dbz =
+        box.peak_dbz - (box.peak_dbz - edge_dbz) * squared_distance / square(box.edge_m);
+    if (box.wave.most_db == 0 || flat_dbz + box.wave.most_db < weakest_dbz) return flat_dbz;
+    const double way_m = offset.east_m * std::sin(box.wave.azimuth_deg * degree) +
+                         offset.north_m * std::cos(box.wave.azimuth_deg * degree);
+    return flat_dbz + box.wave.most_db * std::sin(2 * std::numbers::pi * way_m / box.wave.length_m);
+}
+
 // Adds features up in mm^6/m^3, and their motion weighted by it.
 class Sum {
   public:
@@ -126,6 +178,10 @@ class Sum {
     [[nodiscard]] Echo echo() const {
         if (z_ == 0) return {nothing, {}};
         return {10 * std::log10(z_), {east_ / z_, north_ / z_}};
+    }
+    [[nodiscard]] LinearEcho linear() const {
+        if (z_ == 0) return {};
+        return {z_, {east_ / z_, north_ / z_}};
     }
 
   private:
@@ -179,9 +235,15 @@ Disc layer_disc(const Layer& layer, double t_s) {
             std::max(footprint.major_m, footprint.minor_m) * radii};
 }
 
-}  // namespace
+Disc box_disc(const Box& box, double t_s) {
+    const Footprint& footprint = box.footprint;
+    return {footprint.x_m + footprint.motion.east_mps * t_s,
+            footprint.y_m + footprint.motion.north_mps * t_s,
+            std::hypot(footprint.major_m, footprint.minor_m) +
+                box.edge_m * std::sqrt(reach(box.peak_dbz, box.wave.most_db))};
+}
 
-Echo truth(const Weather& weather, const Point& point, double t_s) {
+Sum sum_at(const Weather& weather, const Point& point, double t_s) {
     Sum sum;
     for (const Storm& storm : weather.storms) {
         const Offset offset = offset_from(storm.footprint, point, t_s, lean_of(storm, point.z_m));
@@ -191,7 +253,35 @@ Echo truth(const Weather& weather, const Point& point, double t_s) {
     for (const Layer& layer : weather.layers) {
         sum.add(layer_dbz(layer, point, t_s), layer.footprint.motion);
     }
-    return sum.echo();
+    for (const Box& box : weather.boxes) {
+        sum.add(box_dbz(box, point, t_s), box.footprint.motion);
+    }
+    return sum;
+}
+
+}  // namespace
+
+Weather seen_from(const Weather& weather, const Stand& stand) {
+    Weather there = weather;
+    for (Storm& storm : there.storms)
+        move(storm, stand);
+    for (Layer& layer : there.layers) {
+        move(layer.footprint, stand);
+        layer.ripple.turn_deg -= stand.turn_deg;
+    }
+    for (Box& box : there.boxes) {
+        move(box.footprint, stand);
+        box.wave.azimuth_deg -= stand.turn_deg;
+    }
+    return there;
+}
+
+Echo truth(const Weather& weather, const Point& point, double t_s) {
+    return sum_at(weather, point, t_s).echo();
+}
+
+LinearEcho linear_truth(const Weather& weather, const Point& point, double t_s) {
+    return sum_at(weather, point, t_s).linear();
 }
 
 double truth_dbz(const Weather& weather, const Point& point, double t_s) {
@@ -206,6 +296,9 @@ std::vector<Disc> echo_discs(const Weather& weather, double t_s) {
     for (const Layer& layer : weather.layers) {
         discs.push_back(layer_disc(layer, t_s));
     }
+    for (const Box& box : weather.boxes) {
+        discs.push_back(box_disc(box, t_s));
+    }
     return discs;
 }
 
@@ -216,6 +309,9 @@ double echo_ceiling_m(const Weather& weather) {
     }
     for (const Layer& layer : weather.layers) {
         ceiling_m = std::max(ceiling_m, layer.top_m);
+    }
+    for (const Box& box : weather.boxes) {
+        ceiling_m = std::max(ceiling_m, box.top_m);
     }
     return ceiling_m;
 }

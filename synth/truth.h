@@ -16,6 +16,10 @@
 //           d: horizontal distance from an arc of a circle, which moves and leans with its storm.
 //   layer   dbz - (dbz - 10) r^4 + bright_band exp(-((z - melting) / depth)^2)
 //           - lapse max(0, z - melting) + ripple, between base and top only
+//   box     dbz - (dbz - 10) (d / edge)^2 + wave sin(2 pi s / length), between base and top only
+//           d: horizontal distance from the rectangle; s: distance from its centre along an
+//           azimuth. So a box is flat, 10 dBZ at `edge` beyond its sides, and cut off sharply at
+//           its base and its top.
 // Accuracy  the formulas in double.
 // Threads   all functions are pure.
 #pragma once
@@ -53,6 +57,7 @@ struct Footprint {
 struct Ripple {
     double most_db = 0;  // largest change, up or down
     double length_m = 5000;
+    double turn_deg = 0;  // the waves' directions, clockwise
 };
 
 // The arc of a hook echo, seen from its storm's axis.
@@ -90,10 +95,39 @@ struct Layer {
     Ripple ripple;
 };
 
+// Stripes across a box, which move with it.
+struct Wave {
+    double most_db = 0;
+    double length_m = 10000;
+    double azimuth_deg = 90;  // across the stripes
+};
+
+// A plateau with sides as steep as one likes; the half axes of its footprint are half its sides.
+struct Box {
+    Footprint footprint;
+    double base_m = 0;
+    double top_m = 8000;
+    double peak_dbz = 40;
+    double edge_m = 500;
+    Wave wave;
+};
+
 struct Weather {
     std::vector<Storm> storms;
     std::vector<Layer> layers;
+    std::vector<Box> boxes = {};
 };
+
+// Where another radar stands in the plane, and how far its north is turned from the plane's y,
+// clockwise: meridians meet.
+struct Stand {
+    double x_m = 0;
+    double y_m = 0;
+    double turn_deg = 0;
+};
+// The same weather in the plane about that radar, as if both planes were one: off by the difference
+// of their scales across the radius, (arc / earth radius)^2 / 6, 50 m where both are 200 km away.
+[[nodiscard]] Weather seen_from(const Weather& weather, const Stand& stand);
 
 // The reflectivity, minus infinity where there is nothing.
 [[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
@@ -106,8 +140,15 @@ struct Echo {
 };
 [[nodiscard]] Echo truth(const Weather& weather, const Point& point, double t_s);
 
+// The same with the reflectivity in mm^6/m^3, 0 where there is nothing.
+struct LinearEcho {
+    double z_mm6_m3 = 0;
+    Motion motion;
+};
+[[nodiscard]] LinearEcho linear_truth(const Weather& weather, const Point& point, double t_s);
+
 // Discs that contain everything at a time, whatever the height: beyond them truth_dbz is minus
-// infinity. One for each storm and layer.
+// infinity. One for each feature.
 struct Disc {
     double x_m = 0;
     double y_m = 0;

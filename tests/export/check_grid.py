@@ -47,29 +47,108 @@ def vincenty(lat1, lon1, lat2, lon2):
     return b * big_a * (sigma - delta), math.degrees(azimuth) % 360
 
 
-def check_coordinates(data, facts):
-    assert data["REF"].dimensions == ("time", "z", "y", "x"), data["REF"].dimensions
-    assert data["REF"].shape == (1, len(facts["levels_m"]), facts["ny"], facts["nx"])
-    x, y, z = data["x"][:], data["y"][:], data["z"][:]
-    for axis, count in ((x, facts["nx"]), (y, facts["ny"])):
-        assert np.all(np.diff(axis) == facts["spacing_m"])
-        assert axis[0] == -axis[-1] == -(count - 1) / 2 * facts["spacing_m"]
-    assert list(z) == facts["levels_m"]
-    assert data["z"].positive == "up" and data["z"].units == "m"
-    mapping = data[data["REF"].grid_mapping]
-    assert mapping.grid_mapping_name == "azimuthal_equidistant"
+def snyder_lambert(mapping, lat, lon):
+    """x and y on the cone (Snyder 1987, eqs 14-15 and 15-7 to 15-11), from the CF attributes."""
+    f = 1 / mapping.inverse_flattening
+    e = math.sqrt(f * (2 - f))
+
+    def m(deg):
+        return math.cos(math.radians(deg)) / math.sqrt(1 - (e * math.sin(math.radians(deg)))**2)
+
+    def t(deg):
+        s = e * np.sin(np.radians(deg))
+        return np.tan(math.pi / 4 - np.radians(deg) / 2) / ((1 - s) / (1 + s))**(e / 2)
+
+    parallels = np.atleast_1d(mapping.standard_parallel)
+    first, last = float(parallels[0]), float(parallels[-1])
+    if first == last:
+        n = math.sin(math.radians(first))
+    else:
+        n = math.log(m(first) / m(last)) / math.log(t(first) / t(last))
+    scale = mapping.semi_major_axis * m(first) / (n * t(first)**n)
+    rho, origin = scale * t(lat)**n, scale * t(mapping.latitude_of_projection_origin)**n
+    theta = n * np.radians(lon - mapping.longitude_of_central_meridian)
+    return rho * np.sin(theta), origin - rho * np.cos(theta)
+
+
+def check_azimuthal(data, mapping, facts):
     center = mapping.latitude_of_projection_origin, mapping.longitude_of_projection_origin
     assert list(center) == facts["center"]
-    assert mapping.semi_major_axis == 6378137.0
-    assert abs(mapping.inverse_flattening - 298.257223563) < 1e-9
-    lat, lon = data["lat"][:], data["lon"][:]
+    x, y, lat, lon = (data[name][:] for name in ("x", "y", "lat", "lon"))
     for iy in range(0, len(y), 41):
         for ix in range(0, len(x), 37):
             arc, azimuth = vincenty(*center, lat[iy, ix], lon[iy, ix])
             assert abs(arc * math.sin(math.radians(azimuth)) - x[ix]) < 0.01
             assert abs(arc * math.cos(math.radians(azimuth)) - y[iy]) < 0.01
+
+
+def check_lambert(data, mapping, facts):
+    assert list(np.unique(mapping.standard_parallel)) == list(np.unique(facts["parallels_deg"]))
+    center = mapping.latitude_of_projection_origin, mapping.longitude_of_central_meridian
+    assert list(center) == facts["center"]
+    x, y = snyder_lambert(mapping, data["lat"][:], data["lon"][:])
+    assert np.abs(x - data["x"][:][np.newaxis, :]).max() < 1e-5
+    assert np.abs(y - data["y"][:][:, np.newaxis]).max() < 1e-5
+
+
+def check_degrees(data, facts):
+    assert "lat" not in data.variables and "coordinates" not in data["REF"].ncattrs()
+    for name, count, center, units, standard in (
+            ("y", facts["ny"], facts["center"][0], "degrees_north", "latitude"),
+            ("x", facts["nx"], facts["center"][1], "degrees_east", "longitude")):
+        assert data[name].units == units and data[name].standard_name == standard
+        expected = center + (np.arange(count) - (count - 1) / 2) * facts["spacing_deg"]
+        assert np.abs(data[name][:] - expected).max() < 1e-10
+
+
+def check_coordinates(data, facts):
+    assert data["REF"].dimensions == ("time", "z", "y", "x"), data["REF"].dimensions
+    assert data["REF"].shape == (1, len(facts["levels_m"]), facts["ny"], facts["nx"])
+    assert list(data["z"][:]) == facts["levels_m"]
+    assert data["z"].positive == "up" and data["z"].units == "m"
+    assert data["status"].grid_mapping == data["REF"].grid_mapping
+    mapping = data[data["REF"].grid_mapping]
+    assert mapping.semi_major_axis == 6378137.0
+    assert abs(mapping.inverse_flattening - 298.257223563) < 1e-9
+    expected = {"lambert_conformal": "lambert_conformal_conic"}
+    name = expected.get(facts["projection"], facts["projection"])
+    assert mapping.grid_mapping_name == name, mapping.grid_mapping_name
+    if name == "latitude_longitude":
+        check_degrees(data, facts)
+    else:
+        for axis, count in ((data["x"], facts["nx"]), (data["y"], facts["ny"])):
+            assert axis.units == "m" and axis.standard_name.startswith("projection_")
+            assert np.all(np.diff(axis[:]) == facts["spacing_m"])
+            assert axis[0] == -axis[-1] == -(count - 1) / 2 * facts["spacing_m"]
+        check = check_azimuthal if name == "azimuthal_equidistant" else check_lambert
+        check(data, mapping, facts)
+        assert np.abs(np.diff(data["lon"][:], axis=1)).max() < 1, "continuous"
     time = netCDF4.num2date(data["time"][0], data["time"].units, data["time"].calendar)
-    assert time.strftime("%Y-%m-%dT%H:%M:%S") == facts["time"][:19], (time, facts["time"])
+    assert time.strftime("%Y-%m-%dT%H:%M:%S") == facts["frame_time"][:19], (time, facts)
+
+
+def places(dataset):
+    """Latitude and longitude of every column."""
+    if "lat" in dataset.coords:
+        return dataset["lat"].values, dataset["lon"].values
+    return np.meshgrid(dataset["y"].values, dataset["x"].values, indexing="ij")
+
+
+def middle_of_storms(path, site):
+    """The mean place of strong echo at 3 km, not far from the site, on any projection."""
+    with xarray.open_dataset(path) as dataset:
+        lat, lon = places(dataset)
+        field = dataset["REF"].isel(time=0).sel(z=3000, method="nearest").values
+        north = lat - site[0]
+        east = (lon - site[1]) * np.cos(np.radians(lat))
+        near = np.hypot(north, east) < 1.2
+        weight = np.where(near & (field > 30), field - 30, 0)
+        # A cell of degrees is smaller to the north: weigh by area on the map it stands on.
+        if "lat" not in dataset.coords:
+            weight = weight * np.cos(np.radians(lat))
+        if weight.sum() == 0:
+            return None
+        return np.sum(weight * lat) / weight.sum(), np.sum(weight * lon) / weight.sum()
 
 
 def check_cells(data, facts):
@@ -92,24 +171,102 @@ def check_xarray(path, facts):
     with xarray.open_dataset(path) as dataset:
         assert dataset.attrs["Conventions"] == "CF-1.8"
         assert dataset.attrs["source_files"] == facts["file"]
-        assert str(dataset["time"].values[0])[:19] == facts["time"][:19]
-        assert set(dataset["REF"].coords) >= {"time", "z", "y", "x", "lat", "lon"}
+        assert str(dataset["time"].values[0])[:19] == facts["frame_time"][:19]
+        assert set(dataset["REF"].coords) >= {"time", "z", "y", "x"}
+        in_degrees = facts["projection"] == "latitude_longitude"
+        assert ("lat" in dataset["REF"].coords) != in_degrees
         valued = int(dataset["REF"].notnull().sum())
         assert valued == facts["cells"]["value"]
-        strongest = dataset["REF"].max("z").isel(time=0).sel(x=0, y=0, method="nearest")
+        middle = facts["center"] if in_degrees else (0, 0)
+        strongest = dataset["REF"].max("z").isel(time=0).sel(
+            y=middle[0], x=middle[1], method="nearest")
         assert strongest.dims == ()
+
+
+DETAILS = {"age": "s", "beam_height_offset": "m", "gate_distance": "m", "sample_weight": "1"}
+
+
+def check_details(program, level2_file, path):
+    """Everything beside the value, of a frame time ten minutes after the volume began."""
+    plain = make(program, level2_file, path, [])
+    with netCDF4.Dataset(path) as data:
+        assert not set(DETAILS) & set(data.variables), "nothing that was not asked for"
+        assert data["time"].long_name == "start of the volume"
+        field = np.ma.getdata(data["REF"][:]).copy()
+    frame = np.datetime64(plain["time"][:19]) + np.timedelta64(600, "s")
+    make(program, level2_file, path, ["--fields", "all"])
+    with netCDF4.Dataset(path) as data:
+        assert np.array_equal(np.ma.getdata(data["REF"][:]), field)
+        seen = np.ma.getdata(data["status"][:]) != 0
+        since_start = data["age"][:]
+    facts = make(program, level2_file, path,
+                 ["--fields", "age,height_offset,distance,weight", "--time", f"{frame}Z"])
+    assert facts["frame_time"] == f"{frame}Z" and facts["time"] == plain["time"]
+    with netCDF4.Dataset(path) as data:
+        assert data["time"].long_name == "frame time"
+        assert data["REF"].ancillary_variables.split() == ["status", *DETAILS]
+        for name, units in DETAILS.items():
+            assert data[name].dimensions == ("time", "z", "y", "x")
+            assert data[name].units == units and data[name].long_name
+            assert data[name].grid_mapping == data["REF"].grid_mapping
+            assert np.array_equal(~np.ma.getmaskarray(data[name][:]), seen), name
+        age, offset, distance, weight = (data[name][:] for name in DETAILS)
+        assert f"{frame}Z" in data["age"].comment
+        # Neither volume repeats a cut, so that the sweeps are the same whatever the time; the start
+        # of a volume may have milliseconds.
+        assert np.abs(since_start - age - 600).max() < 1.01
+        start, end = (np.datetime64(data.getncattr("time_coverage_" + name).rstrip("Z"))
+                      for name in ("start", "end"))
+        assert age.min() >= (start - frame) / np.timedelta64(1, "s") - 0.01
+        assert age.max() <= (end - frame) / np.timedelta64(1, "s") + 0.01
+        assert weight.min() >= 0.499 and weight.max() <= 1 and np.ma.median(weight) == 1
+        assert (np.abs(offset) < 8000).all() and offset.min() < -100 and offset.max() > 100
+        assert distance.min() >= 0 and np.ma.median(distance) > 50
+        # The gates of the nearest beam are no farther than beam and half a radial's width.
+        x, y = np.meshgrid(data["x"][:], data["y"][:])
+        half_m = np.hypot(x, y) * math.radians(0.75) + 600
+        assert (distance <= np.abs(offset) * 1.01 + half_m).all()
+
+
+def make(program, level2_file, path, options):
+    command = [program, "grid", level2_file, "-o", path, "--json", *options]
+    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
 
 
 def main():
     program, level2_file = sys.argv[1:3]
     with tempfile.TemporaryDirectory() as directory:
         path = directory + "/out.nc"
-        command = [program, "grid", level2_file, "-o", path, "--json"]
-        facts = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-        with netCDF4.Dataset(path) as data:
-            check_coordinates(data, facts)
-            check_cells(data, facts)
-        check_xarray(path, facts)
+        site = make(program, level2_file, path, [])["center"]
+        off_site = f"{site[0] + 0.4:.3f},{site[1] - 0.5:.3f}"
+        echoes = []
+        for options in (
+                [],
+                ["--center", off_site],
+                ["--projection", "lat-lon"],
+                ["--projection", "latlon", "--center", off_site, "--spacing-deg", "0.01",
+                 "--extent-deg", "5,4"],
+                ["--projection", "lambert"],
+                ["--projection", "lcc", "--center", off_site, "--parallels", "33,45"]):
+            facts = make(program, level2_file, path, options)
+            with netCDF4.Dataset(path) as data:
+                check_coordinates(data, facts)
+                check_cells(data, facts)
+            check_xarray(path, facts)
+            echoes.append(middle_of_storms(path, site))
+        check_details(program, level2_file, path)
+        # The storms stand at the same places on every map, within a cell.
+        stormy = facts["cells"]["value"] > 0.02 * facts["nx"] * facts["ny"] * len(facts["levels_m"])
+        assert not stormy or None not in echoes
+        for lat, lon in [place for place in echoes[1:] if place]:
+            arc, _ = vincenty(*echoes[0], lat, lon)
+            assert arc < 1000, (echoes, arc)
+        for options in (["--projection", "lat-lon"], ["--projection", "lambert"], []):
+            facts = make(program, level2_file, path,
+                         ["--center", "13.45,179.98", "--extent-km", "60,40", *options])
+            with netCDF4.Dataset(path) as data:
+                check_coordinates(data, facts)
+            assert facts["cells"]["value"] == 0
 
 
 if __name__ == "__main__":

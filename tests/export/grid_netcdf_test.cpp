@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "grid/method.h"
 #include "tests/export/netcdf_reader.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
@@ -34,6 +35,8 @@ Grid small_grid() {
     made.provenance.vcp = 212;
     made.provenance.partial = true;
     made.provenance.notes = {"first", "second"};
+    made.provenance.audit = {{0.5F, 0, 60e3F, 20, 15, 10, 2, 1},
+                             {1.5F, 0, 60e3F, 20, 15, 10, 2, 1}};
     for (std::size_t cell = 0; cell < made.spec.cell_count(); ++cell) {
         made.status.push_back(static_cast<CellStatus>(cell % 4));
         made.values.push_back(static_cast<float>(cell));
@@ -78,6 +81,10 @@ TEST_F(GridNetcdf, SaysWhereItComesFrom) {
     EXPECT_EQ(reader.text(nullptr, "source_files"), "KTLX_FILE");
     EXPECT_EQ(reader.text(nullptr, "volume"), "partial");
     EXPECT_EQ(reader.text(nullptr, "notes"), "first\nsecond");
+    EXPECT_EQ(reader.text(nullptr, "audit"),
+              "grid minus gates, scanned as the radar did\n"
+              "0 to 60 km: RMS 2.00 dB, mean 1.00 dB over 20 gates; status the same in 75.0 % of "
+              "40");
     EXPECT_EQ(reader.text("REF", "units"), "dBZ");
     EXPECT_EQ(reader.text("REF", "grid_mapping"), "azimuthal_equidistant");
     EXPECT_EQ(reader.text("status", "flag_meanings"), "not_seen no_echo range_folded value");
@@ -91,6 +98,65 @@ TEST_F(GridNetcdf, TheFieldIsNamedByItsMoment) {
         Reader reader(path_);
         const std::string name{level2::moment_name(moment)};
         EXPECT_EQ(reader.text(name.c_str(), "units"), level2::moment_units(moment));
+    }
+}
+
+// 2026-11-21: means over a cell's area said that they were points.
+TEST_F(GridNetcdf, CellMethodsSayWhetherACellIsAPointOrAMean) {
+    Grid grid = small_grid();
+    const auto written_of = [&](const grid::Method& method) {
+        grid.provenance.method = method.name();
+        EXPECT_TRUE(write_grid(real_file_system(), path_, grid));
+        return Reader(path_).text("REF", "cell_methods");
+    };
+    grid::Method method;
+    for (const auto interpolation :
+         {grid::Interpolation::nearest, grid::Interpolation::linear,
+          grid::Interpolation::eight_point, grid::Interpolation::beam_weighted}) {
+        method.interpolation = interpolation;
+        method.cell = grid::CellExtent::point;
+        EXPECT_EQ(written_of(method), "area: point") << method.name();
+        method.cell = grid::CellExtent::area;
+        EXPECT_EQ(written_of(method), "area: mean") << method.name();
+    }
+}
+
+TEST_F(GridNetcdf, DetailsStandBesideTheFieldWhereTheyAreKnown) {
+    Grid grid = small_grid();
+    grid::DetailSet set;
+    set.add(grid::Detail::age);
+    set.add(grid::Detail::distance);
+    const std::size_t cells = grid.spec.cell_count();
+    grid.details = grid::CellDetails(set, cells);
+    for (std::size_t cell = 0; cell < cells; cell += 2) {
+        grid.details.put(grid::Detail::age, cell, -0.5F * static_cast<float>(cell));
+        if (cell % 4 == 0) grid.details.put(grid::Detail::distance, cell, 7);
+    }
+    grid.frame_time = grid.time + std::chrono::minutes(3);
+    ASSERT_TRUE(write_grid(real_file_system(), path_, grid));
+    Reader reader(path_);
+    EXPECT_NEAR(reader.values("time", 1)[0], 19068 * 86400 + 702.596, 1e-6);
+    EXPECT_EQ(reader.text("time", "long_name"), "frame time");
+    EXPECT_EQ(reader.text("REF", "ancillary_variables"), "status age gate_distance");
+    EXPECT_EQ(reader.text("age", "units"), "s");
+    EXPECT_NE(reader.text("age", "comment").find(format_utc(*grid.frame_time)), std::string::npos);
+    EXPECT_EQ(reader.text("gate_distance", "units"), "m");
+    EXPECT_FALSE(reader.has_variable("beam_height_offset"));
+    EXPECT_FALSE(reader.has_variable("sample_weight"));
+    EXPECT_EQ(reader.number("age", "_FillValue"), static_cast<double>(NC_FILL_FLOAT));
+    const auto ages_s = reader.values("age", cells);
+    const auto distances_m = reader.values("gate_distance", cells);
+    std::size_t at = 0;
+    for (int iz = 0; iz < 3; ++iz) {
+        for (int iy = 0; iy < 4; ++iy) {
+            for (int ix = 0; ix < 5; ++ix, ++at) {
+                const std::size_t cell = grid.spec.index(ix, iy, iz);
+                const auto fill = static_cast<double>(NC_FILL_FLOAT);
+                const double age_s = cell % 2 == 0 ? -0.5 * static_cast<double>(cell) : fill;
+                ASSERT_EQ(ages_s[at], age_s);
+                ASSERT_EQ(distances_m[at], cell % 4 == 0 ? 7 : fill);
+            }
+        }
     }
 }
 
@@ -144,6 +210,11 @@ TEST_F(GridNetcdf, RefusesAGridThatDoesNotFitItself) {
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().code, ErrorCode::bad_argument);
     EXPECT_FALSE(write_grid(real_file_system(), path_, small_grid(), {10}));
+    grid = small_grid();
+    grid::DetailSet ages;
+    ages.add(grid::Detail::age);
+    grid.details = grid::CellDetails(ages, grid.spec.cell_count() - 1);
+    EXPECT_FALSE(write_grid(real_file_system(), path_, grid));
     EXPECT_FALSE(std::filesystem::exists(path_));
 }
 

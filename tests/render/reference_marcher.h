@@ -24,8 +24,8 @@ inline ReferenceSample reference_sample(const grid::BrickView& view, const ViewG
         height < geometry.bottom_m() || height > geometry.top_m()) {
         return {};
     }
-    const double fx = std::clamp((p[0] - spec.x_m(0)) / spec.spacing_m, 0.0, spec.nx - 1.0);
-    const double fy = std::clamp((p[1] - spec.y_m(0)) / spec.spacing_m, 0.0, spec.ny - 1.0);
+    const double fx = std::clamp((p[0] - spec.x_m(0)) / spec.cell_width_m(), 0.0, spec.nx - 1.0);
+    const double fy = std::clamp((p[1] - spec.y_m(0)) / spec.cell_height_m(), 0.0, spec.ny - 1.0);
     double fz = 0;
     for (int i = 0; i + 1 < spec.nz(); ++i) {
         const double low = spec.levels_m[static_cast<std::size_t>(i)];

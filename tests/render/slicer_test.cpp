@@ -45,8 +45,7 @@ TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
 }
 
 // Where one cell lands in the picture, from all sides: the orientation of everything.
-TEST(Slicer, ASingleCellLandsWhereGeometryPutsIt) {
-    const grid::GridSpec spec = small_spec(40, 12);
+void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
     struct Place {
         int ix, iy, iz;
     };
@@ -82,6 +81,11 @@ TEST(Slicer, ASingleCellLandsWhereGeometryPutsIt) {
             EXPECT_NEAR(y / sum, expected.y, at_edge ? 0.4 * pixels_per_cell : 0.35);
         }
     }
+}
+
+TEST(Slicer, ASingleCellLandsWhereGeometryPutsIt) {
+    expect_cells_where_geometry_puts_them(small_spec(40, 12));
+    expect_cells_where_geometry_puts_them(small_degrees_spec(40, 12));
 }
 
 struct Difference {

@@ -22,6 +22,15 @@ inline grid::GridSpec small_spec(int n, int levels, double spacing_m = 1000,
     return spec;
 }
 
+// The same in degrees: columns are narrower than rows are high.
+inline grid::GridSpec small_degrees_spec(int n, int levels) {
+    grid::GridSpec spec = small_spec(n, levels);
+    spec.projection = grid::Projection::latitude_longitude;
+    spec.spacing_m = 0;
+    spec.spacing_deg = 0.01;
+    return spec;
+}
+
 struct Cell {
     grid::CellStatus status = grid::CellStatus::no_echo;
     float value = 0;

@@ -1,9 +1,13 @@
 #include "synth/scene.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/station_table.h"
+#include "grid/site_frame.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {
@@ -123,7 +127,9 @@ lapse_db_per_km = 4
 }
 
 TEST(Scene, ThoseOfTheProjectAreRead) {
-    for (const char* name : {"moving-storm.toml", "small-storm.toml"}) {
+    for (const char* name : {"instrument-all.toml", "moving-storm.toml", "small-storm.toml",
+                             "truth-clear-air.toml", "truth-edge.toml", "truth-point.toml",
+                             "truth-sine.toml", "truth-stratiform.toml", "truth-supercell.toml"}) {
         const auto scene = read_scene(testing::source_directory() / "scenes" / name);
         EXPECT_TRUE(scene) << scene.error().message;
     }
@@ -180,6 +186,119 @@ TEST(Scene, AStormThatCannotBeIsRefused) {
         toml.replace(toml.find(mistake.replace), std::string(mistake.replace).size(), mistake.by);
         EXPECT_THAT(message_of(toml), HasSubstr(mistake.message)) << mistake.by;
     }
+}
+
+TEST(Scene, EveryKeyOfABoxAndAnInstrumentArrives) {
+    const auto scene = parse_scene(std::string(least) + R"([[box]]
+position_km = [1, 2]
+radii_km = [3, 4]
+base_km = 1
+top_km = 5
+peak_dbz = 35
+edge_km = 0.25
+wave_db = 6
+wave_length_km = 7
+wave_azimuth_deg = 8
+[instrument]
+seed = 9
+beam_width_deg = 0.95
+pulse_length_m = 470
+noise_db = 1.5
+velocity_noise_mps = 2
+velocity_folding = "on"
+range_folding = "on"
+azimuth_jitter_deg = 0.1
+elevation_jitter_deg = 0.2
+missing_fraction = 0.01
+missing_cuts = [2, 17]
+[instrument.clutter]
+peak_dbz = 40
+range_km = 20
+texture_db = 3
+[[instrument.missing_radials]]
+from_azimuth_deg = 350
+to_azimuth_deg = 10
+[[instrument.missing_radials]]
+cut = 3
+from_azimuth_deg = 20
+to_azimuth_deg = 30
+)",
+                                   "scene.toml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->weather.boxes.size(), 1U);
+    const Box& box = scene->weather.boxes[0];
+    EXPECT_EQ(box.footprint.minor_m, 4000);
+    EXPECT_EQ(box.base_m, 1000);
+    EXPECT_EQ(box.top_m, 5000);
+    EXPECT_EQ(box.peak_dbz, 35);
+    EXPECT_EQ(box.edge_m, 250);
+    EXPECT_EQ(box.wave.most_db, 6);
+    EXPECT_EQ(box.wave.length_m, 7000);
+    EXPECT_EQ(box.wave.azimuth_deg, 8);
+    const Instrument& instrument = scene->instrument;
+    EXPECT_EQ(instrument.seed, 9U);
+    EXPECT_EQ(instrument.beam_width_deg, 0.95);
+    EXPECT_EQ(instrument.pulse_length_m, 470);
+    EXPECT_EQ(instrument.noise_db, 1.5);
+    EXPECT_EQ(instrument.velocity_noise_mps, 2);
+    EXPECT_TRUE(instrument.velocity_folding);
+    EXPECT_TRUE(instrument.range_folding);
+    EXPECT_EQ(instrument.azimuth_jitter_deg, 0.1);
+    EXPECT_EQ(instrument.elevation_jitter_deg, 0.2);
+    EXPECT_EQ(instrument.missing_fraction, 0.01);
+    EXPECT_EQ(instrument.missing_cuts, (std::vector<int>{2, 17}));
+    ASSERT_TRUE(instrument.clutter);
+    EXPECT_EQ(instrument.clutter->range_m, 20000);
+    EXPECT_EQ(instrument.clutter->texture_db, 3);
+    ASSERT_EQ(instrument.missing_radials.size(), 2U);
+    EXPECT_FALSE(instrument.missing_radials[0].cut);
+    EXPECT_EQ(instrument.missing_radials[1].cut, 3);
+    EXPECT_EQ(instrument.missing_radials[1].to_deg, 30);
+}
+
+TEST(Scene, AnInstrumentDoesNothingUnlessItIsTold) {
+    const auto scene = parse_scene(least, "scene.toml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_FALSE(scene->instrument.changes_gates());
+    EXPECT_EQ(scene->instrument.missing_fraction, 0);
+    EXPECT_EQ(scene->instrument.azimuth_jitter_deg, 0);
+    EXPECT_EQ(scene->instrument.elevation_jitter_deg, 0);
+    const std::string start = std::string(least) + "[instrument]\n";
+    EXPECT_THAT(message_of(start + "velocity_folding = \"yes\"\n"), HasSubstr("\"on\" or \"off\""));
+    EXPECT_THAT(message_of(start + "missing_cuts = [18]\n"), HasSubstr("18 is not a cut"));
+    EXPECT_THAT(message_of(start + "beam_width = 1\n"), HasSubstr("unknown key"));
+}
+
+// "The same weather but for 50 m at 200 km from both": where a storm stands on the earth.
+TEST(Scene, RadarsOfOneOriginSeeTheSameWeather) {
+    const grid::SiteFrame origin(40, -97);
+    for (const double longitude_deg : {-99.0, -97.0, -95.5}) {
+        for (const double latitude_deg : {39.2, 40.0, 41.0}) {
+            for (const char* place_km : {"[-60, 150]", "[80, -140]", "[10, 20]"}) {
+                const auto scene = parse_scene(
+                    fmt::format("[radar]\nstation = \"XSYN\"\nlatitude_deg = {}\n"
+                                "longitude_deg = {}\naltitude_m = 400\n[volumes]\ncount = 1\n"
+                                "start = \"2024-06-01T22:00:00Z\"\nvcp = 212\n[weather]\n"
+                                "latitude_deg = 40\nlongitude_deg = -97\n[[storm]]\n"
+                                "position_km = {}\nradii_km = [9, 9]\ncore_km = 3\ntop_km = 9\n"
+                                "peak_dbz = 50\n",
+                                latitude_deg, longitude_deg, place_km),
+                    "scene.toml");
+                ASSERT_TRUE(scene) << scene.error().message;
+                double x_km = 0, y_km = 0;
+                ASSERT_EQ(std::sscanf(place_km, "[%lf, %lf]", &x_km, &y_km), 2);
+                const auto place =
+                    origin.to_geo(grid::SiteFrame::from_plane(1000 * x_km, 1000 * y_km));
+                const grid::SiteFrame radar(latitude_deg, longitude_deg);
+                const auto seen = grid::SiteFrame::to_plane(radar.to_polar(place));
+                const Footprint& footprint = scene->weather.storms.at(0).footprint;
+                EXPECT_LT(std::hypot(footprint.x_m - seen.x_m, footprint.y_m - seen.y_m), 90)
+                    << latitude_deg << ' ' << longitude_deg << ' ' << place_km;
+            }
+        }
+    }
+    EXPECT_THAT(message_of(std::string(least) + "[weather]\nlatitude_deg = 3\n"),
+                HasSubstr("longitude_deg"));
 }
 
 TEST(Scene, AMissingFileIsNamed) {

@@ -170,5 +170,96 @@ TEST(Truth, NothingLiesBeyondTheDiscsOrAboveTheCeiling) {
     EXPECT_GT(with_echo, 5000);
 }
 
+TEST(TruthBox, IsFlatAndFallsBeyondItsSides) {
+    Box box;
+    box.footprint.x_m = 1000;
+    box.footprint.motion = {10, 0};
+    box.footprint.major_m = 20000;
+    box.footprint.minor_m = 10000;
+    box.base_m = 2000;
+    box.top_m = 6000;
+    box.edge_m = 50;
+    const Weather weather{{}, {}, {box}};
+    EXPECT_DOUBLE_EQ(truth_dbz(weather, {1000 + 9999, 19999, 2000}, 0), 40);
+    EXPECT_NEAR(truth_dbz(weather, {1000, 20050, 3000}, 0), 10, 1e-9);
+    EXPECT_NEAR(truth_dbz(weather, {1000 + 10025, 0, 3000}, 0), 40 - 30.0 / 4, 1e-9);
+    // 40 and 30 m beyond a corner: 50.
+    EXPECT_NEAR(truth_dbz(weather, {1000 + 10030, 20040, 3000}, 0), 10, 1e-9);
+    EXPECT_NEAR(truth_dbz(weather, {1000 + 10050 + 100, 0, 3000}, 10), 10, 1e-9) << "it drifts";
+    EXPECT_EQ(truth_dbz(weather, {1000, 0, 1999}, 0), -INFINITY);
+    EXPECT_EQ(truth_dbz(weather, {1000, 0, 6001}, 0), -INFINITY);
+    EXPECT_EQ(truth_dbz(weather, {1000, 20080, 3000}, 0), -INFINITY);
+    EXPECT_EQ(echo_ceiling_m(weather), 6000);
+    EXPECT_GE(echo_discs(weather, 0)[0].radius_m, std::hypot(20000, 10000) + 70);
+    const LinearEcho echo = linear_truth(weather, {1000, 0, 3000}, 0);
+    EXPECT_DOUBLE_EQ(echo.z_mm6_m3, 10000);
+    EXPECT_EQ(echo.motion.east_mps, 10);
+}
+
+TEST(TruthBox, ItsWaveRunsAlongItsAzimuth) {
+    Box box;
+    box.footprint.major_m = box.footprint.minor_m = 50000;
+    box.footprint.motion = {5, 5};
+    box.wave = {6, 8000, 60};
+    const Weather weather{{}, {}, {box}};
+    const double east = std::sin(M_PI / 3);
+    const double north = std::cos(M_PI / 3);
+    EXPECT_NEAR(truth_dbz(weather, {2000 * east, 2000 * north, 100}, 0), 46, 1e-9);
+    EXPECT_NEAR(truth_dbz(weather, {-2000 * east, -2000 * north, 100}, 0), 34, 1e-9);
+    EXPECT_NEAR(truth_dbz(weather, {9000 * north, -9000 * east, 100}, 0), 40, 1e-9);
+    EXPECT_NEAR(truth_dbz(weather, {2000 * east + 50, 2000 * north + 50, 100}, 10), 46, 1e-9);
+}
+
+// Everything that has a direction turns with the plane: hooks, tilts, ripples, waves, motions.
+TEST(Truth, SeenFromAnotherPlaceIsTheSameWeather) {
+    Storm storm = round_storm();
+    storm.footprint.x_m = 30000;
+    storm.footprint.y_m = -5000;
+    storm.footprint.motion = {20, -7};
+    storm.footprint.orientation_deg = 35;
+    storm.tilt_east = 0.7;
+    storm.tilt_north = -0.2;
+    storm.ripple = {4, 9000};
+    storm.hook = Hook{-6000, -11000, 5000, 125, 350, 2200, 6000, 54};
+    Layer layer;
+    layer.footprint.x_m = -20000;
+    layer.footprint.major_m = 60000;
+    layer.footprint.minor_m = 30000;
+    layer.footprint.orientation_deg = 70;
+    layer.ripple = {3, 14000};
+    Box box;
+    box.footprint.y_m = 40000;
+    box.footprint.orientation_deg = 20;
+    box.wave = {6, 8000, 60};
+    const Weather weather{{storm}, {layer}, {box}};
+    const Stand stand{15000, -40000, 12};
+    const Weather there = seen_from(weather, stand);
+    const double turn = stand.turn_deg * M_PI / 180;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-70000, 70000);
+    int with_echo = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Point point{place(random), place(random), 0.05 * std::abs(place(random))};
+        // The new plane's axes are the old one's, turned clockwise.
+        const double east = point.x_m * std::cos(turn) + point.y_m * std::sin(turn) + stand.x_m;
+        const double north = point.y_m * std::cos(turn) - point.x_m * std::sin(turn) + stand.y_m;
+        const Echo here = truth(weather, {east, north, point.z_m}, 100);
+        const Echo moved = truth(there, point, 100);
+        if (std::isinf(here.dbz)) {
+            EXPECT_TRUE(std::isinf(moved.dbz));
+            continue;
+        }
+        ++with_echo;
+        EXPECT_NEAR(moved.dbz, here.dbz, 1e-6);
+        EXPECT_NEAR(
+            moved.motion.east_mps * std::cos(turn) + moved.motion.north_mps * std::sin(turn),
+            here.motion.east_mps, 1e-6);
+        EXPECT_NEAR(
+            moved.motion.north_mps * std::cos(turn) - moved.motion.east_mps * std::sin(turn),
+            here.motion.north_mps, 1e-6);
+    }
+    EXPECT_GT(with_echo, 500);
+}
+
 }  // namespace
 }  // namespace stormcellar::synth

@@ -48,47 +48,65 @@ void PowerCutFileSystem::close(int descriptor) {
     real_file_system().close(descriptor);
 }
 
+// A second name for a file: its blocks stay what they are, holes included.
+Result<std::filesystem::path> PowerCutFileSystem::keep(const std::filesystem::path& path) {
+    const std::filesystem::path kept = attic_ / std::to_string(kept_++);
+    std::error_code error;
+    std::filesystem::create_hard_link(path, kept, error);
+    if (error) return fail(ErrorCode::io, "{}: {}", path.native(), error.message());
+    return kept;
+}
+
 Status PowerCutFileSystem::rename(const std::filesystem::path& from,
                                   const std::filesystem::path& to) {
     if (Status counted = count_operation(); !counted) return counted;
-    Rename record{from, to, std::nullopt};
+    NameChange change{from, to, std::nullopt};
     if (std::filesystem::exists(to)) {
-        auto replaced = read_file(to);
+        auto replaced = keep(to);
         if (!replaced) return pass_on(replaced);
-        record.replaced = std::move(*replaced);
+        change.kept = std::move(*replaced);
     }
     if (Status renamed = real_file_system().rename(from, to); !renamed) return renamed;
     if (unsynced_contents_.erase(from) > 0) unsynced_contents_.insert(to);
     for (auto& [descriptor, path] : open_) {
         if (path == from) path = to;
     }
-    unsynced_renames_.push_back(std::move(record));
+    unsynced_names_.push_back(std::move(change));
     return {};
 }
 
 Status PowerCutFileSystem::sync_directory(const std::filesystem::path& directory) {
     if (Status counted = count_operation(); !counted) return counted;
-    std::erase_if(unsynced_renames_,
-                  [&](const Rename& r) { return r.to.parent_path() == directory; });
+    std::erase_if(unsynced_names_,
+                  [&](const NameChange& c) { return c.to.parent_path() == directory; });
     return {};
 }
 
+// A file that was never synced may come back empty; one that was, as it is.
 Status PowerCutFileSystem::remove(const std::filesystem::path& path) {
     if (Status counted = count_operation(); !counted) return counted;
-    unsynced_contents_.erase(path);
+    if (unsynced_contents_.erase(path) == 0 && std::filesystem::exists(path)) {
+        auto kept = keep(path);
+        if (!kept) return pass_on(kept);
+        unsynced_names_.push_back({{}, path, std::move(*kept)});
+    }
     return real_file_system().remove(path);
 }
 
 void PowerCutFileSystem::power_cut() {
     std::error_code ignored;
-    for (auto r = unsynced_renames_.rbegin(); r != unsynced_renames_.rend(); ++r) {
-        std::filesystem::rename(r->to, r->from, ignored);
-        if (unsynced_contents_.erase(r->to) > 0) unsynced_contents_.insert(r->from);
-        if (r->replaced) (void)write_file_atomically(real_file_system(), r->to, *r->replaced);
+    for (auto change = unsynced_names_.rbegin(); change != unsynced_names_.rend(); ++change) {
+        if (!change->from.empty()) {
+            std::filesystem::rename(change->to, change->from, ignored);
+            if (unsynced_contents_.erase(change->to) > 0) unsynced_contents_.insert(change->from);
+        }
+        if (!change->kept) continue;
+        std::filesystem::create_directories(change->to.parent_path(), ignored);
+        std::filesystem::rename(*change->kept, change->to, ignored);
     }
     for (const auto& path : unsynced_contents_)
         std::filesystem::resize_file(path, 0, ignored);
-    unsynced_renames_.clear();
+    unsynced_names_.clear();
     unsynced_contents_.clear();
     fail_from_.reset();
     space_.reset();

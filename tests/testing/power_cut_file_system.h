@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/file_system.h"
+#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::testing {
 
@@ -36,15 +37,19 @@ class PowerCutFileSystem final : public FileSystem {
     void power_cut();
 
   private:
-    struct Rename {
+    // A rename, or (with no `from`) a removal.
+    struct NameChange {
         std::filesystem::path from, to;
-        std::optional<std::vector<std::byte>> replaced;  // what stood at `to` before
+        std::optional<std::filesystem::path> kept;  // what stood at `to` before
     };
     Status count_operation();
+    Result<std::filesystem::path> keep(const std::filesystem::path& path);
 
     std::map<int, std::filesystem::path> open_;
     std::set<std::filesystem::path> unsynced_contents_;
-    std::vector<Rename> unsynced_renames_;
+    std::vector<NameChange> unsynced_names_;
+    TemporaryDirectory attic_;  // second names of files that may come back
+    std::uint64_t kept_ = 0;
     std::uint64_t operations_ = 0;
     std::optional<std::uint64_t> fail_from_;
     std::optional<std::uint64_t> space_;

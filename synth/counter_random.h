@@ -1,0 +1,41 @@
+// synth/counter_random.h -- random numbers that depend on their place alone.
+//
+// Four words of 32 bits for each (seed, purpose, volume, cut, radial, gate), by a counter-based
+// generator without state: the same in any order and on any number of threads.
+// Source   Salmon, Moraes, Dror and Shaw (2011), Parallel random numbers: as easy as 1, 2, 3:
+//          Philox4x32-10. Its published answers are a test.
+// Threads  all functions are pure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace stormcellar::synth {
+
+using RandomWords = std::array<std::uint32_t, 4>;
+
+[[nodiscard]] RandomWords philox(RandomWords counter, std::array<std::uint32_t, 2> key);
+
+// What numbers are drawn for: different purposes are independent.
+enum class Draw : std::uint32_t { gate = 1, clutter = 2, jitter = 3, missing = 4 };
+
+// Whose numbers they are.
+struct DrawPlace {
+    std::uint32_t volume = 0;
+    std::uint32_t cut = 0;
+    std::uint32_t radial = 0;
+    std::uint32_t gate = 0;
+};
+[[nodiscard]] RandomWords draw(std::uint32_t seed, Draw purpose, const DrawPlace& place);
+
+// In (0, 1), each of 2^32 values equally likely.
+[[nodiscard]] double uniform_of(std::uint32_t word);
+
+// Two independent numbers of mean 0 and deviation 1 (Box and Muller 1958), at most 6.8 off.
+struct NormalPair {
+    double first = 0;
+    double second = 0;
+};
+[[nodiscard]] NormalPair normals_of(std::uint32_t first, std::uint32_t second);
+
+}  // namespace stormcellar::synth

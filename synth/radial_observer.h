@@ -1,0 +1,111 @@
+// synth/radial_observer.h -- the gates of one sweep as its radials are observed: samples of the
+// truth, then the effects of the instrument, then codes.
+//
+// Units    metres, degrees, seconds since the scene's start.
+// Threads  one thread; the scene and the beam must outlive it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid/beam_geometry.h"
+#include "level2/volume.h"
+#include "synth/beam_quadrature.h"
+#include "synth/effects.h"
+#include "synth/scene.h"
+
+namespace stormcellar::synth {
+
+class RadialObserver {
+  public:
+    struct Place {
+        int volume = 0;           // from 0
+        int cut = 1;              // from 1
+        std::size_t radials = 0;  // rows of the sweep
+    };
+    // `like` is any radial of the sweep: its calibration sets what is shown.
+    RadialObserver(const Scene& scene, const grid::BeamGeometry& beam, const Cut& cut,
+                   const level2::Radial& like, const Place& place);
+
+    // Fills a row. `number` is the radial's in the full turn, lost ones counted.
+    void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
+
+    // What was observed; nothing may follow.
+    [[nodiscard]] std::vector<level2::SweepMoment> take();
+
+  private:
+    // Gates [first, end) of one straight ray inside the beam.
+    struct Ray {
+        double azimuth_deg = 0;
+        double elevation_deg = 0;
+        double weight = 1;
+        std::size_t first = 0;
+        std::size_t end = 0;
+        const std::vector<grid::EarthPoint>* points = nullptr;
+    };
+    // Rays that share elevation and offset in range.
+    struct Row {
+        double elevation_offset_deg = 0;
+        double range_offset_m = 0;
+        double weight = 1;
+        std::vector<grid::EarthPoint> points;
+    };
+    // Gates that are sampled by the same rays.
+    struct Band {
+        std::size_t first = 0;
+        std::size_t end = 0;
+        std::vector<BeamNode> azimuths;
+        std::vector<Row> rows;
+    };
+    // A feature of the weather and how it is sampled.
+    struct Part {
+        Weather weather;
+        double ceiling_m = 0;
+        double aimed_deg = 0;  // the elevation that its points are for; NaN: none yet
+        std::vector<Band> bands;
+    };
+    // Sums over the beam, in mm^6/m^3.
+    struct BeamSum {
+        double z = 0;
+        double moment_1 = 0;  // z v
+        double moment_2 = 0;  // z v^2
+    };
+
+    void make_parts();
+    void make_bands(Part& part) const;
+    [[nodiscard]] bool may_meet(const Disc& disc, const level2::Radial& radial) const;
+    void aim(const level2::Radial& radial);
+    void aim(Part& part, double elevation_deg, const Disc& disc) const;
+    template <typename Use>
+    static void walk(const Ray& ray, const std::vector<Disc>& discs, double ceiling_m, Use use);
+    void observe_points(std::size_t row, const level2::Radial& radial, double t_s);
+    void sample_points(const level2::Radial& radial, double t_s);
+    void sample_beam(const level2::Radial& radial, double t_s);
+    void sum_ray(const Ray& ray, const Part& part, const std::vector<Disc>& discs, double t_s);
+    void add_clutter(const level2::Radial& radial);
+    [[nodiscard]] std::vector<bool> find_folded() const;
+    void write_echoes(std::size_t row, std::size_t number);
+    void write_gate(std::size_t row, std::size_t gate, const GateEcho& echo);
+    [[nodiscard]] GateEcho estimate(std::size_t number, std::size_t gate) const;
+    [[nodiscard]] std::size_t doppler_gates() const {
+        return static_cast<std::size_t>(vel_.gate_stride);
+    }
+
+    const Scene& scene_;
+    const grid::BeamGeometry& beam_;
+    Cut cut_;
+    Place place_;
+    std::vector<grid::EarthPoint> points_;  // of the gates, on the beam's axis
+    std::vector<double> limits_dbz_;        // weakest reflectivity shown, by gate
+    double ceiling_m_ = 0;                  // no echo is higher
+    double aimed_deg_ = 0;                  // the elevation that the points are for
+    std::vector<Part> parts_;               // for a beam with a width
+    std::vector<BeamSum> sums_;
+    std::vector<GateEcho> echoes_;
+    std::vector<bool> folded_;
+    level2::SweepMoment ref_;
+    level2::SweepMoment vel_;
+    level2::SweepMoment sw_;
+};
+
+}  // namespace stormcellar::synth

@@ -1,0 +1,50 @@
+// tests/testing/metered_file_system.h -- a file system that weighs a directory after every
+// operation.
+//
+// Works on real files, one operation at a time, whichever thread asks. After each one it adds up
+// the blocks of all files below the directory, temporary ones included, and keeps the largest sum.
+// It can also be full: a write beyond `capacity` fails with no_space, and removing files helps.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <mutex>
+
+#include "base/file_system.h"
+
+namespace stormcellar::testing {
+
+// Bytes on disk of all regular files below a directory; directories are not counted.
+[[nodiscard]] std::uint64_t allocated_bytes(const std::filesystem::path& directory);
+
+class MeteredFileSystem final : public FileSystem {
+  public:
+    explicit MeteredFileSystem(std::filesystem::path directory)
+        : directory_(std::move(directory)) {}
+
+    Result<int> create_exclusive(const std::filesystem::path& path) override;
+    Status write_at(int descriptor, std::uint64_t offset,
+                    std::span<const std::byte> bytes) override;
+    Status set_size(int descriptor, std::uint64_t size) override;
+    Status sync(int descriptor) override;
+    void close(int descriptor) override { real_file_system().close(descriptor); }
+    Status rename(const std::filesystem::path& from, const std::filesystem::path& to) override;
+    Status sync_directory(const std::filesystem::path& directory) override;
+    Status remove(const std::filesystem::path& path) override;
+
+    void set_capacity(std::uint64_t bytes);
+    [[nodiscard]] std::uint64_t most() const;  // the largest sum so far
+    [[nodiscard]] std::uint64_t removals() const;
+    void forget();  // what was counted so far
+
+  private:
+    Status weigh(Status outcome);
+
+    const std::filesystem::path directory_;
+    mutable std::mutex mutex_;  // all below, and every operation
+    std::uint64_t capacity_ = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t most_ = 0, removals_ = 0;
+};
+
+}  // namespace stormcellar::testing
