@@ -1,11 +1,13 @@
-// stormcellar catalog stations|list|latest|oldest|get: query the shadow directories.
+// stormcellar catalog stations|list|latest|oldest|get|check|rebuild: the shadow directories.
 #include "catalog/catalog.h"
 
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cli/catalog_care.h"
 #include "cli/catalog_get.h"
 #include "cli/commands.h"
 #include "cli/query_options.h"
@@ -19,6 +21,7 @@ using catalog::CatalogEntry;
 
 struct CatalogOptions {
     std::string directory;
+    std::string drop;
     std::string station;
     TimeRangeOptions times;
     bool rejected = false;
@@ -182,13 +185,26 @@ Command add_catalog(CLI::App& app) {
     get->add_flag("--force", options->get.force, "Replace files that are there already");
     get->add_flag("--decode", options->get.decode,
                   "Write each volume as CfRadial netCDF instead of copying its file");
-    for (CLI::App* one : {stations, list, latest, oldest})
+    CLI::App* check = add_query(*command, *options, "check",
+                                "Examine the databases and compare their rows with the files");
+    CLI::App* rebuild =
+        add_query(*command, *options, "rebuild",
+                  "Set damaged databases aside and register what the drop directory holds");
+    for (CLI::App* one : {check, rebuild})
+        one->add_option("--station", options->station, station_help + "; all when left out");
+    rebuild->add_option("--drop", options->drop, "The directory that raw files are dropped into")
+        ->required();
+    for (CLI::App* one : {stations, list, latest, oldest, check, rebuild})
         one->add_flag("--json", options->json, "Print one JSON document");
 
     return {command, [=] {
                 if (stations->parsed()) return run_stations(*options);
                 if (list->parsed()) return run_list(*options);
                 if (get->parsed()) return run_get(*options);
+                const CareOptions care{options->directory, options->drop, options->station,
+                                       options->json};
+                if (check->parsed()) return check_catalog(care);
+                if (rebuild->parsed()) return rebuild_catalog(care);
                 return run_one(*options, latest->parsed());
             }};
 }

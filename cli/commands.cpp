@@ -9,4 +9,8 @@ int report_error(const Error& error) {
     return error.code == ErrorCode::bad_argument ? exit_bad_usage : exit_failed;
 }
 
+void print_note(const std::string& text) {
+    fmt::print(stderr, "stormcellar: note: {}\n", printable(text));
+}
+
 }  // namespace stormcellar::cli

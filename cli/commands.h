@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "base/printable.h"
 #include "base/result.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stormcellar::cli {
 
@@ -32,6 +34,7 @@ struct Command {
 // Every subcommand, one line each in cli/main.cpp.
 using Commands = std::vector<Command>;
 
+Command add_accuracy(CLI::App& app);
 Command add_cache(CLI::App& app);
 Command add_catalog(CLI::App& app);
 Command add_frame(CLI::App& app);
@@ -44,6 +47,10 @@ Command add_synth(CLI::App& app);
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
 // that fits the code: bad_argument is bad usage, everything else is failed work.
 int report_error(const Error& error);
+
+// Prints "stormcellar: note: TEXT" on stderr, control characters escaped: what was done is right,
+// but may not be what was meant.
+void print_note(const std::string& text);
 
 using ::stormcellar::printable;
 

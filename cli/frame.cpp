@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
@@ -90,6 +91,7 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
         render::render_frame(file.view(), facts_of(options.domain, file.description()), scene,
                              thread_count(options.scene));
     if (!picture) return pass_on(picture);
+    if (Status whole = file.check_whole(); !whole) return pass_on(whole);
     timing.render_s = seconds_since(start) - timing.read_s;
     const auto bytes = render::encode_png(*picture, texts_of(file.description(), options));
     if (!bytes) return pass_on(bytes);

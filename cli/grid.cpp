@@ -1,259 +1,130 @@
-// stormcellar grid FILE -o OUT.nc: decode a volume, grid it, write it as netCDF.
+// stormcellar grid FILE... -o OUT.nc: decode volumes, grid them, write the grid as netCDF.
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <chrono>
-#include <cmath>
 #include <memory>
-#include <optional>
-#include <thread>
 
+#include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/explain.h"
 #include "base/file_system.h"
-#include "base/station_table.h"
 #include "cli/commands.h"
-#include "cli/problem_notes.h"
+#include "cli/effect_options.h"
+#include "cli/grid_mosaic.h"
+#include "cli/grid_notes.h"
+#include "cli/grid_request.h"
+#include "cli/stopwatch.h"
+#include "cli/volume_source.h"
 #include "export/grid_netcdf.h"
 #include "grid/column_geometry.h"
+#include "grid/effects.h"
 #include "grid/gridder.h"
-#include "level2/decode.h"
+#include "grid/position_error.h"
 
 namespace stormcellar::cli {
 namespace {
 
-struct GridOptions {
-    std::vector<std::string> files;
-    std::string output;
-    std::string center;
-    std::string extent_km;
-    double spacing_km = 1;
-    std::string levels_km;
-    std::string moment = "REF";
-    int threads = 0;  // 0: as many as the machine has
-    bool json = false;
-};
-
-// What the options say, before the site is known.
-struct GridRequest {
-    std::optional<std::array<double, 2>> center_deg;
-    grid::GridSpec spec;  // but for its centre
-    level2::Moment moment = level2::Moment::ref;
-    int threads = 1;
-};
-
 struct Timings {
-    double read_s = 0, decode_s = 0, geometry_s = 0, grid_s = 0, write_s = 0, total_s = 0;
+    double read_s = 0, decode_s = 0, geometry_s = 0, plan_s = 0, grid_s = 0, merge_s = 0;
+    double write_s = 0, total_s = 0;
 };
 
-class Stopwatch {
-  public:
-    double lap_s() {
-        const auto now = Clock::now();
-        const std::chrono::duration<double> lap = now - last_;
-        last_ = now;
-        return lap.count();
-    }
+grid::GridderOptions gridder_options(const GridRequest& request, const EffectRequest& effects,
+                                     const grid::Method& method) {
+    grid::GridderOptions gridder;
+    gridder.moment = request.moment;
+    gridder.threads = request.threads;
+    gridder.method = method;
+    gridder.profile = effects.profile;
+    gridder.details = request.details;
+    gridder.frame_time = request.frame_time;
+    if (request.frame_time) gridder.repeats = grid::GridderOptions::Repeats::nearest_in_time;
+    return gridder;
+}
 
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point last_ = Clock::now();
+// What is made, and the plan that it was made by, if one was asked for.
+struct Made {
+    grid::Grid grid;
+    std::optional<accuracy::Plan> plan;
 };
 
-// Numbers with a separator between them; none when anything else stands there.
-std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        double number = 0;
-        const auto [stopped, error] = std::from_chars(at, end, number);
-        if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
-        numbers.push_back(number);
-        if (stopped == end) return numbers;
-        if (*stopped != separator) return std::nullopt;
-        at = stopped + 1;
-    }
-}
-
-// To the millimetre, so that 0.1 km is 100 m and nothing else.
-double metres(double km) {
-    return std::round(km * 1e6) / 1e3;
-}
-
-Result<std::vector<double>> parse_levels(const std::string& text) {
-    std::vector<double> levels_m;
-    if (text.find(':') == std::string::npos) {
-        const auto levels_km = parse_numbers(text, ',');
-        if (!levels_km) {
-            return fail(ErrorCode::bad_argument,
-                        "--levels-km takes numbers a,b,c or bottom:top:step, not '{}'", text);
-        }
-        for (const double level_km : *levels_km)
-            levels_m.push_back(metres(level_km));
-        return levels_m;
-    }
-    const auto range = parse_numbers(text, ':');
-    const bool sensible =
-        range && range->size() == 3 && (*range)[2] > 0 && (*range)[1] >= (*range)[0];
-    if (!sensible) {
-        return fail(ErrorCode::bad_argument,
-                    "--levels-km takes bottom:top:step with a top above the bottom and a step "
-                    "above 0, not '{}'",
-                    text);
-    }
-    const double steps = std::floor(((*range)[1] - (*range)[0]) / (*range)[2] + 1e-6);
-    if (steps > 1e4) return fail(ErrorCode::bad_argument, "--levels-km {}: too many levels", text);
-    for (int step = 0; step <= static_cast<int>(steps); ++step)
-        levels_m.push_back(metres((*range)[0] + step * (*range)[2]));
-    return levels_m;
-}
-
-// How many cells make up an extent; it must be a whole number.
-Result<int> cells_along(double extent_km, double spacing_km) {
-    const double cells = std::round(extent_km / spacing_km);
-    const bool whole = std::abs(cells * spacing_km - extent_km) <= 1e-6 * extent_km;
-    if (!(cells >= 1 && cells <= 1e6) || !whole) {
-        return fail(ErrorCode::bad_argument, "an extent of {} km is no whole number of {} km cells",
-                    extent_km, spacing_km);
-    }
-    return static_cast<int>(cells);
-}
-
-Status parse_extent(const GridOptions& options, grid::GridSpec& spec) {
-    if (!(options.spacing_km > 0)) {
-        return fail(ErrorCode::bad_argument, "--spacing-km must be above 0, not {}",
-                    options.spacing_km);
-    }
-    std::vector<double> extent_km = {460, 460};
-    if (!options.extent_km.empty()) {
-        const auto given = parse_numbers(options.extent_km, ',');
-        if (!given || given->size() != 2) {
-            return fail(ErrorCode::bad_argument, "--extent-km takes width,height, not '{}'",
-                        options.extent_km);
-        }
-        extent_km = *given;
-    }
-    const auto nx = cells_along(extent_km[0], options.spacing_km);
-    if (!nx) return pass_on(nx);
-    const auto ny = cells_along(extent_km[1], options.spacing_km);
-    if (!ny) return pass_on(ny);
-    spec.nx = *nx;
-    spec.ny = *ny;
-    spec.spacing_m = metres(options.spacing_km);
-    return {};
-}
-
-Result<GridRequest> parse_request(const GridOptions& options) {
-    if (options.files.size() != 1) {
-        return fail(ErrorCode::bad_argument, "grid takes one FILE, not {}", options.files.size());
-    }
-    GridRequest request;
-    request.spec = grid::default_spec(0, 0);
-    if (auto done = parse_extent(options, request.spec); !done) return pass_on(done);
-    if (!options.levels_km.empty()) {
-        const auto levels_m = parse_levels(options.levels_km);
-        if (!levels_m) return pass_on(levels_m);
-        request.spec.levels_m = *levels_m;
-    }
-    if (!options.center.empty()) {
-        const auto center = parse_numbers(options.center, ',');
-        if (!center || center->size() != 2) {
-            return fail(ErrorCode::bad_argument, "--center takes LAT,LON in degrees, not '{}'",
-                        options.center);
-        }
-        request.center_deg = {(*center)[0], (*center)[1]};
-        request.spec.center_latitude_deg = (*center)[0];
-        request.spec.center_longitude_deg = (*center)[1];
-    }
-    const auto moment = level2::moment_from_name(options.moment);
-    if (!moment) {
-        std::vector<std::string_view> names;
-        names.reserve(level2::all_moments.size());
-        for (const level2::Moment known : level2::all_moments)
-            names.push_back(level2::moment_name(known));
-        return fail(ErrorCode::bad_argument, "--moment takes one of {}, not '{}'",
-                    fmt::join(names, " "), options.moment);
-    }
-    request.moment = *moment;
-    if (auto valid = grid::validate(request.spec); !valid) return pass_on(valid);
-    request.threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    return request;
-}
-
-bool holds(const level2::Volume& volume, level2::Moment moment) {
-    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
-                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
-}
-
-Result<level2::Decoded> read_and_decode(const std::filesystem::path& path, int threads,
-                                        level2::Moment moment, Stopwatch& watch, Timings& timings) {
-    const auto bytes = read_file(path);
-    timings.read_s = watch.lap_s();
-    if (!bytes) return pass_on(bytes);
-    level2::DecodeOptions options;
-    options.threads = threads;
-    options.selection.moments = {moment};
-    const std::string name = path.filename().string().substr(0, 4);
-    if (find_station(name)) options.fallback_station = name;
-    auto decoded = level2::decode(*bytes, options);
-    timings.decode_s = watch.lap_s();
-    if (!decoded) {
-        return fail(decoded.error().code, "{}: {}", path.string(), decoded.error().message);
-    }
-    return decoded;
-}
-
-// The first volume of a file that holds the moment; of a file with several, a note says so.
-level2::Volume take_volume(level2::Decoded decoded, level2::Moment moment,
-                           std::vector<std::string>& notes) {
-    std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
-    const auto found = std::find_if(volumes.begin(), volumes.end(),
-                                    [&](const auto& volume) { return holds(volume, moment); });
-    const std::size_t index =
-        found == volumes.end() ? 0 : static_cast<std::size_t>(found - volumes.begin());
-    if (volumes.size() > 1) {
-        notes.push_back(
-            fmt::format("the file holds {} volumes; this is number {}", volumes.size(), index + 1));
-    }
-    return std::move(volumes[index]);
-}
-
-Result<grid::Grid> grid_file(const std::filesystem::path& path, const GridRequest& request,
-                             Timings& timings) {
+// Without a plan: the default, as the effects' settings change it.
+Result<grid::Grid> grid_plainly(const SourceVolume& source, const grid::GridSpec& spec,
+                                const GridRequest& request, const EffectRequest& effects,
+                                Timings& timings) {
     Stopwatch watch;
-    auto decoded = read_and_decode(path, request.threads, request.moment, watch, timings);
-    if (!decoded) return pass_on(decoded);
-    const bool partial = !decoded->report.complete;
-    std::vector<std::string> notes = notes_of(decoded->report);
-    const level2::Volume volume = take_volume(std::move(*decoded), request.moment, notes);
-    const auto antenna = level2::antenna_position(volume);
-    if (!antenna) {
-        return fail(ErrorCode::not_found,
-                    "{}: neither the file nor the station table says where the radar stands",
-                    path.string());
-    }
-    if (antenna->disagreement) notes.push_back(*antenna->disagreement);
-    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                                  antenna->altitude_m};
-    grid::GridSpec spec = request.spec;
-    if (!request.center_deg) {
-        spec.center_latitude_deg = site.latitude_deg;
-        spec.center_longitude_deg = site.longitude_deg;
-    }
-    watch.lap_s();
-    const auto geometry = grid::make_column_geometry(site, spec);
+    const double beam_width_deg = grid::beam_width_of(source.site.icao);
+    const accuracy::Choice rungs = grid::default_choice(effects.chain, spec, beam_width_deg);
+    const grid::SceneChoice choice = grid::scene_choice(effects.chain, rungs);
+    const auto geometry = grid::make_column_geometry(source.site, spec, choice.frame);
     timings.geometry_s = watch.lap_s();
     if (!geometry) return pass_on(geometry);
-    auto made = grid::make_grid(volume, site, **geometry, {request.moment, 0, request.threads});
+    const grid::GridderOptions options = gridder_options(request, effects, choice.method);
+    auto made = grid::make_grid(source.volume, source.site, **geometry, options);
     timings.grid_s = watch.lap_s();
-    if (!made) return fail(made.error().code, "{}: {}", path.string(), made.error().message);
-    made->provenance.source_files = {path.filename().string()};
-    made->provenance.partial = partial;
-    made->provenance.notes.insert(made->provenance.notes.begin(), notes.begin(), notes.end());
+    if (made) {
+        made->provenance.effects = accuracy::describe(effects.chain, rungs);
+        made->provenance.predicted_error =
+            grid::unplanned_error(source.volume, source.site, spec, choice.frame, options);
+    }
+    return made;
+}
+
+Result<Made> grid_by_plan(const SourceVolume& source, const grid::GridSpec& spec,
+                          const GridRequest& request, const EffectRequest& effects,
+                          Timings& timings) {
+    Stopwatch watch;
+    auto scene = grid::GridScene::make(
+        source.volume, source.site, spec,
+        {request.moment, 0, effects.profile, request.threads, request.frame_time});
+    if (!scene) return pass_on(scene);
+    auto planned = grid::plan_grid(*scene, effects.chain, effects.budget);
+    timings.plan_s = watch.lap_s();
+    if (!planned) return pass_on(planned);
+    Made made;
+    made.plan = std::move(planned->plan);
+    if (!made.plan->meets_budget) return made;
+    const auto geometry = scene->geometry(planned->choice.frame);
+    timings.geometry_s = watch.lap_s();
+    if (!geometry) return pass_on(geometry);
+    auto grid = grid::make_grid(source.volume, source.site, **geometry,
+                                gridder_options(request, effects, planned->choice.method));
+    timings.grid_s = watch.lap_s();
+    if (!grid) return pass_on(grid);
+    made.grid = std::move(*grid);
+    made.grid.provenance.predicted_error = grid::predicted_error(*made.plan);
+    made.grid.provenance.effects = made.plan->description;
+    return made;
+}
+
+Result<Made> grid_file(const std::filesystem::path& path, const GridRequest& request,
+                       const EffectRequest& effects, Timings& timings) {
+    auto source = load_volume(path, request.moment, request.threads);
+    if (!source) return pass_on(source);
+    timings.read_s = source->read_s;
+    timings.decode_s = source->decode_s;
+    const auto [latitude_deg, longitude_deg] = request.center_deg.value_or(
+        std::array<double, 2>{source->site.latitude_deg, source->site.longitude_deg});
+    const auto spec = spec_about(request, latitude_deg, longitude_deg);
+    if (!spec) return pass_on(spec);
+    const auto name_file = [&](const Error& error) -> Result<Made> {
+        return fail(error.code, "{}: {}", path.string(), error.message);
+    };
+    Made made;
+    if (effects.needs_plan()) {
+        auto planned = grid_by_plan(*source, *spec, request, effects, timings);
+        if (!planned) return name_file(planned.error());
+        made = std::move(*planned);
+    } else {
+        auto grid = grid_plainly(*source, *spec, request, effects, timings);
+        if (!grid) return name_file(grid.error());
+        made.grid = std::move(*grid);
+    }
+    grid::Provenance& provenance = made.grid.provenance;
+    provenance.source_files = {path.filename().string()};
+    provenance.partial = source->partial;
+    provenance.notes.insert(provenance.notes.begin(), source->notes.begin(), source->notes.end());
     return made;
 }
 
@@ -268,14 +139,24 @@ nlohmann::ordered_json describe(const GridOptions& options, const grid::Grid& gr
                                 const Timings& timings) {
     nlohmann::ordered_json json;
     json["file"] = std::filesystem::path(options.files.front()).filename().string();
+    json["files"] = grid.provenance.source_files;
     json["output"] = options.output;
     json["station"] = grid.sites.front().icao;
+    json["stations"] = grid.provenance.stations;
     json["time"] = format_utc(grid.time);
+    json["frame_time"] = format_utc(grid.frame_time.value_or(grid.time));
     json["moment"] = level2::moment_name(grid.moment);
     json["units"] = level2::moment_units(grid.moment);
     json["projection"] = grid::projection_name(grid.spec.projection);
     json["center"] = {grid.spec.center_latitude_deg, grid.spec.center_longitude_deg};
-    json["spacing_m"] = grid.spec.spacing_m;
+    if (grid.spec.projection == grid::Projection::latitude_longitude) {
+        json["spacing_deg"] = grid.spec.spacing_deg;
+    } else {
+        json["spacing_m"] = grid.spec.spacing_m;
+    }
+    if (grid.spec.projection == grid::Projection::lambert_conformal) {
+        json["parallels_deg"] = grid.spec.parallels_deg;
+    }
     json["nx"] = grid.spec.nx;
     json["ny"] = grid.spec.ny;
     json["levels_m"] = grid.spec.levels_m;
@@ -283,15 +164,25 @@ nlohmann::ordered_json describe(const GridOptions& options, const grid::Grid& gr
     for (std::size_t state = 0; state < counts.size(); ++state)
         json["cells"][std::string{grid::cell_status_name(static_cast<grid::CellStatus>(state))}] =
             counts[state];
+    json["fields"] = nlohmann::ordered_json::array();
+    for (const grid::Detail detail : grid::all_details) {
+        if (grid.details.set().has(detail)) json["fields"].push_back(grid::detail_name(detail));
+    }
     json["method"] = grid.provenance.method;
     json["beam_model"] = grid.provenance.beam_model;
     json["averaging"] = grid.provenance.averaging;
+    if (!grid.provenance.predicted_error.empty()) {
+        json["effects"] = grid.provenance.effects;
+        json["predicted_error"] = grid.provenance.predicted_error;
+    }
     json["partial"] = grid.provenance.partial;
     json["notes"] = grid.provenance.notes;
     json["read_s"] = timings.read_s;
     json["decode_s"] = timings.decode_s;
     json["geometry_s"] = timings.geometry_s;
+    json["plan_s"] = timings.plan_s;
     json["grid_s"] = timings.grid_s;
+    json["merge_s"] = timings.merge_s;
     json["write_s"] = timings.write_s;
     json["total_s"] = timings.total_s;
     return json;
@@ -303,10 +194,12 @@ void print_facts(const GridOptions& options, const grid::Grid& grid, const Timin
         return 100.0 * static_cast<double>(counts[static_cast<std::size_t>(status)]) /
                static_cast<double>(grid.status.size());
     };
-    fmt::print("{}: {} {} of {}, {} x {} x {} cells at {} km\n", printable(options.output),
-               printable(grid.sites.front().icao), level2::moment_name(grid.moment),
-               format_utc(grid.time), grid.spec.nx, grid.spec.ny, grid.spec.nz(),
-               grid.spec.spacing_m / 1000);
+    const bool in_degrees = grid.spec.projection == grid::Projection::latitude_longitude;
+    fmt::print("{}: {} {} of {}, {} x {} x {} cells at {:g} {}\n", printable(options.output),
+               printable(fmt::format("{}", fmt::join(grid.provenance.stations, " "))),
+               level2::moment_name(grid.moment), format_utc(grid.time), grid.spec.nx, grid.spec.ny,
+               grid.spec.nz(), in_degrees ? grid.spec.spacing_deg : grid.spec.spacing_m / 1000,
+               in_degrees ? "degrees" : "km");
     fmt::print(
         "  {:.1f} % with a value, {:.1f} % no echo, {:.1f} % range folded, {:.1f} % not "
         "seen\n",
@@ -315,36 +208,76 @@ void print_facts(const GridOptions& options, const grid::Grid& grid, const Timin
     for (const std::string& note : grid.provenance.notes)
         fmt::print("  note: {}\n", printable(note));
     fmt::print(
-        "  read {:.3f} s, decode {:.3f} s, geometry {:.3f} s, grid {:.3f} s, write {:.3f} "
-        "s\n",
-        timings.read_s, timings.decode_s, timings.geometry_s, timings.grid_s, timings.write_s);
+        "  read {:.3f} s, decode {:.3f} s, geometry {:.3f} s, grid {:.3f} s, merge {:.3f} s, "
+        "write {:.3f} s\n",
+        timings.read_s, timings.decode_s, timings.geometry_s, timings.grid_s, timings.merge_s,
+        timings.write_s);
 }
 
-int run_grid(const GridOptions& options) {
+Status check_output(const GridOptions& options) {
+    for (const std::string& file : options.files) {
+        std::error_code ignored;
+        if (std::filesystem::equivalent(file, options.output, ignored)) {
+            return fail(ErrorCode::bad_argument, "{}: is {} itself", options.output,
+                        options.files.size() == 1 ? "the volume" : "one of the volumes");
+        }
+    }
+    return check_target(options.output);
+}
+
+Result<Made> grid_files(const GridOptions& options, const MosaicRequest& mosaic,
+                        const GridRequest& request, const EffectRequest& effects,
+                        Timings& timings) {
+    if (effects.needs_plan()) {
+        return fail(ErrorCode::bad_argument,
+                    "--tolerance and --explain are for one FILE: a mosaic is not planned yet");
+    }
+    if (request.details.any()) {
+        return fail(ErrorCode::bad_argument, "--fields is for one FILE, not {}",
+                    options.files.size());
+    }
+    auto made = make_mosaic(options.files, request, mosaic, effects);
+    if (!made) return pass_on(made);
+    timings.read_s = made->timings.read_s;
+    timings.decode_s = made->timings.decode_s;
+    timings.grid_s = made->timings.grid_s;
+    timings.merge_s = made->timings.merge_s;
+    return Made{std::move(made->grid), std::nullopt};
+}
+
+int run_grid(const GridOptions& options, const EffectOptions& effect_options,
+             const MosaicOptions& mosaic_options) {
     Stopwatch total;
     const auto request = parse_request(options);
     if (!request) return report_error(request.error());
+    const auto effects = parse_effects(effect_options, request->moment);
+    if (!effects) return report_error(effects.error());
+    const auto mosaic = parse_mosaic(mosaic_options, options.files.size(), *request, *effects);
+    if (!mosaic) return report_error(mosaic.error());
     Timings timings;
-    std::error_code ignored;
-    if (std::filesystem::equivalent(options.files.front(), options.output, ignored)) {
-        return report_error(
-            {ErrorCode::bad_argument, fmt::format("{}: is the volume itself", options.output)});
-    }
-    if (const Status writable = check_target(options.output); !writable) {
-        return report_error(writable.error());
-    }
-    const auto made = grid_file(options.files.front(), *request, timings);
+    if (auto writable = check_output(options); !writable) return report_error(writable.error());
+    const auto made = options.files.size() == 1
+                          ? grid_file(options.files.front(), *request, *effects, timings)
+                          : grid_files(options, *mosaic, *request, *effects, timings);
     if (!made) return report_error(made.error());
+    if (made->plan && effect_options.explain) {
+        fmt::print(options.json ? stderr : stdout, "{}", accuracy::explain(*made->plan));
+    }
+    if (made->plan && !made->plan->meets_budget) {
+        return report_error({ErrorCode::not_found, made->plan->shortfall});
+    }
     Stopwatch watch;
-    const auto written = netcdf::write_grid(real_file_system(), options.output, *made);
+    const auto written = netcdf::write_grid(real_file_system(), options.output, made->grid);
     if (!written) return report_error(written.error());
     timings.write_s = watch.lap_s();
     timings.total_s = total.lap_s();
+    for (const std::string& note : notes_on(made->grid, *effects))
+        print_note(note);
     if (options.json) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        fmt::print("{}\n", describe(options, *made, timings).dump(1, ' ', false, replace));
+        fmt::print("{}\n", describe(options, made->grid, timings).dump(1, ' ', false, replace));
     } else {
-        print_facts(options, *made, timings);
+        print_facts(options, made->grid, timings);
     }
     return exit_done;
 }
@@ -353,22 +286,14 @@ int run_grid(const GridOptions& options) {
 
 Command add_grid(CLI::App& app) {
     const auto options = std::make_shared<GridOptions>();
-    CLI::App* grid = app.add_subcommand("grid", "Grid a Level II file and write it as netCDF");
-    grid->add_option("FILE", options->files, "One Level II file")->required();
-    grid->add_option("-o,--output", options->output, "The netCDF file to write")->required();
-    grid->add_option("--center", options->center, "LAT,LON in degrees; else the site");
-    grid->add_option("--extent-km", options->extent_km,
-                     "Full width and height, e.g. 460,460 (the default)");
-    grid->add_option("--spacing-km", options->spacing_km, "From one cell to the next")
-        ->capture_default_str();
-    grid->add_option("--levels-km", options->levels_km,
-                     "Heights above mean sea level, a,b,c or bottom:top:step; else 0.5:16:0.5");
-    grid->add_option("--moment", options->moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
-        ->capture_default_str();
-    grid->add_option("--threads", options->threads, "Else as many as the machine has")
-        ->check(CLI::Range(1, 256));
-    grid->add_flag("--json", options->json, "One JSON document with facts and phase timings");
-    return {grid, [options] { return run_grid(*options); }};
+    CLI::App* grid =
+        app.add_subcommand("grid", "Grid Level II files, of one site or of many, as netCDF");
+    const auto effects = std::make_shared<EffectOptions>();
+    const auto mosaic = std::make_shared<MosaicOptions>();
+    add_grid_options(*grid, *options);
+    add_mosaic_options(*grid, *mosaic);
+    add_effect_options(*grid, *effects);
+    return {grid, [=] { return run_grid(*options, *effects, *mosaic); }};
 }
 
 }  // namespace stormcellar::cli

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
@@ -131,6 +132,10 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
                                         scene, thread_count(options.scene));
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
+    if (const Status whole = file->check_whole(); !whole) {  // cut while it was drawn
+        report.skipped.push_back({entry.path, whole.error().message});
+        return std::optional<render::Image>{};
+    }
     if (report.frames == 0) report.from = entry.time;
     report.to = entry.time;
     ++report.frames;

@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "base/memory.h"
 #include "base/version.h"
+#include "cache/map_guard.h"
 #include "cli/commands.h"
 
 namespace stormcellar::cli {
@@ -17,8 +20,21 @@ namespace {
 
 constexpr std::array all_commands{
     // Sorted by name, as --help shows them.
-    add_cache, add_catalog, add_frame, add_grid, add_info, add_loop, add_replay, add_synth,
+    add_accuracy, add_cache, add_catalog, add_frame, add_grid,
+    add_info,     add_loop,  add_replay,  add_synth,
 };
+
+// No option and no argument means anything when it is empty.
+void refuse_empty(CLI::App& command) {
+    const auto complaint = [](const std::string& value) {
+        return value.empty() ? std::string{"is empty"} : std::string{};
+    };
+    for (CLI::Option* option : command.get_options()) {
+        if (option->get_expected_max() > 0) option->check(complaint);
+    }
+    for (CLI::App* inner : command.get_subcommands({}))
+        refuse_empty(*inner);
+}
 
 // CLI11 would only say that a subcommand is missing.
 std::optional<std::string> unknown_command(const Commands& commands, int argc, char** argv) {
@@ -57,6 +73,7 @@ int flushed(int status) {
 
 int run(int argc, char** argv) {
     keep_freed_memory();
+    cache::install_map_guard();
     CLI::App app{"Weather radar Level II volumes: catalog, grids, loops."};
     app.name("stormcellar");
     app.set_version_flag("--version", std::string{software_version});
@@ -67,6 +84,7 @@ int run(int argc, char** argv) {
     for (const auto add : all_commands) {
         commands.push_back(add(app));
     }
+    refuse_empty(app);
     if (const auto word = unknown_command(commands, argc, argv)) {
         fmt::print(stderr, "stormcellar: there is no command '{}'\nTry 'stormcellar --help'.\n",
                    printable(*word));

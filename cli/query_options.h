@@ -4,11 +4,14 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "base/result.h"
 #include "base/utc_time.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stormcellar::cli {
 

@@ -4,6 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/picture.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include <CLI/CLI.hpp>
+
 namespace stormcellar::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {

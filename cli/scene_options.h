@@ -3,12 +3,14 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "base/result.h"
 #include "cache/grid_file.h"
 #include "render/render.h"
 #include "render/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace stormcellar::cli {
 

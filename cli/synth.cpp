@@ -3,6 +3,9 @@
 #include <memory>
 #include <thread>
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/picture.h"

@@ -2,22 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "base/byte_size.h"
 #include "base/printable.h"
 #include "base/toml_file.h"
+#include "cache/grid_name.h"
 #include "grid/grid_spec.h"
 #include "level2/volume.h"
+#include "pipeline/domain.h"
 
 namespace stormcellar::daemon {
 namespace {
-
-constexpr std::size_t most_levels = 1024;
 
 bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
     const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
@@ -77,48 +77,8 @@ void read_seconds(TomlTable& table, std::string_view key, TomlRange range,
     }
 }
 
-// "bottom:top:step" in kilometres -> metres; none when it is not of that form.
-std::optional<std::vector<double>> expand_levels(const std::string& text) {
-    std::array<double, 3> parts{};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto [next, error] = std::from_chars(at, end, parts[i]);
-        if (error != std::errc{} || !std::isfinite(parts[i])) return std::nullopt;
-        const bool last = i + 1 == parts.size();
-        if (last ? next != end : next == end || *next != ':') return std::nullopt;
-        at = last ? end : next + 1;
-    }
-    const auto [bottom, top, step] = parts;
-    if (!(step > 0) || !(top >= bottom) || (top - bottom) / step >= most_levels) {
-        return std::nullopt;
-    }
-    // A top that the steps reach but for rounding is reached.
-    const auto steps = static_cast<int>(std::floor((top - bottom) / step + 1e-6));
-    std::vector<double> levels_m;
-    for (int i = 0; i <= steps; ++i)
-        levels_m.push_back(std::round((bottom + i * step) * 1e6) * 1e-3);
-    return levels_m;
-}
-
 void read_levels(TomlTable& ingest, Config& config) {
-    if (ingest.is_array("levels_km")) {
-        const auto levels_km = ingest.numbers("levels_km");
-        if (!levels_km) return;
-        config.ingest.levels_m.clear();
-        for (const double level : *levels_km)
-            config.ingest.levels_m.push_back(level * 1000);
-        if (levels_km->empty()) ingest.complain("levels_km", "must name a level");
-    } else if (const auto text = ingest.text("levels_km")) {
-        const auto levels_m = expand_levels(*text);
-        if (!levels_m) {
-            ingest.complain("levels_km",
-                            fmt::format("\"{}\" is not BOTTOM:TOP:STEP, as in \"0.5:16:0.5\"",
-                                        printable(*text)));
-            return;
-        }
-        config.ingest.levels_m = *levels_m;
-    }
+    if (const auto levels_m = pipeline::read_levels_m(ingest)) config.ingest.levels_m = *levels_m;
 }
 
 void read_size(TomlTable& ingest, Config& config) {
@@ -176,18 +136,27 @@ void read_ingest(TomlTable ingest, Config& config) {
     read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
     read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
     if (const auto name = ingest.text("moment")) {
-        const auto moment = level2::moment_from_name(*name);
-        if (moment) {
+        if (const auto moment = pipeline::read_moment(ingest, "moment", *name)) {
             config.ingest.moment = *moment;
-        } else {
-            ingest.complain("moment",
-                            fmt::format("\"{}\" is no moment; one of REF VEL SW ZDR PHI RHO CFP",
-                                        printable(*name)));
         }
     }
     read_size(ingest, config);
     read_levels(ingest, config);
     check_grid(ingest, config);
+}
+
+void read_storage(TomlTable& table, Config& config) {
+    if (const auto hours = table.number("refill_hours", {0, 8760})) {
+        config.refill = milliseconds_of(*hours * 3600);
+    }
+    if (const auto name = table.text("compression")) {
+        if (*name == "none" || *name == "lz4") {
+            config.packing = *name == "lz4" ? cache::Packing::lz4 : cache::Packing::none;
+        } else {
+            table.complain("compression",
+                           fmt::format("\"{}\" is none of none, lz4", printable(*name)));
+        }
+    }
 }
 
 void read_rest(TomlTable watch, TomlTable log, Config& config) {
@@ -207,7 +176,61 @@ void read_rest(TomlTable watch, TomlTable log, Config& config) {
     }
 }
 
+void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
+    std::uint64_t given = 0;
+    if (table.is_text("bytes")) {
+        const auto size = parse_byte_size(*table.text("bytes"));
+        if (!size) return table.complain("bytes", size.error().message);
+        given = *size;
+    } else if (const auto number = table.number("bytes", {0, 1e15})) {
+        given = static_cast<std::uint64_t>(*number);
+    } else {
+        return;
+    }
+    bytes = given == 0 ? std::nullopt : std::optional{given};
+}
+
+void read_budget(TomlTable& table, cache::Budget& budget) {
+    read_bytes(table, budget.bytes);
+    if (const auto percent = table.number("percent", {0, 100})) {
+        budget.file_system_percent = *percent == 0 ? std::nullopt : percent;
+    }
+    if (const auto hours = table.number("age_hours", {0, 1e6})) {
+        budget.age = *hours == 0 ? std::nullopt : std::optional{milliseconds_of(*hours * 3600)};
+    }
+}
+
+void read_budgets(TomlTable& cache, cache::Budgets& budgets) {
+    read_budget(cache, budgets.total);
+    if (const auto share = cache.number("low_watermark", {0.01, 1})) budgets.low_watermark = *share;
+    for (TomlTable& domain : cache.tables("domain")) {
+        cache::Budget budget;
+        read_budget(domain, budget);
+        const auto name = domain.text("name");
+        if (!name) {
+            if (!domain.has("name")) domain.complain("name", "the domain must be named");
+        } else if (*name == "*") {
+            budgets.every_domain = budget;
+        } else if (!cache::is_domain_name(*name) || cache::is_part(*name)) {
+            domain.complain("name", fmt::format("\"{}\" is no domain's name", printable(*name)));
+        } else if (!budgets.domains.emplace(*name, budget).second) {
+            domain.complain("name", fmt::format("\"{}\" is named twice", *name));
+        }
+    }
+}
+
+void read_cache(TomlTable cache, Config& config) {
+    read_budgets(cache, config.budgets);
+    read_storage(cache, config);
+}
+
 }  // namespace
+
+cache::Budgets default_budgets() {
+    cache::Budgets budgets;
+    budgets.total.file_system_percent = 95;
+    return budgets;
+}
 
 int Config::worker_count() const {
     if (workers > 0) return workers;
@@ -216,8 +239,8 @@ int Config::worker_count() const {
 
 bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions& b) {
     return a.moment == b.moment && a.spacing_m == b.spacing_m && a.nx == b.nx && a.ny == b.ny &&
-           a.levels_m == b.levels_m && a.decode_threads == b.decode_threads &&
-           a.grid_threads == b.grid_threads;
+           a.levels_m == b.levels_m && a.domains == b.domains &&
+           a.decode_threads == b.decode_threads && a.grid_threads == b.grid_threads;
 }
 
 Result<Config> load_config(const std::filesystem::path& file) {
@@ -227,6 +250,8 @@ Result<Config> load_config(const std::filesystem::path& file) {
     Config config;
     read_paths(root.section("paths"), file, config);
     read_ingest(root.section("ingest"), config);
+    config.ingest.domains = pipeline::read_domains(root);
+    read_cache(root.section("cache"), config);
     read_rest(root.section("watch"), root.section("log"), config);
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;

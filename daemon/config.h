@@ -11,9 +11,13 @@
 #include <string>
 
 #include "base/result.h"
+#include "cache/budget.h"
 #include "pipeline/ingest.h"
 
 namespace stormcellar::daemon {
+
+// The file system at most 95 % full; no limit of bytes or age.
+[[nodiscard]] cache::Budgets default_budgets();
 
 struct Config {
     // Absolute, symbolic links resolved; none lies within another.
@@ -27,6 +31,9 @@ struct Config {
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
     std::size_t queue_limit = 65'536;  // files
+    cache::Budgets budgets = default_budgets();
+    cache::Packing packing = cache::Packing::none;
+    std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
     std::string log_level = "info";
 
     [[nodiscard]] int worker_count() const;

@@ -8,15 +8,31 @@ IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Confi
     : drop_(config.drop),
       catalog_(std::move(catalog)),
       store_(std::move(store)),
-      ingestor_(catalog_, store_, config.ingest) {}
+      ingestor_(catalog_, store_, config.ingest),
+      mender_(catalog_, store_, ingestor_, config.ingest.moment) {}
 
 Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
     auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog");
     if (!catalog) return pass_on(catalog);
-    auto store = cache::Store::open_for_writing(real_file_system(), config.cache, true);
+    auto store = cache::Store::open_rolling(real_file_system(), config.cache, config.budgets);
     if (!store) return pass_on(store);
+    store->pack_with(config.packing);
     return std::unique_ptr<IngestSink>(
         new IngestSink(std::move(*catalog), std::move(*store), config));
+}
+
+CacheRolled IngestSink::roll_cache(const cache::Budgets& budgets) {
+    store_.set_budgets(budgets);
+    CacheRolled rolled{store_.roll(), {}};
+    rolled.usage = store_.usage();
+    return rolled;
+}
+
+std::vector<std::string> IngestSink::take_repairs() {
+    std::vector<std::string> lines;
+    for (const catalog::Repair& repair : catalog_.take_repairs())
+        lines.push_back(catalog::describe(repair));
+    return lines;
 }
 
 Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_partial) {

@@ -6,6 +6,7 @@
 
 #include "daemon/config.h"
 #include "daemon/sink.h"
+#include "pipeline/mend_cache.h"
 
 namespace stormcellar::daemon {
 
@@ -16,6 +17,13 @@ class IngestSink final : public Sink {
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override;
     Result<int> mark_missing() override { return catalog_.mark_missing(drop_); }
+    CacheRolled roll_cache(const cache::Budgets& budgets) override;
+    std::vector<std::string> take_repairs() override;
+
+    // For the keeper of the cache, which works beside take().
+    [[nodiscard]] catalog::Catalog& catalog() { return catalog_; }
+    [[nodiscard]] const cache::Store& store() const { return store_; }
+    [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }
 
   private:
     IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config);
@@ -24,6 +32,7 @@ class IngestSink final : public Sink {
     catalog::Catalog catalog_;
     cache::Store store_;
     pipeline::Ingestor ingestor_;
+    pipeline::CacheMender mender_;
 };
 
 }  // namespace stormcellar::daemon

@@ -95,6 +95,11 @@ void Intake::directory_problem(const Error& error) {
     if (problems_.size() < most_problems) problems_.push_back(error);
 }
 
+void Intake::forget_seen() {
+    seen_.forget_all();
+    lost_ = true;
+}
+
 void Intake::poll_growing() {
     for (GrowingFiles::Due& due : growing_.poll(clock_.steady())) {
         offer({.path = std::move(due.path),

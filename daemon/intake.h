@@ -45,6 +45,9 @@ class Intake final : public WatchListener {
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
 
+    // What was taken in may be known no more: the next scan, which is due now, offers all again.
+    void forget_seen();
+
     // Offers the growing files that are due.
     void poll_growing();
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }

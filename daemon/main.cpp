@@ -12,11 +12,13 @@
 #include "base/memory.h"
 #include "base/printable.h"
 #include "base/version.h"
+#include "cache/map_guard.h"
+#include "daemon/caretaker.h"
 #include "daemon/config.h"
 #include "daemon/ingest_sink.h"
-#include "daemon/instance_lock.h"
 #include "daemon/log.h"
 #include "daemon/service.h"
+#include "pipeline/instance_lock.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -94,12 +96,13 @@ std::unique_ptr<EventSource> open_events() {
 
 int serve(const Config& config, const std::filesystem::path& file) {
     keep_freed_memory();
+    cache::install_map_guard();
     set_up_logging(config.log_level);
     const Status ready = check_drop(config.drop)
                              .and_then([&] { return make_directory(config.state); })
                              .and_then([&] { return make_directory(config.cache); });
     if (!ready) return complain(ready.error());
-    const Result<InstanceLock> lock = InstanceLock::acquire(config.state);
+    const auto lock = pipeline::InstanceLock::acquire(config.state);
     if (!lock) return complain(lock.error());
     const Result<Signals> signals = Signals::open();
     if (!signals) return complain(signals.error());
@@ -109,6 +112,8 @@ int serve(const Config& config, const std::filesystem::path& file) {
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
     Service service(config, file, {**sink, *events, notifier, real_file_system(), &*signals});
+    const Caretaker keeper((*sink)->catalog(), (*sink)->store(), (*sink)->mender(),
+                           {.refill = config.refill}, [&] { return service.is_idle(); });
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;

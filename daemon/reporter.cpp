@@ -67,6 +67,8 @@ std::string describe(const Finished& finished) {
             return fmt::format("unchanged {}", printable(finished.job.path.native()));
         case IngestResult::vanished:
             return fmt::format("gone {}", printable(finished.job.path.native()));
+        case IngestResult::registered:
+            return fmt::format("registered {}", subject(finished));
     }
     return {};
 }
@@ -90,6 +92,7 @@ void Reporter::report(const Finished& finished, SteadyTime now) {
         case IngestResult::incomplete:
         case IngestResult::unchanged:
         case IngestResult::vanished:
+        case IngestResult::registered:
             spdlog::debug("{}", describe(finished));
             break;
     }

@@ -20,6 +20,7 @@ class SeenFiles {
     [[nodiscard]] bool contains(const std::filesystem::path& path, const FileStamp& stamp) const;
     void add(const std::filesystem::path& path, const FileStamp& stamp);
     void forget(const std::filesystem::path& path);
+    void forget_all() { files_.clear(); }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
 
     // Around a whole scan: what is neither found nor added between the two is forgotten.

@@ -31,7 +31,8 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       status_(config_.drop, config_.cache),
       status_file_(parts_.file_system, config_.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
-      pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }) {}
+      pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }),
+      cache_keeper_(parts_.sink, [this] { wake_up_.set(); }) {}
 
 void Service::request_stop() {
     stop_requested_ = true;
@@ -70,10 +71,12 @@ void Service::turn() {
     intake_.poll_growing();
     start_jobs();
     keep_house();
+    idle_ = intake_.pending().waiting == 0;
 }
 
 SteadyTime Service::next_time() const {
-    SteadyTime time = std::min(parts_.clock.steady() + longest_sleep, next_scan_);
+    SteadyTime time =
+        std::min({parts_.clock.steady() + longest_sleep, next_scan_, cache_keeper_.next_time()});
     for (const auto& due : {intake_.next_time(pool_.has_free_worker()), status_file_.next_time(),
                             watchdog_.next_time()}) {
         if (due) time = std::min(time, *due);
@@ -129,6 +132,8 @@ void Service::apply(const Config& fresh) {
     config_.quiet = fresh.quiet;
     config_.reread = fresh.reread;
     config_.rescan = fresh.rescan;
+    if (fresh.budgets != config_.budgets) cache_keeper_.roll_soon();
+    config_.budgets = fresh.budgets;
     config_.log_level = fresh.log_level;
     pool_.resize(config_.worker_count());
     intake_.set_times(config_);
@@ -211,14 +216,27 @@ void Service::keep_house() {
             status_.count_overflow();
         spdlog::warn("the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
+    report_repairs();
     for (const Error& problem : intake_.take_directory_problems())
         reporter_.report_directory(problem, now);
     reporter_.report_held_back(now);
+    if (const auto usage = cache_keeper_.poll(now, config_.budgets)) {
+        status_.set_usage(*usage);
+        status_file_.changed();
+    }
     status_file_.publish(status_, intake_.pending(), now, false);
     if (watchdog_.is_due(now, pool_.oldest_start())) parts_.notifier.send("WATCHDOG=1");
 }
 
+void Service::report_repairs() {
+    const std::vector<std::string> repairs = parts_.sink.take_repairs();
+    for (const std::string& line : repairs)
+        spdlog::error("{}", printable(line));
+    if (!repairs.empty()) intake_.forget_seen();
+}
+
 Stopped Service::stop() {
+    idle_ = false;
     parts_.notifier.send("STOPPING=1");
     status_.set_state("stopping");
     status_file_.publish(status_, intake_.pending(), parts_.clock.steady(), true);

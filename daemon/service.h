@@ -5,6 +5,7 @@
 //   start    scan the drop directory, queue what is there, then say READY
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
+// The cache is brought within its budgets every few seconds, in a thread of its own.
 // Thread contract: run() once; request_stop() from any thread.
 #pragma once
 
@@ -14,6 +15,7 @@
 #include <optional>
 
 #include "base/file_system.h"
+#include "daemon/cache_keeper.h"
 #include "daemon/config.h"
 #include "daemon/inotify.h"
 #include "daemon/intake.h"
@@ -51,6 +53,8 @@ class Service {
 
     Stopped run();
     void request_stop();
+    // Whether no file waits, for work that may wait; from any thread.
+    [[nodiscard]] bool is_idle() const { return idle_; }
 
   private:
     bool start();
@@ -66,6 +70,7 @@ class Service {
     void mark_missing();
     void start_jobs();
     void keep_house();
+    void report_repairs();
     [[nodiscard]] SteadyTime next_time() const;
 
     Config config_;
@@ -79,10 +84,13 @@ class Service {
     WatchdogFeed watchdog_;
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
+    std::atomic<bool> idle_ = false;
     bool drop_missing_ = false;
     SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
     WorkerPool pool_;                    // last: its threads use what stands above
-    std::future<void> missing_;          // the last member: waited for before the rest goes
+    // The last members: their threads are waited for before the rest goes.
+    std::future<void> missing_;
+    CacheKeeper cache_keeper_;
 };
 
 }  // namespace stormcellar::daemon

@@ -4,8 +4,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/result.h"
+#include "cache/store.h"
 #include "daemon/file_stamp.h"
 #include "pipeline/ingest.h"
 
@@ -14,6 +18,12 @@ namespace stormcellar::daemon {
 struct Taken {
     FileStamp stamp;  // of the file before it was read
     pipeline::IngestOutcome ingest;
+};
+
+// What a roll of the cache did, and what it holds now; no usage where the cache keeps no budget.
+struct CacheRolled {
+    cache::RollReport report;
+    std::optional<cache::StoreUsage> usage;
 };
 
 class Sink {
@@ -28,6 +38,11 @@ class Sink {
     // Marks what is known and no longer there, as after a scan; gives how much. May run beside
     // take().
     virtual Result<int> mark_missing() = 0;
+    // Keeps the cache within these budgets from now on. May run beside take(); one at a time.
+    virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/) { return {}; }
+    // What was found damaged and put right since the last call, one line each, fit for the log. The
+    // files of the drop directory must then be offered again. May be called beside the others.
+    virtual std::vector<std::string> take_repairs() { return {}; }
 };
 
 }  // namespace stormcellar::daemon

@@ -29,6 +29,16 @@ nlohmann::json number_or_null(std::optional<double> value) {
     return *value;
 }
 
+nlohmann::ordered_json json_of(const std::optional<cache::StoreUsage>& usage) {
+    if (!usage) return nullptr;
+    nlohmann::ordered_json budget = nullptr;
+    if (usage->budget_bytes) budget = *usage->budget_bytes;
+    return {{"grids", usage->grids},      {"pinned", usage->pinned},
+            {"bytes", usage->bytes},      {"budget_bytes", budget},
+            {"evicted", usage->evicted},  {"evicted_bytes", usage->evicted_bytes},
+            {"not_kept", usage->not_kept}};
+}
+
 }  // namespace
 
 std::optional<double> latency_of(const Finished& finished) {
@@ -112,6 +122,7 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
         {"overflows", overflows_},
         {"scans", scans_},
         {"directories", directories_},
+        {"rolling", json_of(usage_)},
     };
     const LatencySummary latency = summarise({latencies_.begin(), latencies_.end()});
     const auto known = [&](double value) {

@@ -11,6 +11,10 @@
 //   failures       attempts that failed because the catalog or the cache could not be written
 //   pending        {"waiting","running","growing"}: files; all zero when everything is done
 //   overflows, scans, directories
+//   rolling        the cache's account, null until it was first looked at:
+//   {"grids","pinned","bytes",
+//                  "budget_bytes" (null: no limit),"evicted","evicted_bytes","not_kept"}; the last
+//                  three since the start; not_kept: grids older than what the budgets keep
 //   latency_s      {"count","median","p95","max"} seconds from the close (or rename) of a file to
 //                  its grids in the cache, waiting included, over the last 4096 ingested files
 //                  whose close was seen; files found by a scan have none. null values with count 0
@@ -29,6 +33,7 @@
 
 #include "base/file_system.h"
 #include "base/utc_time.h"
+#include "cache/store.h"
 #include "daemon/worker_pool.h"
 
 namespace stormcellar::daemon {
@@ -52,6 +57,7 @@ class StatusBook {
     void count_overflow() { ++overflows_; }
     void count_scan(std::size_t directories);
     void set_state(std::string state) { state_ = std::move(state); }
+    void set_usage(const cache::StoreUsage& usage) { usage_ = usage; }
 
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
     // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=.
@@ -71,9 +77,10 @@ class StatusBook {
     UtcTime started_ = now_utc();
     std::string state_ = "starting";
     std::uint64_t ingested_ = 0, grids_ = 0, partial_ = 0, failures_ = 0;
-    std::array<std::uint64_t, 7> results_{};  // by IngestResult
+    std::array<std::uint64_t, 8> results_{};  // by IngestResult
     std::uint64_t overflows_ = 0, scans_ = 0;
     std::size_t directories_ = 0;
+    std::optional<cache::StoreUsage> usage_;
     std::deque<double> latencies_;
     std::deque<Volume> volumes_;
 };

@@ -8,7 +8,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "daemon/drop_names.h"
+#include "pipeline/drop_names.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -62,7 +62,7 @@ void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
             }
             return;
         }
-        if (is_temporary_name(entry->d_name)) continue;
+        if (pipeline::is_temporary_name(entry->d_name)) continue;
         struct stat facts {};
         if (::fstatat(descriptor, entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) != 0) continue;
         if (S_ISREG(facts.st_mode)) {

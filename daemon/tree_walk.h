@@ -2,7 +2,7 @@
 //
 // Walks by descriptors (openat, no symbolic link is followed), so a directory that is swapped for a
 // link while the walk runs cannot lead it out of the tree. Temporary names are left out
-// (drop_names.h), files and directories alike. Depth is bounded: max_walk_depth.
+// (pipeline/drop_names.h), files and directories alike. Depth is bounded: max_walk_depth.
 #pragma once
 
 #include <filesystem>

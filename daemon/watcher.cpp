@@ -6,8 +6,8 @@
 
 #include <sys/inotify.h>
 
-#include "daemon/drop_names.h"
 #include "daemon/tree_walk.h"
+#include "pipeline/drop_names.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -99,7 +99,7 @@ void Watcher::handle(const DirectoryEvent& event) {
         forget_watch(event.watch);
         return;
     }
-    if (is_temporary_name(event.name)) return;
+    if (pipeline::is_temporary_name(event.name)) return;
     const std::filesystem::path path = directory / event.name;
     if ((event.mask & IN_ISDIR) != 0) {
         handle_directory(event, path);

@@ -10,12 +10,16 @@
 
 #include "base/checksum.h"
 #include "base/file_system.h"
-#include "cache/grid_file.h"
+#include "grid/audit.h"
 #include "grid/brick_grid.h"
+#include "grid/column_geometry.h"
+#include "grid/position_error.h"
 #include "level2/decode.h"
 #include "level2/volume_checks.h"
 #include "pipeline/file_facts.h"
 #include "pipeline/geometry_cache.h"
+#include "pipeline/keep_rule.h"
+#include "pipeline/mosaic_keeper.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -55,23 +59,9 @@ std::string without_path(const std::string& message, const fs::path& path) {
     return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
-// Why the grid that stands must stay: it is whole and the new one is not, or its file is newer.
-// None when it is to be replaced, as one that is damaged or was made otherwise always is.
-std::optional<std::string> reason_to_keep(const fs::path& path, const grid::Grid& made) {
-    std::error_code error;
-    if (!fs::exists(path, error)) return std::nullopt;
-    const auto file = cache::GridFile::open(path);
-    if (!file) return std::nullopt;
-    const auto& stands = file->description();
-    if (stands.spec != made.spec || stands.moment != made.moment) return std::nullopt;
-    const auto& old = stands.provenance;
-    const bool better = !old.partial && made.provenance.partial;
-    const bool worse = old.partial && !made.provenance.partial;
-    if (better) return "a grid of the whole volume stands in the cache";
-    if (!worse && old.source_modified_ns > made.provenance.source_modified_ns) {
-        return "a grid of a newer file of this volume stands in the cache";
-    }
-    return std::nullopt;
+void note_not_kept(IngestOutcome& outcome) {
+    ++outcome.not_kept;
+    outcome.reason = "older than what the cache keeps";
 }
 
 // Whether another try cannot help: the fault lies in what the file says.
@@ -83,17 +73,23 @@ bool is_of_the_data(const Error& error) {
 }  // namespace
 
 struct Ingestor::Impl {
-    Impl(catalog::Catalog& its_catalog, const cache::Store& its_store, IngestOptions its_options)
-        : catalog(its_catalog), store(its_store), options(std::move(its_options)) {}
+    Impl(catalog::Catalog& its_catalog, const cache::Store* its_store, IngestOptions its_options)
+        : catalog(its_catalog),
+          store(its_store),
+          options(std::move(its_options)),
+          mosaics(store, options.domains) {}
 
     catalog::Catalog& catalog;
-    const cache::Store& store;
+    const cache::Store* store;  // none: files are only registered
     IngestOptions options;
     GeometryCache geometries{kept_geometries};
+    MosaicKeeper mosaics;
     std::atomic<int> running{0};
     std::array<std::mutex, 16>
         commits;  // one at a time for each grid file, by the hash of its path
 
+    Result<IngestOutcome> read_and_take_in(const fs::path& path, const FileStamp& before,
+                                           bool finish_partial, IngestOutcome outcome);
     Result<IngestOutcome> reject(const FileFacts& facts, std::string reason, IngestOutcome outcome);
     Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
                                   IngestOutcome outcome);
@@ -102,12 +98,17 @@ struct Ingestor::Impl {
                                    IngestOutcome outcome);
     Status grid_one(const FileFacts& facts, const level2::Volume& volume, bool damaged,
                     IngestOutcome& outcome);
-    Result<fs::path> commit(const grid::Grid& made, IngestOutcome& outcome);
+    Result<fs::path> commit(grid::Grid& made, const level2::Volume& volume,
+                            const grid::GridderOptions& gridder, IngestOutcome& outcome);
+    Status keep_mosaics(const FileFacts& facts, const level2::Volume& volume, bool damaged,
+                        IngestOutcome& outcome);
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
 };
 
 Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
-    : impl_(new Impl(catalog, store, std::move(options))) {}
+    : impl_(new Impl(catalog, &store, std::move(options))) {}
+Ingestor::Ingestor(catalog::Catalog& catalog, IngestOptions options)
+    : impl_(new Impl(catalog, nullptr, std::move(options))) {}
 Ingestor::~Ingestor() = default;
 
 Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string reason,
@@ -137,6 +138,11 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
                                   antenna->altitude_m};
     grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    const UtcTime time = volume.start_time().value_or(UtcTime{});
+    if (!store->would_keep(site.icao, options.moment, time)) {
+        note_not_kept(outcome);
+        return {};
+    }
     spec.spacing_m = options.spacing_m;
     spec.nx = options.nx;
     spec.ny = options.ny;
@@ -150,6 +156,8 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
     gridder.threads = share_of(options.grid_threads);
     auto made = grid::make_grid(volume, site, **geometry, gridder);
     if (!made) return pass_on(made);
+    made->provenance.predicted_error =
+        grid::unplanned_error(volume, site, spec, (*geometry)->frame_kind(), gridder);
     made->provenance.source_files = {facts.path.filename().string()};
     made->provenance.source_modified_ns = facts.modified_ns;
     made->provenance.partial = damaged || !level2::is_complete(volume);
@@ -158,24 +166,57 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
     outcome.partial = outcome.partial || made->provenance.partial;
 
     const auto commit_start = Clock::now();
-    auto path = commit(*made, outcome);
+    auto path = commit(*made, volume, gridder, outcome);
     outcome.commit_s += seconds_since(commit_start);
     if (!path) return pass_on(path);
-    outcome.grids.push_back(std::move(*path));
+    if (path->empty()) {
+        note_not_kept(outcome);
+    } else {
+        outcome.grids.push_back(std::move(*path));
+    }
     return {};
 }
 
-Result<fs::path> Ingestor::Impl::commit(const grid::Grid& made, IngestOutcome& outcome) {
+// What a domain cannot use is no reason to reject the file, whose own grid stands.
+Status Ingestor::Impl::keep_mosaics(const FileFacts& facts, const level2::Volume& volume,
+                                    bool damaged, IngestOutcome& outcome) {
+    const auto antenna = level2::antenna_position(volume);
+    if (mosaics.is_idle() || !antenna || volume.station.empty()) return {};
+    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    VolumeSource source{volume, site, facts.path.filename().string()};
+    source.modified_ns = facts.modified_ns;
+    source.partial = damaged || !level2::is_complete(volume);
+    if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
+    const auto start = Clock::now();
+    const auto kept = mosaics.take_in(source, share_of(options.grid_threads));
+    outcome.mosaic_s += seconds_since(start);
+    if (!kept) {
+        if (!is_of_the_data(kept.error())) return pass_on(kept);
+        outcome.reason = "in no mosaic: " + kept.error().message;
+        return {};
+    }
+    if (!kept->problems.empty()) outcome.reason = "left out: " + kept->problems.front();
+    outcome.frames.insert(outcome.frames.end(), kept->frames.begin(), kept->frames.end());
+    return {};
+}
+
+// A grid that cannot be audited is as good as others: nothing is known of it then.
+Result<fs::path> Ingestor::Impl::commit(grid::Grid& made, const level2::Volume& volume,
+                                        const grid::GridderOptions& gridder,
+                                        IngestOutcome& outcome) {
     const std::string& domain = made.sites.front().icao;
-    auto path = store.path_of(domain, made.moment, made.time);
+    auto path = store->path_of(domain, made.moment, made.time);
     if (!path) return path;
     const auto bricks = grid::BrickGrid::from(made, grid::default_quantization(options.moment));
+    const auto audited = grid::audit(bricks.view(), volume, made.sites.front(), gridder);
+    if (audited) made.provenance.audit = audited->rows;
     const std::scoped_lock lock(commits.at(fs::hash_value(*path) % commits.size()));
-    if (auto reason = reason_to_keep(*path, made)) {
+    if (auto reason = reason_to_keep(*path, cache::describe(made))) {
         outcome.reason = std::move(*reason);
         return path;
     }
-    return store.commit(domain, cache::describe(made), bricks.view());
+    return store->commit(domain, cache::describe(made), bricks.view());
 }
 
 // Grids first, then settles the catalog's row: a crash between the two makes the work be done
@@ -183,15 +224,20 @@ Result<fs::path> Ingestor::Impl::commit(const grid::Grid& made, IngestOutcome& o
 Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
                                                const std::vector<level2::Volume>& volumes,
                                                bool damaged, IngestOutcome outcome) {
-    outcome.result = IngestResult::no_moment;
+    outcome.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
     for (const level2::Volume& volume : volumes) {
-        if (!has_moment(volume, options.moment)) continue;
-        if (const Status gridded = grid_one(facts, volume, damaged, outcome); !gridded) {
-            if (!is_of_the_data(gridded.error())) return pass_on(gridded);
-            return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
+        if (store == nullptr) continue;
+        if (has_moment(volume, options.moment)) {
+            if (const Status gridded = grid_one(facts, volume, damaged, outcome); !gridded) {
+                if (!is_of_the_data(gridded.error())) return pass_on(gridded);
+                return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
+            }
+        }
+        if (const Status kept = keep_mosaics(facts, volume, damaged, outcome); !kept) {
+            return pass_on(kept);
         }
     }
-    if (!outcome.grids.empty()) outcome.result = IngestResult::gridded;
+    if (!outcome.grids.empty() || outcome.not_kept > 0) outcome.result = IngestResult::gridded;
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
     }
@@ -242,13 +288,25 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         outcome.result = IngestResult::unchanged;
         return outcome;
     }
+    return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
+}
 
+Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {
+    const Running running(impl_->running);
+    const auto before = stamp_of(path);
+    if (!before) return pass_on(before);
+    return impl_->read_and_take_in(path, *before, true, {});
+}
+
+Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
+                                                       const FileStamp& before, bool finish_partial,
+                                                       IngestOutcome outcome) {
     FileFacts facts;
     facts.path = path;
     facts.station = station_of_name(path);
-    facts.size_bytes = before->size_bytes;
-    facts.modified_ns = before->modified_ns;
-    if (!before->regular) return impl_->reject(facts, "is not a regular file", outcome);
+    facts.size_bytes = before.size_bytes;
+    facts.modified_ns = before.modified_ns;
+    if (!before.regular) return reject(facts, "is not a regular file", outcome);
     const auto read_start = Clock::now();
     const auto bytes = read_file(path);
     outcome.read_s = seconds_since(read_start);
@@ -258,9 +316,9 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         // Ours for now, as when descriptors run out: the file is not to blame.
         if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
         if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
-        return impl_->reject(facts, without_path(bytes.error().message, path), outcome);
+        return reject(facts, without_path(bytes.error().message, path), outcome);
     }
-    if (!bytes || !after || *after != *before) {
+    if (!bytes || !after || *after != before) {
         outcome.result = IngestResult::incomplete;
         outcome.reason = "changed while it was read";
         return outcome;
@@ -269,7 +327,7 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
 
     const auto decode_start = Clock::now();
     level2::DecodeOptions decode_options;
-    decode_options.threads = impl_->share_of(impl_->options.decode_threads);
+    decode_options.threads = share_of(options.decode_threads);
     decode_options.fallback_station = facts.station;
     auto decoded = level2::decode(*bytes, decode_options);
     outcome.decode_s = seconds_since(decode_start);
@@ -280,9 +338,9 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
             outcome.reason = decoded.error().message;
             return outcome;
         }
-        return impl_->reject(facts, decoded.error().message, outcome);
+        return reject(facts, decoded.error().message, outcome);
     }
-    return impl_->take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
+    return take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
 }
 
 }  // namespace stormcellar::pipeline

@@ -3,7 +3,7 @@
 // Shared by the daemon and the CLI. Never changes the raw file. A file that cannot be decoded is
 // recorded as rejected with its reason; that is a result, not an error.
 // A grid in the cache is replaced by one of a whole volume or of a newer file, never by one of a
-// part of it or of an older file.
+// part of it or of an older file. A volume that the cache's budgets would not keep is not gridded.
 // Errors are not of the data: the catalog or the cache cannot be written, the system gives no
 // memory or descriptors. Trying again later may help.
 // Thread contract: an Ingestor may be used by many threads at once, for different files.
@@ -19,6 +19,7 @@
 #include "cache/store.h"
 #include "catalog/catalog.h"
 #include "grid/gridder.h"
+#include "pipeline/domain.h"
 
 namespace stormcellar::pipeline {
 
@@ -27,6 +28,7 @@ struct IngestOptions {
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
+    std::vector<Domain> domains;   // mosaics to keep, beside each site's own grid
     // In all: files that are ingested at the same time share them, so that each has its part and
     // one alone has all.
     int decode_threads = 1;
@@ -34,7 +36,7 @@ struct IngestOptions {
 };
 
 enum class IngestResult {
-    gridded,      // registered, and every volume with the moment is in the cache
+    gridded,      // registered, and every volume with the moment is in the cache, or too old for it
     no_moment,    // registered; holds no sweep of the moment, so there is nothing to grid
     no_position,  // registered; neither the file nor the table says where the radar stands
     incomplete,   // not settled: the volume has not ended and finish_partial is false, or the file
@@ -42,6 +44,7 @@ enum class IngestResult {
     rejected,     // registered as rejected: no volume, or none that can be gridded
     unchanged,    // settled before; nothing was done
     vanished,     // the file is gone; its rows, if any, are marked so
+    registered,   // registered; the Ingestor has no cache
 };
 
 struct IngestOutcome {
@@ -51,18 +54,24 @@ struct IngestOutcome {
     std::string reason;    // why rejected, or what is wrong or worth saying; one line
     bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
-    double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
+    std::vector<std::filesystem::path> frames;  // of mosaics that it changed
+    int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
+    double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
 
 class Ingestor {
   public:
     Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options);
+    // Without a cache: files are decoded and registered, and not gridded.
+    Ingestor(catalog::Catalog& catalog, IngestOptions options);
     ~Ingestor();
     Ingestor(const Ingestor&) = delete;
     Ingestor& operator=(const Ingestor&) = delete;
 
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
+    // The same for a file that was settled before: its volumes are gridded again, as they are.
+    Result<IngestOutcome> ingest_again(const std::filesystem::path& path);
 
   private:
     struct Impl;

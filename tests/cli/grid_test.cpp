@@ -42,14 +42,22 @@ class GridTest : public ::testing::Test {
 TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     EXPECT_EQ(grid({}).status, 2);
     EXPECT_EQ(grid({"file"}).status, 2) << "no output";
-    expect_usage({"a", "b"}, "takes one FILE, not 2");
+    expect_usage({"a", "--overlap", "mean"}, "--overlap is for several FILEs");
+    expect_usage({"a", "--time-method", "blend"}, "--time-method is for several FILEs");
+    expect_usage({"a", "b", "--overlap", "min"}, "--overlap takes one of");
+    expect_usage({"a", "b", "--time-method", "now"}, "--time-method takes one of");
+    expect_usage({"a", "b", "--overlap-km", "0"}, "--overlap-km");
+    expect_usage({"a", "b", "--tolerance", "1 dB"}, "not planned yet");
+    expect_usage({"a", "b", "--fields", "age"}, "--fields is for one FILE");
     expect_usage({"a", "--center", "35"}, "--center");
     expect_usage({"a", "--center", "95,0"}, "not on the earth");
     expect_usage({"a", "--center", "35,x"}, "--center");
     expect_usage({"a", "--extent-km", "100.5,100"}, "no whole number");
     expect_usage({"a", "--extent-km", "100"}, "--extent-km");
     expect_usage({"a", "--extent-km", "-100,100"}, "extent");
-    expect_usage({"a", "--extent-km", "100000,100000"}, "columns and rows");
+    expect_usage({"a", "--extent-km", "100000,100000"}, "too large");
+    expect_usage({"a", "--extent-km", "1e9,1e9"}, "at most 16384 of them, 16384 km");
+    expect_usage({"a", "--extent-km", "4,4", "--spacing-km", "1e-5"}, "too large");
     expect_usage({"a", "--spacing-km", "0"}, "--spacing-km");
     expect_usage({"a", "--spacing-km", "nan"}, "--spacing-km");
     expect_usage({"a", "--levels-km", "1,x"}, "--levels-km");
@@ -60,7 +68,50 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "--levels-km", "2,1"}, "levels must rise");
     expect_usage({"a", "--moment", "ref"}, "REF VEL SW");
     expect_usage({"a", "--threads", "0"}, "--threads");
+    expect_usage({"a", "--projection", "mercator"}, "latitude_longitude (lat-lon)");
+    expect_usage({"a", "--spacing-deg", "0.01"}, "--spacing-deg");
+    expect_usage({"a", "--extent-deg", "4,4", "--projection", "lcc"}, "--extent-deg");
+    expect_usage({"a", "--parallels", "30,60"}, "--parallels");
+    const std::vector<std::string> degrees = {"a", "--projection", "lat-lon", "--center", "35,-97"};
+    const auto expect_usage_of = [&](std::vector<std::string> arguments,
+                                     const std::vector<std::string>& more,
+                                     const std::string& part) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_usage(arguments, part);
+    };
+    expect_usage_of(degrees, {"--spacing-deg", "0"}, "--spacing-deg");
+    expect_usage_of(degrees, {"--spacing-deg", "1", "--spacing-km", "1"}, "once each");
+    expect_usage_of(degrees, {"--extent-deg", "4,4", "--extent-km", "9,9"}, "once each");
+    expect_usage_of(degrees, {"--extent-deg", "4"}, "--extent-deg takes");
+    expect_usage_of(degrees, {"--extent-deg", "4,x"}, "--extent-deg takes");
+    expect_usage_of(degrees, {"--extent-deg", "4,4.005", "--spacing-deg", "0.01"}, "whole number");
+    expect_usage_of(degrees, {"--extent-deg", "4,1e9", "--spacing-deg", "0.1"}, "too large");
+    expect_usage_of(degrees, {"--extent-km", "1e9,4"}, "too large");
+    expect_usage_of(degrees, {"--extent-deg", "400,1", "--spacing-deg", "0.1"}, "360 degrees");
+    expect_usage_of(degrees, {"--extent-deg", "4,120", "--spacing-deg", "0.1"},
+                    "ends at the poles");
+    const std::vector<std::string> cone = {"a", "--projection", "lambert", "--center", "35,-97"};
+    expect_usage_of(cone, {"--parallels", "30"}, "--parallels takes");
+    expect_usage_of(cone, {"--parallels", "30,-30"}, "opposite");
+    expect_usage_of(cone, {"--parallels", "30,90"}, "not at 90");
+    expect_usage({"a", "--fields", "age,hight"},
+                 "--fields takes any of age, height_offset, distance, weight or all, not 'hight'");
+    expect_usage({"a", "--fields", "age,"}, "not ''");
+    expect_usage({"a", "--time", "yesterday"}, "--time");
     expect_usage({"a", "--no-such-option"}, "--no-such-option");
+}
+
+// 2026-11-21: an empty value was taken as if the option had not been given.
+TEST_F(GridTest, AnOptionWithAnEmptyValueIsBadUsageAndNamed) {
+    for (const char* option :
+         {"--method", "--tolerance", "--averaging", "--profile", "--effect", "--center",
+          "--projection", "--extent-km", "--levels-km", "--moment", "--time", "--fields"}) {
+        expect_usage({"a", option, ""}, std::string{option} + ": is empty");
+    }
+    const ProgramResult ran = grid({"a", "-o", ""});
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_NE(ran.err.find("--output: is empty"), std::string::npos) << ran.err;
+    EXPECT_EQ(grid({"", "-o", file("out.nc")}).status, 2);
 }
 
 TEST_F(GridTest, AFileThatCannotBeReadIsExit1AndNamed) {
@@ -81,7 +132,9 @@ TEST_F(GridTest, ReportsFactsAndTimings) {
         grid({volume("KTLX19990503_235621.gz"), "-o", file("out.nc"), "--json", "--extent-km",
               "200,100", "--spacing-km", "2", "--levels-km", "0.1:1:0.3", "--center", "-10,20"});
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_EQ(ran.err, "");
+    EXPECT_EQ(ran.err,
+              "stormcellar: note: KTLX, at 35.3334,-97.2778, sees no cell of the grid about "
+              "-10.0000,20.0000\n");
     const auto json = nlohmann::json::parse(ran.out);
     EXPECT_EQ(json["station"], "KTLX");
     EXPECT_EQ(json["time"], "1999-05-03T23:56:21Z");
@@ -96,6 +149,59 @@ TEST_F(GridTest, ReportsFactsAndTimings) {
                   json["grid_s"].get<double>() + json["write_s"].get<double>(),
               json["total_s"].get<double>());
     EXPECT_TRUE(std::filesystem::exists(file("out.nc")));
+}
+
+TEST_F(GridTest, AFrameTimeChoosesSweepsAndIsNamed) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<std::string> common = {
+        volume("KLOT20220317_000842_V06"), "-o", file("out.nc"), "--json", "--extent-km", "60,60"};
+    const auto facts = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = common;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult ran = grid(arguments);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return nlohmann::json::parse(ran.out);
+    };
+    const auto plain = facts({});
+    EXPECT_EQ(plain["frame_time"], plain["time"]);
+    EXPECT_EQ(plain["fields"].size(), 0U);
+    const auto framed = facts({"--time", "2022-03-17T00:10:00Z", "--fields", "weight,age,age"});
+    EXPECT_EQ(framed["time"], plain["time"]);
+    EXPECT_EQ(framed["frame_time"], "2022-03-17T00:10:00Z");
+    EXPECT_EQ(framed["fields"], (std::vector<std::string>{"age", "weight"}));
+    EXPECT_EQ(facts({"--fields", "all"})["fields"].size(), 4U);
+}
+
+// 2026-11-21: of a volume of 1999 a frame of this day was made without a word.
+TEST_F(GridTest, AFrameTimeFarFromTheVolumeIsNoted) {
+    STORMCELLAR_NEED_DATA();
+    const auto noted = [&](const std::string& time) {
+        const ProgramResult ran = grid({volume("KTLX19990503_235621.gz"), "-o", file("out.nc"),
+                                        "--extent-km", "60,60", "--time", time});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.err;
+    };
+    const std::string volume_time = " the volume, of 1999-05-03T23:56:21Z\n";
+    const std::string head = "stormcellar: note: the frame is ";
+    EXPECT_EQ(noted("2026-05-04"), head + "27 years after" + volume_time);
+    EXPECT_EQ(noted("1999-04-30T23:56:21Z"), head + "3 days before" + volume_time);
+    EXPECT_EQ(noted("1999-05-03T22:26:21Z"), head + "1.5 hours before" + volume_time);
+    EXPECT_EQ(noted("1999-05-04T00:50:00Z"), "") << "less than an hour after its last radial";
+}
+
+// 2026-11-21: that the name of the file is looked at was not said.
+TEST_F(GridTest, AVolumeThatNobodyPlacesSaysHowToNameIt) {
+    STORMCELLAR_NEED_DATA();
+    const std::string nameless = volume("example_nexrad_archive_msg1.bz2");
+    const ProgramResult ran = grid({nameless, "-o", file("out.nc")});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find("a file name that begins with the radar's four letters"),
+              std::string::npos)
+        << ran.err;
+    std::filesystem::copy_file(nameless, file("KTLX_msg1.bz2"));
+    const ProgramResult named = grid({file("KTLX_msg1.bz2"), "-o", file("out.nc"), "--json"});
+    ASSERT_EQ(named.status, 0) << named.err;
+    EXPECT_EQ(nlohmann::json::parse(named.out)["station"], "KTLX");
 }
 
 TEST_F(GridTest, OddVolumesAreGriddedOrRefusedWithAReason) {

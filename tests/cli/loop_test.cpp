@@ -1,7 +1,10 @@
 // stormcellar loop, run as a user runs it.
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -236,6 +239,39 @@ TEST_F(Loop, InterruptedLeavesNothingAndEndsByTheSignal) {
         {"loop", "KBGM", "--quiet", "--cache", cache, "-o", webp, "-o", frames}, frames_drawn);
     EXPECT_EQ(signal, SIGINT);
     EXPECT_THAT(written(), IsEmpty());
+}
+
+// Many names of one file, which another thread cuts and mends again all the time: most frames are
+// cut while they are drawn.
+TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
+    commit("20050822_024400", 22);
+    for (int i = 1; i < 40; ++i) {
+        const auto time =
+            UtcTime(parse_compact("20050822_030000").value()) + std::chrono::minutes(i);
+        const auto path = store_.path_of("KBGM", level2::Moment::ref, time);
+        ASSERT_TRUE(path);
+        fs::create_hard_link(grids_[0], *path);
+    }
+    const auto bytes = *read_file(grids_[0]);
+    std::atomic<bool> done = false;
+    std::thread vandal([&] {
+        std::fstream file(grids_[0], std::ios::in | std::ios::out | std::ios::binary);
+        while (!done) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(3));
+            fs::resize_file(grids_[0], 4096);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            file.seekp(0).write(reinterpret_cast<const char*>(bytes.data()),
+                                static_cast<std::streamsize>(bytes.size()));
+            file.flush();
+        }
+    });
+    const auto result = run({"KBGM", "--quiet", "-o", out("a.webp")});
+    done = true;
+    vandal.join();
+    EXPECT_TRUE(result.status == 0 || result.status == 1) << "a signal ended it";
+    EXPECT_THAT(result.err, HasSubstr("frame left out"));
+    EXPECT_THAT(result.err, HasSubstr("cut"));
+    EXPECT_EQ(fs::exists(out("a.webp")), result.status == 0);
 }
 
 TEST_F(Loop, RealVolumesBecomeALoop) {

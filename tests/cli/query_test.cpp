@@ -7,6 +7,7 @@
 
 #include "base/file_system.h"
 #include "pipeline/ingest.h"
+#include "pipeline/instance_lock.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
@@ -212,6 +213,34 @@ TEST_F(QueryTest, WhatCannotBePrintedIsAFailure) {
     const std::string command = std::string(STORMCELLAR_PROGRAM) + " catalog stations --catalog " +
                                 (directory_ / "catalog").string() + " >/dev/full 2>/dev/null";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+}
+
+TEST_F(QueryTest, ACatalogIsCheckedAndRebuilt) {
+    const std::string drop = *testing::data_directory() / "sequence-kbgm";
+    const auto sound = run({"catalog", "check"});
+    EXPECT_EQ(sound.status, 0) << sound.err;
+    EXPECT_NE(sound.out.find("2 files  sound, 0 missing, 0 changed"), std::string::npos)
+        << sound.out;
+    EXPECT_EQ(run({"catalog", "check", "--station", "KTLX"}).status, 3);
+    const auto database = directory_ / "catalog/KBGM.sqlite";
+    std::filesystem::resize_file(database, std::filesystem::file_size(database) - 100);
+    const auto damaged = run({"catalog", "check", "--json"});
+    EXPECT_EQ(damaged.status, 1);
+    EXPECT_EQ(json::parse(damaged.out)["sound"], false);
+    EXPECT_FALSE(json::parse(damaged.out)["stations"][0]["damage"].empty());
+
+    {
+        const auto daemon = pipeline::InstanceLock::acquire(directory_.path());
+        const auto refused = run({"catalog", "rebuild", "--drop", drop});
+        EXPECT_EQ(refused.status, 1);
+        EXPECT_NE(refused.err.find("while no daemon runs"), std::string::npos) << refused.err;
+    }
+    const auto rebuilt = run({"catalog", "rebuild", "--drop", drop, "--json"});
+    EXPECT_EQ(rebuilt.status, 0) << rebuilt.err;
+    EXPECT_EQ(json::parse(rebuilt.out)["registered"], 5);
+    EXPECT_EQ(json::parse(rebuilt.out)["repairs"].size(), 1U);
+    EXPECT_EQ(run({"catalog", "check"}).status, 0);
+    EXPECT_NE(run({"catalog", "check"}).out.find("set aside before: "), std::string::npos);
 }
 
 }  // namespace

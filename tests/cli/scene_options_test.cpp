@@ -1,5 +1,6 @@
 #include "cli/scene_options.h"
 
+#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -47,7 +47,11 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_EQ(shipped->reread, bare->reread);
     EXPECT_EQ(shipped->rescan, bare->rescan);
     EXPECT_EQ(shipped->queue_limit, bare->queue_limit);
+    EXPECT_EQ(shipped->refill, bare->refill);
+    EXPECT_EQ(shipped->packing, bare->packing);
     EXPECT_EQ(shipped->log_level, bare->log_level);
+    EXPECT_EQ(shipped->budgets, bare->budgets);
+    EXPECT_EQ(bare->budgets, default_budgets());
     EXPECT_EQ(shipped->ingest.moment, bare->ingest.moment);
     EXPECT_EQ(shipped->ingest.spacing_m, bare->ingest.spacing_m);
     EXPECT_EQ(shipped->ingest.nx, bare->ingest.nx);
@@ -63,6 +67,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
                                        "[ingest]\nworkers = 3\nthreads = 2\nquiet_seconds = 1.5\n"
                                        "reread_seconds = 0\nmoment = \"VEL\"\nspacing_km = 0.5\n"
                                        "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
+                                       "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
                                        "[watch]\nrescan_seconds = 7\nqueue_limit = 99\n"
                                        "[log]\nlevel = \"debug\"\n");
     ASSERT_TRUE(config) << config.error().message;
@@ -74,6 +79,8 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->ingest.grid_threads, 2);
     EXPECT_EQ(config->quiet, std::chrono::milliseconds{1500});
     EXPECT_EQ(config->reread, std::chrono::milliseconds{0});
+    EXPECT_EQ(config->refill, std::chrono::minutes{30});
+    EXPECT_EQ(config->packing, cache::Packing::lz4);
     EXPECT_EQ(config->ingest.moment, level2::Moment::vel);
     EXPECT_EQ(config->ingest.spacing_m, 500);
     EXPECT_EQ(config->ingest.nx, 200);
@@ -82,6 +89,46 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->rescan, std::chrono::seconds{7});
     EXPECT_EQ(config->queue_limit, 99U);
     EXPECT_EQ(config->log_level, "debug");
+}
+
+TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
+    const Result<Config> config =
+        load(std::string(paths) +
+             "[cache]\nbytes = \"20 GB\"\npercent = 80.5\nage_hours = 48\nlow_watermark = 0.8\n"
+             "[[cache.domain]]\nname = \"KTLX\"\nbytes = 500000\n"
+             "[[cache.domain]]\nname = \"*\"\nage_hours = 0.5\npercent = 70\n");
+    ASSERT_TRUE(config) << config.error().message;
+    const cache::Budgets& budgets = config->budgets;
+    EXPECT_EQ(budgets.total.bytes, 20'000'000'000U);
+    EXPECT_EQ(budgets.total.file_system_percent, 80.5);
+    EXPECT_EQ(budgets.total.age, std::chrono::hours{48});
+    EXPECT_EQ(budgets.low_watermark, 0.8);
+    EXPECT_EQ(budgets.of("KTLX").bytes, 500'000U);
+    EXPECT_EQ(budgets.of("KTLX").file_system_percent, std::nullopt);
+    EXPECT_EQ(budgets.of("KBGM").age, std::chrono::minutes{30});
+    EXPECT_EQ(budgets.of("KBGM").file_system_percent, 70);
+    EXPECT_EQ(budgets.age_of("KTLX"), std::chrono::hours{48});
+    EXPECT_EQ(budgets.age_of("KBGM"), std::chrono::minutes{30});
+
+    const Result<Config> none = load(std::string(paths) + "[cache]\nbytes = 0\npercent = 0\n");
+    ASSERT_TRUE(none);
+    EXPECT_EQ(none->budgets, cache::Budgets{}) << "0 is no limit";
+}
+
+TEST_F(ConfigFile, BudgetsThatMakeNoSenseAreRefused) {
+    const std::string p = std::string(paths) + "[cache]\n";
+    EXPECT_EQ(complaint(p + "bytes = \"20 XB\"\n"),
+              "s.toml:6: [cache] bytes: '20 XB' is no amount of bytes, as 20 GB, 512 MiB or 0");
+    EXPECT_EQ(complaint(p + "bytes = -1\n").substr(0, 36), "s.toml:6: [cache] bytes: -1 is out o");
+    EXPECT_EQ(complaint(p + "percent = 101\n").substr(0, 9), "s.toml:6:");
+    EXPECT_EQ(complaint(p + "low_watermark = 0\n").substr(0, 9), "s.toml:6:");
+    EXPECT_EQ(complaint(p + "byte = 1\n"), "s.toml:6: unknown key [cache] byte");
+    EXPECT_EQ(complaint(p + "[[cache.domain]]\nbytes = 1\n"),
+              "s.toml:6: [cache.domain] name: the domain must be named");
+    EXPECT_EQ(complaint(p + "[[cache.domain]]\nname = \"a.KBOX\"\n"),
+              "s.toml:7: [cache.domain] name: \"a.KBOX\" is no domain's name");
+    EXPECT_EQ(complaint(p + "[[cache.domain]]\nname = \"a\"\n[[cache.domain]]\nname = \"a\"\n"),
+              "s.toml:9: [cache.domain] name: \"a\" is named twice");
 }
 
 TEST_F(ConfigFile, NoWorkersMeansOneForEachProcessor) {

@@ -18,6 +18,7 @@
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
+#include "tests/testing/metered_file_system.h"
 #include "tests/testing/program.h"
 
 namespace stormcellar::daemon {
@@ -268,6 +269,40 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
     daemon.signal(SIGHUP);
     EXPECT_TRUE(daemon.wait_for_log("the configuration stays as it was"));
     EXPECT_EQ(daemon.terminate(), 0) << "a bad file does not end it";
+}
+
+// The budget is lowered while the service runs: the oldest go, the newest stays.
+TEST(EndToEnd, TheCacheRollsWithinItsBudget) {
+    STORMCELLAR_NEED_DATA();
+    RunningDaemon daemon;
+    for (const fs::path& volume : sorted_files(*testing::data_directory() / "sequence-kbgm"))
+        fs::copy_file(volume, daemon.drop() / volume.filename());
+    const std::string grid = "[ingest]\nspacing_km = 4\n";
+    daemon.start(grid + "[cache]\nbytes = \"1 GB\"\n");
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["ingested"] == 5 && everything_is_done(s) && s["rolling"].is_object() &&
+               s["rolling"]["grids"] == 5;
+    })) << daemon.status().dump(1);
+    const json before = daemon.status()["rolling"];
+    EXPECT_EQ(before["budget_bytes"], 1'000'000'000);
+    EXPECT_EQ(before["evicted"], 0);
+    EXPECT_EQ(before["bytes"], testing::allocated_bytes(daemon.cache()));
+
+    const std::uint64_t budget = before["bytes"].get<std::uint64_t>() * 7 / 10;
+    write_file(daemon.root() / "stormcellard.toml",
+               "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n" + grid +
+                   fmt::format("[cache]\nbytes = {}\n", budget));
+    daemon.signal(SIGHUP);
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["rolling"]["evicted"] > 0; }))
+        << daemon.log();
+    EXPECT_LE(testing::allocated_bytes(daemon.cache()), budget);
+    EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
+    EXPECT_NE(daemon.log().find("cache: "), std::string::npos);
+    const auto store = *cache::Store::open_for_reading(daemon.cache());
+    const auto grids = *store.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
+    ASSERT_FALSE(grids.empty());
+    EXPECT_LT(grids.size(), 5U);
+    EXPECT_EQ(format_compact(grids.back().time), "20050822_030830");
 }
 
 TEST(EndToEnd, SpeaksToTheJournalWithLevelsAndWithoutTimes) {

@@ -75,6 +75,26 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::unchanged);
 }
 
+TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
+    STORMCELLAR_NEED_DATA();
+    cache::Budgets budgets;
+    budgets.total.age = std::chrono::minutes{10};
+    const auto store =
+        *cache::Store::open_rolling(real_file_system(), directory_ / "rolling", budgets);
+    Ingestor ingestor(catalog_, store, small_grid());
+    EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_030830.gz"), false)->grids.size(),
+              1U);
+    const auto old = ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false);
+    ASSERT_TRUE(old) << old.error().message;
+    EXPECT_EQ(old->result, IngestResult::gridded);
+    EXPECT_EQ(old->not_kept, 1);
+    EXPECT_TRUE(old->grids.empty());
+    EXPECT_EQ(old->grid_s, 0);
+    EXPECT_EQ(old->reason, "older than what the cache keeps");
+    EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false)->result,
+              IngestResult::unchanged);
+}
+
 // golden: 4 volumes in one file
 TEST_F(IngestTest, FileOfSeveralVolumesGivesAGridForEach) {
     STORMCELLAR_NEED_DATA();

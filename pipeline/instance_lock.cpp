@@ -1,4 +1,4 @@
-#include "daemon/instance_lock.h"
+#include "pipeline/instance_lock.h"
 
 #include <array>
 #include <cerrno>
@@ -12,7 +12,7 @@
 
 #include "base/printable.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar::pipeline {
 namespace {
 
 std::string holder(int descriptor) {
@@ -56,4 +56,4 @@ InstanceLock::~InstanceLock() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar::pipeline

@@ -1,9 +1,9 @@
-#include "daemon/drop_names.h"
+#include "pipeline/drop_names.h"
 
 #include <algorithm>
 #include <array>
 
-namespace stormcellar::daemon {
+namespace stormcellar::pipeline {
 
 bool is_temporary_name(std::string_view name) {
     static constexpr std::array<std::string_view, 6> endings = {"~",     ".tmp",     ".temp",
@@ -13,4 +13,4 @@ bool is_temporary_name(std::string_view name) {
                        [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar::pipeline

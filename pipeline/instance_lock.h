@@ -1,11 +1,11 @@
-// daemon/instance_lock.h -- one daemon a state directory.
+// pipeline/instance_lock.h -- one daemon a state directory.
 #pragma once
 
 #include <filesystem>
 
 #include "base/result.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar::pipeline {
 
 // Holds state/stormcellard.lock (flock; the kernel lets go of it when the process ends, however
 // that happens) with the process id in it.
@@ -24,4 +24,4 @@ class InstanceLock {
     int descriptor_;
 };
 
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar::pipeline

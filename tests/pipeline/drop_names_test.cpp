@@ -1,8 +1,8 @@
-#include "daemon/drop_names.h"
+#include "pipeline/drop_names.h"
 
 #include <gtest/gtest.h>
 
-namespace stormcellar::daemon {
+namespace stormcellar::pipeline {
 namespace {
 
 TEST(TemporaryNames, AreThoseOfWritersThatAreNotDone) {
@@ -21,4 +21,4 @@ TEST(TemporaryNames, NothingElseIsReadFromAName) {
 }
 
 }  // namespace
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar::pipeline

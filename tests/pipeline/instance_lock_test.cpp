@@ -1,4 +1,4 @@
-#include "daemon/instance_lock.h"
+#include "pipeline/instance_lock.h"
 
 #include <filesystem>
 
@@ -7,7 +7,7 @@
 
 #include "tests/testing/temporary_directory.h"
 
-namespace stormcellar::daemon {
+namespace stormcellar::pipeline {
 namespace {
 
 TEST(InstanceLock, ASecondDaemonIsToldWhoHasIt) {
@@ -37,4 +37,4 @@ TEST(InstanceLock, AMissingDirectoryIsAnError) {
 }
 
 }  // namespace
-}  // namespace stormcellar::daemon
+}  // namespace stormcellar::pipeline

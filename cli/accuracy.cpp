@@ -1,0 +1,284 @@
+// stormcellar accuracy [FILE...]: what accuracy costs in time, on real volumes or a simulated
+// scene.
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/plot.h"
+#include "base/file_system.h"
+#include "cli/commands.h"
+#include "cli/effect_options.h"
+#include "cli/grid_notes.h"
+#include "cli/grid_request.h"
+#include "cli/held_out.h"
+#include "cli/ladder_markdown.h"
+#include "cli/stopwatch.h"
+#include "cli/truth_errors.h"
+#include "cli/volume_source.h"
+#include "grid/ladder.h"
+#include "synth/observe.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct AccuracyOptions {
+    GridOptions grid;
+    EffectOptions effects;
+    std::string scene;
+    std::string plot;
+    int columns = 2000;
+    int rounds = 3;
+    bool markdown = false;
+    bool held_out = false;
+
+    // Three files can only be a sequence.
+    [[nodiscard]] bool is_over_time() const { return held_out || grid.files.size() > 1; }
+};
+
+// The volume of a file, or the first one of a simulated scene.
+struct Subject {
+    SourceVolume source;
+    std::optional<synth::Scene> scene;
+    std::string name;
+};
+
+struct Measured {
+    std::vector<accuracy::LadderRow> rows;
+    std::vector<TruthRow> truth;  // of a simulated scene
+};
+
+Result<Subject> load_subject(const AccuracyOptions& options, const GridRequest& request) {
+    Subject subject;
+    if (options.scene.empty()) {
+        subject.name = options.grid.files.front();
+        auto source = load_volume(subject.name, request.moment, request.threads);
+        if (!source) return pass_on(source);
+        subject.source = std::move(*source);
+        return subject;
+    }
+    subject.name = options.scene;
+    auto scene = synth::read_scene(options.scene);
+    if (!scene) return pass_on(scene);
+    subject.source.volume = synth::observe(*scene, 0);
+    subject.source.site = {scene->site.station, scene->site.latitude_deg, scene->site.longitude_deg,
+                           static_cast<double>(scene->site.antenna_altitude_m)};
+    subject.scene = std::move(*scene);
+    return subject;
+}
+
+nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
+                               accuracy::ValueUnit unit) {
+    auto list = nlohmann::ordered_json::array();
+    for (const accuracy::LadderRow& row : rows) {
+        nlohmann::ordered_json item;
+        for (const accuracy::LadderField& field : accuracy::fields(row, unit)) {
+            std::visit(
+                [&](const auto& value) {
+                    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
+                        item[field.key] = nullptr;
+                    } else {
+                        item[field.key] = value;
+                    }
+                },
+                field.value);
+        }
+        list.push_back(std::move(item));
+    }
+    return list;
+}
+
+Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueUnit unit,
+                  const std::string& title, const std::string& file) {
+    accuracy::Plot plot;
+    plot.title = title;
+    plot.error_label = fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
+    plot.time_label = "Time of a whole grid, geometry kept";
+    for (const accuracy::LadderRow& row : rows) {
+        plot.points.push_back({row.name, row.step, row.kept_time_s.value_or(row.time_s),
+                               row.value ? row.value->p99 : 0, row.pareto});
+    }
+    const auto svg = accuracy::draw_plot(plot);
+    if (!svg) return pass_on(svg);
+    const auto bytes = std::as_bytes(std::span(*svg));
+    return write_file_atomically(real_file_system(), file, bytes);
+}
+
+void print_tables(const Subject& subject, const Measured& measured, accuracy::ValueUnit unit,
+                  bool markdown) {
+    const auto& [rows, truth] = measured;
+    fmt::print("{}\n\nEach rung against the chain's exact form on the same gates:\n\n{}",
+               printable(subject.name),
+               markdown ? ladder_markdown(rows, unit) : accuracy::format_table(rows, unit));
+    if (truth.empty()) return;
+    fmt::print("\nAgainst the truth of the scene (sampling error; never budgeted):\n\n{}",
+               format_truth(truth, unit, markdown));
+}
+
+void print_json(const Subject& subject, level2::Moment moment, const Measured& measured,
+                accuracy::ValueUnit unit) {
+    nlohmann::ordered_json json;
+    json["subject"] = subject.name;
+    json["moment"] = level2::moment_name(moment);
+    json["value_unit"] = accuracy::name_of(unit);
+    json["rows"] = to_json(measured.rows, unit);
+    json["truth"] = truth_json(measured.truth);
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    fmt::print("{}\n", json.dump(1, ' ', false, replace));
+}
+
+void print_notes(const std::vector<accuracy::LadderRow>& rows, const EffectRequest& effects,
+                 const grid::SitePosition& site) {
+    if (const auto note = note_on_sounding(effects, site)) print_note(*note);
+    const bool any_value = std::any_of(
+        rows.begin(), rows.end(),
+        [](const accuracy::LadderRow& row) { return row.value && row.value->count > 0; });
+    if (!any_value) {
+        print_note("no cell that was compared has a value, so there are no errors of values");
+    }
+}
+
+// The rows of the ladder and, of a simulated scene, those of the truth.
+Result<Measured> measure(const Subject& subject, const GridRequest& request,
+                         const grid::GridSpec& spec, const EffectRequest& effects,
+                         const AccuracyOptions& options) {
+    auto scene = grid::GridScene::make(subject.source.volume, subject.source.site, spec,
+                                       {request.moment, 0, effects.profile, request.threads});
+    if (!scene) return pass_on(scene);
+    grid::LadderOptions ladder;
+    ladder.columns = static_cast<std::size_t>(options.columns);
+    ladder.rounds = options.rounds;
+    auto rows = grid::run_ladder(*scene, ladder);
+    if (!rows) return pass_on(rows);
+    Measured measured{std::move(*rows), {}};
+    if (!subject.scene) return measured;
+    auto truth = compare_with_truth(*scene, *subject.scene, ladder.columns);
+    if (!truth) return pass_on(truth);
+    measured.truth = std::move(*truth);
+    return measured;
+}
+
+Status check_options(AccuracyOptions& options) {
+    const std::size_t files = options.grid.files.size();
+    const bool sensible = options.scene.empty() ? files == 1 || files >= 3 : files == 0;
+    if (!sensible) {
+        return fail(ErrorCode::bad_argument,
+                    "name a FILE, or three or more of one site, or a scene with --scene");
+    }
+    if (options.is_over_time() && !options.plot.empty()) {
+        return fail(ErrorCode::bad_argument, "--plot is for one FILE or scene, not --held-out");
+    }
+    if (!options.scene.empty()) options.grid.files = {options.scene};
+    if (options.grid.json && options.markdown) {
+        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+    }
+    if (options.plot.empty()) return {};
+    if (!options.plot.ends_with(".svg")) {
+        return fail(ErrorCode::bad_argument,
+                    "--plot writes SVG: its name must end in .svg, unlike '{}'", options.plot);
+    }
+    return check_target(options.plot);
+}
+
+Result<std::vector<TimedVolume>> load_over_time(const AccuracyOptions& options,
+                                                const GridRequest& request) {
+    if (options.grid.files.size() > 1) return load_sequence(options.grid.files, request);
+    if (options.scene.empty()) return load_repeats(options.grid.files.front(), request);
+    const auto scene = synth::read_scene(options.scene);
+    if (!scene) return pass_on(scene);
+    return observe_sequence(*scene);
+}
+
+int run_over_time(const AccuracyOptions& options, const GridRequest& request) {
+    const auto sequence = load_over_time(options, request);
+    if (!sequence) return report_error(sequence.error());
+    const auto rows = score_sequence(*sequence, request);
+    if (!rows) return report_error(rows.error());
+    if (options.grid.json) {
+        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+        const nlohmann::ordered_json json{{"moment", level2::moment_name(request.moment)},
+                                          {"value_unit", "dB"},
+                                          {"rows", held_out_json(*rows)}};
+        fmt::print("{}\n", json.dump(1, ' ', false, replace));
+        return exit_done;
+    }
+    fmt::print(
+        "Each volume between two others, held out and made again from those; against what was "
+        "seen:\n\n{}",
+        format_held_out(*rows, options.markdown));
+    return exit_done;
+}
+
+int run_accuracy(AccuracyOptions options) {
+    if (auto sound = check_options(options); !sound) return report_error(sound.error());
+    const auto request = parse_request(options.grid);
+    if (!request) return report_error(request.error());
+    if (options.is_over_time()) return run_over_time(options, *request);
+    const auto effects = parse_effects(options.effects, request->moment);
+    if (!effects) return report_error(effects.error());
+    const accuracy::ValueUnit unit = grid::value_unit_of(request->moment);
+    const auto subject = load_subject(options, *request);
+    if (!subject) return report_error(subject.error());
+    const grid::SitePosition& site = subject->source.site;
+    const auto [latitude_deg, longitude_deg] =
+        request->center_deg.value_or(std::array<double, 2>{site.latitude_deg, site.longitude_deg});
+    const auto spec = spec_about(*request, latitude_deg, longitude_deg);
+    if (!spec) return report_error(spec.error());
+    const auto measured = measure(*subject, *request, *spec, *effects, options);
+    if (!measured) {
+        const Error& error = measured.error();
+        return report_error({error.code, fmt::format("{}: {}", subject->name, error.message)});
+    }
+    if (!options.plot.empty()) {
+        const auto title =
+            fmt::format("{}, {}", std::filesystem::path(subject->name).filename().string(),
+                        level2::moment_name(request->moment));
+        if (auto drawn = write_plot(measured->rows, unit, title, options.plot); !drawn) {
+            return report_error(drawn.error());
+        }
+    }
+    print_notes(measured->rows, *effects, site);
+    if (options.grid.json) {
+        print_json(*subject, request->moment, *measured, unit);
+    } else {
+        print_tables(*subject, *measured, unit, options.markdown);
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+Command add_accuracy(CLI::App& app) {
+    const auto options = std::make_shared<AccuracyOptions>();
+    options->grid.threads = 1;
+    CLI::App* command =
+        app.add_subcommand("accuracy", "Show what accuracy costs in time, rung by rung");
+    command->add_option("FILE", options->grid.files,
+                        "One Level II file; or three or more of one site, of which each is made "
+                        "again from its neighbours in time");
+    command->add_flag("--held-out", options->held_out,
+                      "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
+                      "the repeats beside it; of a scene: its second volume");
+    command->add_option("--scene", options->scene,
+                        "A simulated scene instead; its truth is compared with too");
+    add_spec_options(*command, options->grid);
+    command
+        ->add_option(
+            "--profile", options->effects.profile,
+            "Of refractivity, what the exact beams are traced through: exponential, standard "
+            "or a sounding file")
+        ->capture_default_str();
+    command->add_option("--columns", options->columns, "How many columns are compared")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--rounds", options->rounds, "How often each time is taken")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100));
+    command->add_option("--plot", options->plot, "Write error against time as FILE.svg");
+    command->add_flag("--markdown", options->markdown,
+                      "Tables as Markdown, as docs/accuracy.md has them; not with --json");
+    return {command, [options] { return run_accuracy(*options); }};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,20 @@
+// cli/catalog_care.h -- `stormcellar catalog check` and `catalog rebuild`.
+#pragma once
+
+#include <string>
+
+namespace stormcellar::cli {
+
+struct CareOptions {
+    std::string directory;  // state/catalog
+    std::string drop;       // of rebuild
+    std::string station;    // empty: all
+    bool json = false;
+};
+
+// Both print what they found and give the exit status: 0 only where nothing is wrong (check), or
+// nothing is wrong any more (rebuild; rows that were lost are said and are no failure).
+int check_catalog(const CareOptions& options);
+int rebuild_catalog(const CareOptions& options);
+
+}  // namespace stormcellar::cli

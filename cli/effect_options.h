@@ -1,0 +1,54 @@
+// cli/effect_options.h -- the options that say how exactly to grid, and what they ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "accuracy/budget.h"
+#include "accuracy/chain.h"
+#include "base/result.h"
+#include "grid/effects.h"
+#include "grid/refractivity.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stormcellar::cli {
+
+inline constexpr std::string_view default_profile = "exponential";
+
+// As they were typed.
+struct EffectOptions {
+    std::string method;
+    std::string averaging;
+    std::vector<std::string> effects;
+    std::string tolerance;
+    std::string profile{default_profile};
+    bool explain = false;
+};
+
+void add_effect_options(CLI::App& app, EffectOptions& options);
+
+struct EffectRequest {
+    accuracy::Chain chain;  // with the settings asked for
+    grid::Averaging averaging = grid::Averaging::in_db;
+    std::optional<accuracy::Budget> budget;
+    grid::RefractivityProfile profile = grid::RefractivityProfile::reference();
+    std::optional<double> sounding_from_m;  // the first level, where the profile is a sounding
+    bool profile_bends_nothing = false;     // one was given, and refraction is off
+    bool explain = false;
+
+    // Something has to be predicted for the scene.
+    [[nodiscard]] bool needs_plan() const { return budget.has_value() || explain; }
+};
+
+// A profile other than the default turns refraction on, unless that is set already or a tolerance
+// leaves it to the planner. Errors: bad_argument, naming the option; io and permission of a
+// sounding that cannot be read.
+[[nodiscard]] Result<EffectRequest> parse_effects(const EffectOptions& options,
+                                                  level2::Moment moment);
+
+}  // namespace stormcellar::cli

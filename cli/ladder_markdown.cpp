@@ -1,0 +1,44 @@
+#include "cli/ladder_markdown.h"
+
+#include <fmt/format.h>
+
+#include "accuracy/quantity.h"
+
+namespace stormcellar::cli {
+namespace {
+
+using accuracy::format_number;
+
+constexpr const char* none = "-";
+
+std::string position_of(const accuracy::LadderRow& row) {
+    if (!row.position_max_m || !row.position_rms_m) return none;
+    return fmt::format("{} / {}", format_number(*row.position_max_m),
+                       format_number(*row.position_rms_m));
+}
+
+std::string value_of(const accuracy::LadderRow& row) {
+    if (!row.value) return none;
+    return fmt::format("{} / {} / {} / {}", format_number(row.value->rms),
+                       format_number(row.value->p95), format_number(row.value->p99),
+                       format_number(row.value->max));
+}
+
+}  // namespace
+
+std::string ladder_markdown(std::span<const accuracy::LadderRow> rows, accuracy::ValueUnit unit) {
+    std::string text = fmt::format(
+        "| step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max ({}) | "
+        "status differs (%) | Pareto |\n|---|---|--:|--:|--:|--:|---|\n",
+        accuracy::name_of(unit));
+    for (const accuracy::LadderRow& row : rows) {
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.step, row.name,
+                            format_number(row.kept_time_s.value_or(row.time_s)), position_of(row),
+                            value_of(row),
+                            row.status ? fmt::format("{:.2f}", 100 * row.status->share()) : none,
+                            row.pareto ? "yes" : "no");
+    }
+    return text;
+}
+
+}  // namespace stormcellar::cli

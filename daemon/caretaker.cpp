@@ -1,0 +1,139 @@
+#include "daemon/caretaker.h"
+
+#include <exception>
+#include <utility>
+
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+
+#include "base/printable.h"
+
+namespace stormcellar::daemon {
+
+using pipeline::GridCondition;
+using pipeline::MendDepth;
+
+namespace {
+
+constexpr std::chrono::milliseconds look_again{100};
+
+void log_problem(std::string_view what, const Error& error) {
+    spdlog::warn("{}: {}", what, printable(error.message));
+}
+
+}  // namespace
+
+Caretaker::Caretaker(catalog::Catalog& catalog, const cache::Store& store,
+                     pipeline::CacheMender& mender, CareTimes times, std::function<bool()> is_idle)
+    : catalog_(catalog),
+      store_(store),
+      mender_(mender),
+      times_(times),
+      is_idle_(std::move(is_idle)),
+      thread_([this] { run(); }) {}
+
+Caretaker::~Caretaker() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+bool Caretaker::pause(std::chrono::milliseconds least) {
+    std::unique_lock lock(mutex_);
+    const auto stopped = [this] { return stopping_; };
+    if (changed_.wait_for(lock, least, stopped)) return false;
+    while (!is_idle_()) {
+        if (changed_.wait_for(lock, look_again, stopped)) return false;
+    }
+    return true;
+}
+
+void Caretaker::run() {
+    ::pthread_setname_np(::pthread_self(), "caretaker");
+    try {
+        if (!pause({})) return;
+        examine_databases();
+        if (!check_grids(MendDepth::header, {})) return;
+        do {
+            refill();
+            if (!check_grids(MendDepth::all, times_.between_grids)) return;
+        } while (pause(times_.between_rounds));
+    } catch (const std::exception& error) {
+        spdlog::error("grids are not looked after any more: {}", error.what());
+    }
+}
+
+// What was mended is logged by the service, which then scans for the files.
+void Caretaker::examine_databases() {
+    const auto stations = catalog_.station_names();
+    if (!stations) return log_problem("cannot examine the catalog", stations.error());
+    for (const std::string& station : *stations) {
+        if (station.empty()) continue;  // met by every file anyway
+        if (!pause({})) return;
+        if (const Status sound = catalog_.examine(station); !sound) {
+            log_problem("cannot mend a database", sound.error());
+        }
+    }
+}
+
+bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) {
+    const auto domains = store_.domains();
+    if (!domains) {
+        log_problem("cannot look into the cache", domains.error());
+        return true;
+    }
+    for (const std::string& domain : *domains) {
+        for (const level2::Moment moment : level2::all_moments) {
+            const auto entries = store_.list(domain, moment, std::nullopt, std::nullopt);
+            if (!entries) {
+                log_problem("cannot look into the cache", entries.error());
+                continue;
+            }
+            for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry) {
+                if (!pause(between)) return false;
+                mend(*entry, depth);
+            }
+        }
+    }
+    return true;
+}
+
+void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
+    const auto mended = mender_.mend(entry, depth);
+    if (!mended) return log_problem("cannot mend a damaged grid", mended.error());
+    const std::string reason = printable(mended->reason);
+    switch (mended->condition) {
+        case GridCondition::sound:
+            break;
+        case GridCondition::made_again:
+            spdlog::warn("damaged grid {}: dropped, and made again from {}", reason,
+                         printable(mended->raw.native()));
+            break;
+        case GridCondition::dropped:
+            spdlog::warn("damaged grid {}: dropped; it cannot be made again, no raw file is left",
+                         reason);
+            break;
+        case GridCondition::left_alone:
+            spdlog::warn("grid {}: cannot be checked", reason);
+            break;
+    }
+}
+
+void Caretaker::refill() {
+    if (times_.refill <= std::chrono::milliseconds{0}) return;
+    const auto missing = mender_.missing(times_.refill);
+    if (!missing) return log_problem("cannot look for missing grids", missing.error());
+    for (const pipeline::MissingGrid& grid : *missing) {
+        if (!pause({})) return;
+        const auto made = mender_.make(grid);
+        if (!made) return log_problem("cannot make a missing grid", made.error());
+        if (made->result != pipeline::IngestResult::gridded) continue;
+        spdlog::info("missing grid {} {}: made again from {}", grid.station, format_utc(grid.time),
+                     printable(grid.raw.native()));
+    }
+}
+
+}  // namespace stormcellar::daemon

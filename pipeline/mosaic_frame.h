@@ -1,0 +1,89 @@
+// pipeline/mosaic_frame.h -- what several sites saw, as one grid for an instant.
+//
+// Each volume is gridded once, on its site's window of the domain's grid: its partial (kept in the
+// cache by the daemon, in memory by the command line). A frame takes of each site the partials
+// before and after the instant, makes one of them for the instant (grid/time_interpolation.h), and
+// merges those of all sites (grid/mosaic.h). The same partials and options give the same bytes,
+// wherever they come from.
+// A frame is provisional while a site has nothing after the instant: a later volume will change it.
+// Threads: pure functions but for the caches of geometries, which many threads may share.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/utc_time.h"
+#include "cache/grid_file.h"
+#include "grid/brick_grid.h"
+#include "grid/gridder.h"
+#include "grid/mosaic.h"
+#include "grid/time_interpolation.h"
+#include "pipeline/geometry_cache.h"
+
+namespace stormcellar::pipeline {
+
+// How volumes become partials.
+struct PartialOptions {
+    grid::GridderOptions gridder;
+    grid::Quantization quantization;
+    double reach_m = grid::site_reach_m;
+};
+
+// Bricks of one volume on a domain's window of its site.
+struct MadePartial {
+    cache::GridDescription description;
+    grid::BrickGrid bricks;
+};
+// None where the site does not reach the domain. The caller fills in the source files.
+// Errors: those of make_grid().
+[[nodiscard]] Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
+                                                              const grid::SitePosition& site,
+                                                              const grid::GridSpec& domain,
+                                                              const PartialOptions& options,
+                                                              GeometryCache& geometries);
+
+// A partial wherever it is; what it refers to must outlive its use.
+struct PartialView {
+    const cache::GridDescription* description = nullptr;
+    grid::BrickView view;
+
+    [[nodiscard]] const grid::SitePosition& site() const { return description->sites.front(); }
+    [[nodiscard]] UtcTime middle() const {
+        return description->start_time + (description->end_time - description->start_time) / 2;
+    }
+};
+
+struct FrameOptions {
+    grid::MosaicOptions overlap;
+    grid::TimeMethod time = grid::TimeMethod::advected;
+    bool sweep_times = true;
+    // A partial farther from the instant than this is not used: its site had a gap there.
+    std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
+    int threads = 1;
+};
+
+// Of one site: indices into the partials.
+struct Bracket {
+    std::optional<std::size_t> before, after;
+};
+// By ICAO. Sites that have neither are left out. Of partials of the same middle the last one
+// counts.
+[[nodiscard]] std::vector<Bracket> brackets_of(std::span<const PartialView> partials,
+                                               UtcTime instant,
+                                               std::chrono::milliseconds greatest_gap);
+
+struct MosaicFrame {
+    cache::GridDescription description;
+    grid::Mosaic mosaic;
+};
+
+// Errors: not_found when no site has a partial near the instant; those of grid_at() and merge().
+[[nodiscard]] Result<MosaicFrame> make_frame(const grid::GridSpec& domain,
+                                             std::span<const PartialView> partials, UtcTime instant,
+                                             const FrameOptions& options,
+                                             GeometryCache& geometries);
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,44 @@
+// pipeline/rebuild_catalog.h -- the catalog made again from what there is.
+//
+// Damaged databases are set aside and mended (catalog/repair.h: rows of files that are gone stay);
+// then every file below the drop directory that the catalog does not have as it now stands is
+// decoded and registered, and rows of files that are not there become gone. Sound databases keep
+// their rows, so a rebuild of a sound catalog changes nothing. Nothing is gridded.
+// Nothing else may write the catalog meanwhile: hold the state directory's lock (instance_lock.h).
+// Thread contract: a function; `progress` is called from the calling thread.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "catalog/repair.h"
+
+namespace stormcellar::pipeline {
+
+struct RebuildOptions {
+    std::filesystem::path catalog;
+    std::filesystem::path drop;  // symbolic links below it are not followed
+    std::string station;         // only this one's database, and files that may be its; empty: all
+    int threads = 1;             // that decode
+    std::function<void(std::size_t done, std::size_t all)> progress;
+};
+
+struct RebuildReport {
+    std::vector<catalog::Repair> repairs;
+    std::size_t files = 0;        // looked at
+    std::size_t unchanged = 0;    // of these: stood in the catalog as they are
+    std::size_t registered = 0;   // decoded, whole or in part
+    std::size_t rejected = 0;     // not decodable, registered as such
+    int gone = 0;                 // rows of files that are not there any more
+    std::vector<Error> problems;  // files and directories that could not be read
+};
+
+// An error where the catalog cannot be written or the drop directory cannot be read; what was done
+// until then stays, and a second call goes on from there.
+[[nodiscard]] Result<RebuildReport> rebuild_catalog(const RebuildOptions& options);
+
+}  // namespace stormcellar::pipeline

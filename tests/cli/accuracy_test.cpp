@@ -1,0 +1,335 @@
+// The program itself, as a user runs it: `stormcellar accuracy`, and the effects of `grid`.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+using testing::ProgramResult;
+
+ProgramResult run(const std::vector<std::string>& arguments) {
+    return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+}
+
+std::string volume(const std::string& name) {
+    return (*testing::data_directory() / "volumes" / name).string();
+}
+
+const std::vector<std::string> small = {"--extent-km", "300,300",   "--spacing-km",
+                                        "5",           "--threads", "1"};
+
+std::vector<std::string> with(std::vector<std::string> first,
+                              const std::vector<std::string>& more) {
+    first.insert(first.end(), more.begin(), more.end());
+    return first;
+}
+
+TEST(Accuracy, BadUsageIsNamed) {
+    EXPECT_EQ(run({"accuracy"}).status, 2);
+    EXPECT_NE(run({"accuracy"}).err.find("--scene"), std::string::npos);
+    EXPECT_EQ(run({"accuracy", "a", "b"}).status, 2);
+    EXPECT_EQ(run({"accuracy", "nosuch"}).status, 1);
+    EXPECT_EQ(run({"accuracy", "a", "--scene", "b"}).status, 2);
+    const auto expect_refused = [](const std::vector<std::string>& options,
+                                   const std::string& part) {
+        const ProgramResult ran = run(with({"accuracy", "a"}, options));
+        EXPECT_EQ(ran.status, 2) << part;
+        EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
+    };
+    expect_refused({"--markdown", "--json"}, "exclude each other");
+    expect_refused({"--plot", "d.png"}, "must end in .svg");
+    expect_refused({"--plot", ""}, "--plot: is empty");
+    expect_refused({"--fields", "age"}, "--fields");
+    expect_refused({"--time", "now"}, "--time");
+}
+
+TEST(Accuracy, HelpSaysHowManyThreadsEachCommandTakes) {
+    EXPECT_NE(run({"accuracy", "--help"}).out.find("Else 1"), std::string::npos);
+    EXPECT_NE(run({"grid", "--help"}).out.find("Else as many as the machine has"),
+              std::string::npos);
+}
+
+TEST(Accuracy, ErrorsNameTheFile) {
+    STORMCELLAR_NEED_DATA();
+    const std::string file = volume("KTLX19990503_235621.gz");
+    const ProgramResult ran = run({"accuracy", file, "--moment", "ZDR"});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_EQ(ran.err, "stormcellar: " + file + ": the volume has no sweep with ZDR\n");
+}
+
+TEST(Accuracy, AGridWithoutValuesIsNoted) {
+    STORMCELLAR_NEED_DATA();
+    const ProgramResult ran = run(with(
+        {"accuracy", volume("KTLX19990503_235621.gz"), "--rounds", "1", "--center", "0,0"}, small));
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_NE(ran.err.find("note: no cell that was compared has a value"), std::string::npos)
+        << ran.err;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+// The head of each table of the page, and rows of the same form.
+TEST(Accuracy, MarkdownIsWhatThePageShows) {
+    STORMCELLAR_NEED_DATA();
+    const ProgramResult ran = run(with({"accuracy", volume("KTLX19990503_235621.gz"), "--rounds",
+                                        "2", "--columns", "300", "--markdown"},
+                                       small));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    std::ifstream page(testing::source_directory() / "docs/accuracy.md");
+    const std::string text{std::istreambuf_iterator<char>(page), {}};
+    const auto head = ran.out.find("| step |");
+    ASSERT_NE(head, std::string::npos) << ran.out;
+    const auto printed = lines_of(ran.out.substr(head));
+    ASSERT_EQ(printed.size(), 2U + 3 + 3 + 2 + 4 + 2 + 7) << ran.out;
+    EXPECT_NE(text.find("\n" + printed[0] + "\n" + printed[1] + "\n"), std::string::npos);
+    const std::string number = "[0-9.e+-]+";
+    const std::regex row("\\| [a-z]+ \\| [^|]+ \\| " + number + " \\| " + number + " / " + number +
+                         " \\| " + number + " / " + number + " / " + number + " / " + number +
+                         " \\| [0-9]+\\.[0-9]{2} \\| (yes|no) \\|");
+    for (std::size_t i = 2; i < printed.size(); ++i)
+        EXPECT_TRUE(std::regex_match(printed[i], row)) << printed[i];
+    std::size_t shown = 0;
+    for (const std::string& line : lines_of(text))
+        shown += std::regex_match(line, row) ? 1 : 0;
+    EXPECT_GE(shown, 4 * 18U) << "rows of the page's four tables";
+    EXPECT_NE(ran.out.find("| chain | exact | "), std::string::npos);
+    EXPECT_NE(ran.out.find(" | 0 / 0 | 0 / 0 / 0 / 0 | 0.00 | yes |"), std::string::npos);
+}
+
+TEST(Accuracy, PrintsALadderForARealVolume) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const std::string plot = (directory.path() / "plot.svg").string();
+    const ProgramResult ran = run(with({"accuracy", volume("KTLX19990503_235621.gz"), "--json",
+                                        "--rounds", "1", "--columns", "300", "--plot", plot},
+                                       small));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto json = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(json["value_unit"], "dB");
+    EXPECT_TRUE(json["truth"].empty());
+    std::map<std::string, int> rungs;
+    for (const auto& row : json["rows"]) {
+        ++rungs[row["step"]];
+        EXPECT_GT(row["time_s"].get<double>(), 0);
+        if (row["name"] == "exact") {
+            EXPECT_EQ(row["value_max_db"].get<double>(), 0);
+        }
+        if (row["name"] == "nearest" && row["step"] == "chain") {
+            EXPECT_GT(row["value_p99_db"].get<double>(), 1);
+            EXPECT_GT(row["position_max_m"].get<double>(), 10) << "refraction";
+        }
+    }
+    EXPECT_EQ(rungs["frame"], 3);
+    EXPECT_EQ(rungs["beam"], 3);
+    EXPECT_EQ(rungs["interpolation"], 4);
+    EXPECT_EQ(rungs["chain"], 7);
+    std::ifstream svg(plot);
+    std::stringstream text;
+    text << svg.rdbuf();
+    EXPECT_NE(text.str().find("</svg>"), std::string::npos);
+}
+
+TEST(Accuracy, ComparesASceneWithItsTruth) {
+    const testing::TemporaryDirectory directory;
+    const std::string scene = (directory.path() / "scene.toml").string();
+    std::ofstream(scene) << R"(
+[radar]
+station = "KTLX"
+[volumes]
+count = 1
+interval_s = 500
+start = "2024-06-01T22:00:00Z"
+vcp = 35
+[[storm]]
+position_km = [50, 20]
+core_km = 4
+radii_km = [25, 25]
+top_km = 12
+peak_dbz = 50
+)";
+    const ProgramResult ran = run(
+        with({"accuracy", "--scene", scene, "--json", "--rounds", "1", "--columns", "300"}, small));
+    if (ran.status == 2) GTEST_FAIL() << ran.err;
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto json = nlohmann::json::parse(ran.out);
+    ASSERT_EQ(json["truth"].size(), 6U) << "every chain but the traced one";
+    for (const auto& row : json["truth"]) {
+        EXPECT_GT(row["count"].get<int>(), 50);
+        EXPECT_LT(row["rms"].get<double>(), 12) << row["chain"];
+    }
+}
+
+TEST(Effects, ATolerancePicksAndSaysWhatItPicked) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out.nc").string();
+    const ProgramResult ran = run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out,
+                                        "--tolerance", "9 km, 20 dB", "--explain", "--json"},
+                                       small));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_NE(ran.err.find("antenna_jitter"), std::string::npos) << "the explanation";
+    const auto json = nlohmann::json::parse(ran.out);
+    EXPECT_NE(json["predicted_error"].get<std::string>().find("dB"), std::string::npos);
+    EXPECT_NE(json["effects"].get<std::string>().find("frame: "), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+TEST(Effects, ABudgetOutOfReachIsExit1AndWritesNothing) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out.nc").string();
+    const ProgramResult ran = run(with({"grid", volume("KTLX19990503_235621.gz"), "-o", out,
+                                        "--tolerance", "1 m", "--effect", "refraction=off"},
+                                       small));
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find("set off: refraction"), std::string::npos) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(Effects, MisspeltOptionsAreNamed) {
+    const auto expect_usage = [](const std::vector<std::string>& options, const std::string& part) {
+        const ProgramResult ran = run(with({"grid", "a", "-o", "b.nc"}, options));
+        EXPECT_EQ(ran.status, 2) << part;
+        EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
+    };
+    expect_usage({"--method", "lineer"}, "eight-point");
+    expect_usage({"--effect", "refractoin=on"}, "did you mean \"refraction\"");
+    expect_usage({"--effect", "refraction=on", "--effect", "refraction=off"}, "refraction");
+    expect_usage({"--tolerance", "5"}, "unit");
+    expect_usage({"--tolerance", "1 dB", "--moment", "VEL"}, "m/s");
+    expect_usage({"--tolerance", "dE 2"}, "colours");
+    expect_usage({"--averaging", "Z", "--moment", "VEL"}, "REF");
+    expect_usage({"--method", "linear", "--effect", "beam_width=on"},
+                 "horizontal_interpolation, which is off (--method linear sets "
+                 "column_interpolation on, horizontal_interpolation off, cell_size off)");
+    expect_usage({"--method", "linear", "--effect", "beam_width=on", "--effect",
+                  "horizontal_interpolation=off"},
+                 "horizontal_interpolation, which is off\n");
+}
+
+// Two levels, the first at this height.
+std::string sounding_from(const testing::TemporaryDirectory& directory, int height_m) {
+    const std::string path = (directory.path() / "own.csv").string();
+    std::ofstream(path) << "height_m,refractivity\n"
+                        << height_m << ",320\n"
+                        << height_m + 1000 << ",270\n";
+    return path;
+}
+
+// 2026-11-21: a sounding was read and not used.
+TEST(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const std::string sounding = sounding_from(directory, 300);
+    const auto gridded = [&](const std::vector<std::string>& options) {
+        return run(with({"grid", volume("KTLX19990503_235621.gz"), "-o",
+                         (directory.path() / "out.nc").string(), "--json"},
+                        with(small, options)));
+    };
+    const auto beam_of = [](const ProgramResult& ran) {
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return nlohmann::json::parse(ran.out)["beam_model"].get<std::string>();
+    };
+    EXPECT_EQ(beam_of(gridded({})), "4/3 earth");
+    EXPECT_EQ(beam_of(gridded({"--profile", "exponential"})), "4/3 earth") << "the default";
+    for (const auto& options : std::vector<std::vector<std::string>>{
+             {}, {"--effect", "refraction=auto"}, {"--explain"}, {"--method", "nearest"}}) {
+        const ProgramResult ran = gridded(with({"--profile", sounding}, options));
+        EXPECT_NE(beam_of(ran).find("own.csv"), std::string::npos) << ran.out;
+        EXPECT_EQ(ran.err.find("note"), std::string::npos) << ran.err;
+    }
+    EXPECT_NE(beam_of(gridded({"--profile", "standard"})).find("standard"), std::string::npos);
+    const ProgramResult off = gridded({"--profile", sounding, "--effect", "refraction=off"});
+    EXPECT_EQ(beam_of(off), "4/3 earth");
+    EXPECT_NE(off.err.find("refraction is off"), std::string::npos) << off.err;
+    EXPECT_EQ(std::count(off.err.begin(), off.err.end(), '\n'), 1) << off.err;
+    const ProgramResult flat = gridded({"--profile", sounding, "--effect", "earth_curvature=off"});
+    EXPECT_EQ(beam_of(flat), "flat earth");
+    EXPECT_NE(flat.err.find("refraction is off"), std::string::npos) << flat.err;
+    EXPECT_EQ(beam_of(gridded({"--profile", sounding, "--tolerance", "9 km, 20 dB"})), "4/3 earth")
+        << "the planner finds it small enough";
+}
+
+TEST(Effects, ASoundingFarAboveTheAntennaIsNoted) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const auto noted = [&](int height_m, const std::vector<std::string>& command) {
+        const ProgramResult ran =
+            run(with(with(command, {volume("KTLX19990503_235621.gz"), "--profile",
+                                    sounding_from(directory, height_m)}),
+                     small));
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.err;
+    };
+    const std::vector<std::string> grid = {"grid", "-o", (directory.path() / "out.nc").string()};
+    const std::vector<std::string> ladder = {"accuracy", "--rounds", "1", "--columns", "50"};
+    const std::string note =
+        "stormcellar: note: the sounding own.csv is extrapolated from its first level, at 900 m, "
+        "down to the antenna, at 390 m above mean sea level\n";
+    EXPECT_EQ(noted(900, grid), note);
+    EXPECT_EQ(noted(900, ladder), note);
+    EXPECT_EQ(noted(880, grid), "");
+}
+
+// 2026-11-21: some were failed work, some bad usage.
+TEST(Effects, AProfileThatIsNoneIsBadUsage) {
+    const testing::TemporaryDirectory directory;
+    const auto written = [&](const std::string& name, const std::string& text) {
+        const std::string path = (directory.path() / name).string();
+        std::ofstream(path) << text;
+        return path;
+    };
+    for (const std::string& profile :
+         {std::string{"exponental"}, written("empty.csv", ""), directory.path().string(),
+          written("head.csv", "height_m,refractivity\n"), written("words.csv", "no sounding\n"),
+          written("large.csv", std::string(2 << 20, '#'))}) {
+        const ProgramResult ran = run({"grid", "a", "-o", "b.nc", "--profile", profile});
+        EXPECT_EQ(ran.status, 2) << profile;
+        EXPECT_NE(ran.err.find("--profile takes exponential, standard or a sounding file: "),
+                  std::string::npos)
+            << ran.err;
+        EXPECT_NE(ran.err.find(profile), std::string::npos) << ran.err;
+    }
+}
+
+TEST(Effects, EveryMethodMakesAGridThatNamesIt) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const std::vector<std::pair<std::string, std::string>> methods = {
+        {"nearest", "column-nearest"},
+        {"linear", "column-linear"},
+        {"eight-point", "eight-point"},
+        {"beam-weighted", "beam-weighted"},
+        {"area", "area, beam-weighted"}};
+    for (const auto& [option, name] : methods) {
+        const std::string out = (directory.path() / (option + ".nc")).string();
+        const ProgramResult ran = run(with(
+            {"grid", volume("KTLX19990503_235621.gz"), "-o", out, "--method", option, "--json"},
+            small));
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        const auto json = nlohmann::json::parse(ran.out);
+        EXPECT_EQ(json["method"], name);
+        EXPECT_GT(json["cells"]["value"].get<int>(), 100);
+        EXPECT_NE(json["predicted_error"].get<std::string>().find("values not predicted"),
+                  std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::cli

@@ -1,0 +1,95 @@
+// What the options of `stormcellar grid` ask for.
+#include "cli/grid_request.h"
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+namespace stormcellar::cli {
+namespace {
+
+Result<grid::GridSpec> spec_for(const std::string& arguments, double latitude_deg,
+                                double longitude_deg) {
+    GridOptions options;
+    CLI::App app;
+    add_grid_options(app, options);
+    app.parse("file -o out.nc " + arguments);
+    const auto request = parse_request(options);
+    if (!request) return pass_on(request);
+    const auto center =
+        request->center_deg.value_or(std::array<double, 2>{latitude_deg, longitude_deg});
+    return spec_about(*request, center[0], center[1]);
+}
+
+TEST(GridRequest, NothingGivenIsTheDefaultGridAboutTheSite) {
+    const auto spec = spec_for("", 35, -97);
+    ASSERT_TRUE(spec);
+    EXPECT_EQ(*spec, grid::default_spec(35, -97));
+}
+
+TEST(GridRequest, EveryNameOfAProjectionIsKnown) {
+    using enum grid::Projection;
+    const std::pair<const char*, grid::Projection> names[] = {
+        {"azimuthal_equidistant", azimuthal_equidistant},
+        {"aeqd", azimuthal_equidistant},
+        {"latitude_longitude", latitude_longitude},
+        {"lat-lon", latitude_longitude},
+        {"latlon", latitude_longitude},
+        {"lambert_conformal", lambert_conformal},
+        {"lambert", lambert_conformal},
+        {"lcc", lambert_conformal},
+    };
+    for (const auto& [name, projection] : names) {
+        const auto spec = spec_for(std::string("--projection ") + name, 35, -97);
+        ASSERT_TRUE(spec) << name;
+        EXPECT_EQ(spec->projection, projection);
+    }
+    EXPECT_FALSE(spec_for("--projection mercator", 35, -97));
+}
+
+TEST(GridRequest, DegreesAreTakenAsTheyAre) {
+    const auto spec = spec_for(
+        "--projection lat-lon --spacing-deg 0.02 --extent-deg 5,4 --center 13.45,179.9", 35, -97);
+    ASSERT_TRUE(spec);
+    EXPECT_EQ(spec->spacing_deg, 0.02);
+    EXPECT_EQ(spec->spacing_m, 0);
+    EXPECT_EQ(spec->nx, 250);
+    EXPECT_EQ(spec->ny, 200);
+    EXPECT_EQ(spec->center_latitude_deg, 13.45);
+    EXPECT_EQ(spec->center_longitude_deg, 179.9);
+}
+
+// At 60 N a degree of latitude is 111.412 km, one of longitude 55.800 km.
+TEST(GridRequest, KilometresBecomeDegreesAsTheCentreHasThem) {
+    const auto both = spec_for("--projection lat-lon --spacing-km 2 --extent-km 300,200", 60, 10);
+    ASSERT_TRUE(both);
+    EXPECT_NEAR(both->spacing_deg, 2 / 111.412, 1e-7);
+    EXPECT_EQ(both->ny, 100);
+    EXPECT_EQ(both->nx, 300);  // 5.3763 / 0.017951 = 299.5
+    const auto mixed =
+        spec_for("--projection lat-lon --spacing-deg 0.01 --extent-km 300,200", 60, 10);
+    ASSERT_TRUE(mixed);
+    EXPECT_EQ(mixed->spacing_deg, 0.01);
+    EXPECT_EQ(mixed->ny, 180);  // 1.7951
+    EXPECT_EQ(mixed->nx, 538);  // 5.3763
+}
+
+TEST(GridRequest, ParallelsAreGivenOrThoseOfTheCentre) {
+    const auto given = spec_for("--projection lcc --parallels 33,45", 39, -97);
+    ASSERT_TRUE(given);
+    EXPECT_EQ(given->parallels_deg, (std::array<double, 2>{33, 45}));
+    const auto own = spec_for("--projection lcc", 39, -97);
+    ASSERT_TRUE(own);
+    EXPECT_EQ(own->parallels_deg, (std::array<double, 2>{39, 39}));
+    EXPECT_FALSE(spec_for("--projection lcc", 0, -97)) << "no cone about the equator";
+    EXPECT_TRUE(spec_for("--projection lcc --parallels 10,20", 0, -97));
+}
+
+TEST(GridRequest, WhatTheSiteMakesImpossibleIsBadUsage) {
+    const auto polar = spec_for("--projection lat-lon", 89.9, 0);
+    ASSERT_FALSE(polar);
+    EXPECT_EQ(polar.error().code, ErrorCode::bad_argument);
+    EXPECT_FALSE(spec_for("--projection lat-lon", 90, 0));
+}
+
+}  // namespace
+}  // namespace stormcellar::cli

@@ -1,0 +1,167 @@
+// The real program after damage: a database, grids and a whole cache that come back by themselves.
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cache/store.h"
+#include "catalog/catalog.h"
+#include "tests/daemon/running_daemon.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Recovery : public ::testing::Test {
+  protected:
+    void SetUp() override { STORMCELLAR_NEED_DATA(); }
+
+    void put(const std::string& name) {
+        fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, daemon_.drop() / name);
+    }
+    void run_until_ingested(int files) {
+        fs::remove(daemon_.root() / "state/status.json");
+        daemon_.start("[ingest]\nquiet_seconds = 2\nspacing_km = 4\n");
+        ASSERT_TRUE(daemon_.wait_for([&](const json& s) {
+            return s["ingested"] == files && s["pending"]["waiting"] == 0 &&
+                   s["pending"]["running"] == 0;
+        })) << daemon_.log();
+    }
+    std::vector<cache::StoreEntry> grids() {
+        const auto store = cache::Store::open_for_reading(daemon_.cache());
+        return *store->list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
+    }
+    std::vector<catalog::CatalogEntry> rows() {
+        auto catalog = *catalog::Catalog::open_for_reading(daemon_.catalog());
+        return *catalog.list("KBGM", {});
+    }
+    static constexpr const char* first = "KBGM20050822_024414.gz";
+    static constexpr const char* second = "KBGM20050822_025001.gz";
+    RunningDaemon daemon_;
+};
+
+TEST_F(Recovery, ADamagedDatabaseIsSetAsideAtTheStartAndFilledAgain) {
+    put(first);
+    put(second);
+    run_until_ingested(2);
+    EXPECT_EQ(daemon_.terminate(), 0);
+    fs::remove(daemon_.drop() / first);  // its row can only be had from the damaged database
+    fs::resize_file(daemon_.catalog() / "KBGM.sqlite",
+                    fs::file_size(daemon_.catalog() / "KBGM.sqlite") - 100);
+    run_until_ingested(1);
+    EXPECT_TRUE(daemon_.wait_for_log("KBGM.sqlite: damaged (")) << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    ASSERT_EQ(rows().size(), 2U) << daemon_.log();
+    EXPECT_EQ(rows()[0].state, catalog::FileState::gone);
+    EXPECT_EQ(rows()[1].state, catalog::FileState::complete);
+}
+
+TEST_F(Recovery, ADatabaseDamagedAtRunTimeDoesNotStopItsStation) {
+    put(first);
+    run_until_ingested(1);
+    EXPECT_EQ(daemon_.terminate(), 0);
+    fs::remove(daemon_.root() / "state/status.json");
+    daemon_.start("[ingest]\nspacing_km = 4\n");
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["unchanged"] == 1; }));
+    write_file(daemon_.catalog() / "KBGM.sqlite", std::string(40'000, 'x'));
+    put(second);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 2; }))
+        << "the second, and the first once more\n"
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_EQ(rows().size(), 2U);
+    EXPECT_NE(daemon_.log().find("KBGM.sqlite: damaged ("), std::string::npos) << daemon_.log();
+}
+
+TEST_F(Recovery, ADeletedDatabaseIsFilledAgain) {
+    put(first);
+    run_until_ingested(1);
+    for (const char* name : {"KBGM.sqlite", "KBGM.sqlite-wal", "KBGM.sqlite-shm"})
+        fs::remove(daemon_.catalog() / name);
+    put(second);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 3; }))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_EQ(rows().size(), 2U);
+}
+
+TEST_F(Recovery, AWipedCacheAndADamagedGridAreMadeAgainAtTheStart) {
+    put(first);
+    put(second);
+    run_until_ingested(2);
+    EXPECT_EQ(daemon_.terminate(), 0);
+    ASSERT_EQ(grids().size(), 2U);
+    fs::resize_file(grids()[0].path, 10'000);
+    daemon_.start("[ingest]\nspacing_km = 4\n");
+    EXPECT_TRUE(daemon_.wait_for_log("dropped, and made again from")) << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    fs::remove_all(daemon_.cache() / "KBGM");
+    daemon_.start("[ingest]\nspacing_km = 4\n");
+    EXPECT_TRUE(daemon_.wait_for_log("missing grid KBGM 2005-08-22T02:44:14")) << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    ASSERT_EQ(grids().size(), 2U);
+    for (const auto& grid : grids()) {
+        const auto file = cache::GridFile::open(grid.path);
+        ASSERT_TRUE(file) << file.error().message;
+        EXPECT_TRUE(file->verify());
+    }
+}
+
+TEST_F(Recovery, WithoutRefillAWipedCacheStaysEmpty) {
+    put(first);
+    run_until_ingested(1);
+    EXPECT_EQ(daemon_.terminate(), 0);
+    fs::remove_all(daemon_.cache() / "KBGM");
+    daemon_.start(
+        "[ingest]\nspacing_km = 4\n[cache]\nrefill_hours = 0\n[log]\nlevel = \"debug\"\n");
+    ASSERT_TRUE(daemon_.wait_for_log("unchanged "));
+    std::this_thread::sleep_for(std::chrono::milliseconds{500});
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_FALSE(fs::exists(daemon_.cache() / "KBGM"));
+}
+
+// Killed again and again while it takes volumes in: what stands in the cache is whole at any time,
+// and in the end everything is there.
+TEST_F(Recovery, KilledWhileItWorks) {
+    const fs::path sequence = *testing::data_directory() / "sequence-kbgm";
+    for (const auto& volume : fs::directory_iterator(sequence))
+        fs::copy_file(volume, daemon_.drop() / volume.path().filename());
+    std::size_t whole = 0;
+    for (int kills = 0; kills < 8; ++kills) {
+        daemon_.start("[ingest]\nspacing_km = 2\n");
+        std::this_thread::sleep_for(std::chrono::milliseconds{40 + 60 * kills});
+        daemon_.signal(SIGKILL);
+        EXPECT_EQ(daemon_.wait(), -SIGKILL);
+        if (!fs::exists(daemon_.cache())) continue;
+        whole = 0;
+        for (const auto& grid : grids()) {
+            const auto file = cache::GridFile::open(grid.path);
+            ASSERT_TRUE(file) << file.error().message;
+            EXPECT_TRUE(file->verify());
+            ++whole;
+        }
+    }
+    daemon_.start("[ingest]\nspacing_km = 2\n");
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) {
+        return s["state"] == "running" && s["pending"]["waiting"] == 0 &&
+               s["pending"]["running"] == 0 && s["pending"]["growing"] == 0;
+    }));
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_EQ(grids().size(), 5U) << whole << " after the last kill";
+    EXPECT_EQ(rows().size(), 5U);
+    for (const auto& row : rows())
+        EXPECT_EQ(row.state, catalog::FileState::complete) << row.path;
+    EXPECT_EQ(daemon_.log().find("damaged"), std::string::npos) << daemon_.log();
+    for (const auto& entry : fs::recursive_directory_iterator(daemon_.cache()))
+        EXPECT_TRUE(entry.is_directory() || entry.path().extension() == ".scg") << entry.path();
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

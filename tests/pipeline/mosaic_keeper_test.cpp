@@ -1,0 +1,148 @@
+// Mosaics that are kept as volumes come, and the same made at once.
+#include "pipeline/mosaic_keeper.h"
+
+#include <gtest/gtest.h>
+
+#include "grid/effects.h"
+#include "level2/decode.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+Domain small_domain() {
+    Domain domain;
+    domain.name = "north";
+    domain.spec = grid::default_spec(42.2, -75.9);
+    domain.spec.nx = domain.spec.ny = 100;
+    domain.spec.spacing_m = 4000;
+    domain.spec.levels_m = {1000, 2000, 3000, 5000, 8000};
+    return domain;
+}
+
+struct Loaded {
+    level2::Volume volume;
+    grid::SitePosition site;
+    std::string file;
+};
+
+Loaded load(const std::string& name) {
+    level2::DecodeOptions options;
+    options.fallback_station = name.substr(0, 4);
+    const auto path = *testing::data_directory() / "sequence-kbgm" / name;
+    auto decoded = level2::decode(*read_file(path), options);
+    EXPECT_TRUE(decoded);
+    const auto antenna = level2::antenna_position(decoded->volume);
+    Loaded loaded{std::move(decoded->volume), {}, name};
+    loaded.site = {loaded.volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                   antenna->altitude_m};
+    return loaded;
+}
+
+class MosaicKeeperTest : public ::testing::Test {
+  protected:
+    void SetUp() override { STORMCELLAR_NEED_DATA(); }
+    Kept take(const Loaded& loaded) {
+        VolumeSource source{loaded.volume, loaded.site, loaded.file};
+        auto kept = keeper_.take_in(source, 2);
+        EXPECT_TRUE(kept) << kept.error().message;
+        return kept ? std::move(*kept) : Kept{};
+    }
+    [[nodiscard]] std::vector<cache::StoreEntry> frames() const {
+        return *store_.list("north", level2::Moment::ref, std::nullopt, std::nullopt);
+    }
+    [[nodiscard]] static cache::GridFile open(const std::filesystem::path& path) {
+        return std::move(*cache::GridFile::open(path));
+    }
+
+    testing::TemporaryDirectory directory_;
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    MosaicKeeper keeper_{&store_, {small_domain()}};
+};
+
+const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
+                                           "KBGM20050822_025549.gz"};
+
+TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome) {
+    take(load(sequence[0]));
+    EXPECT_EQ(store_.list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size(),
+              1U);
+    // The middle of the first volume is 02:46:50: no frame is due between it and itself.
+    const std::size_t first = frames().size();
+    const Kept second = take(load(sequence[1]));
+    EXPECT_GE(frames().size(), first);
+    ASSERT_EQ(second.frames.size(), 1U);
+    const auto frame = open(second.frames[0]);
+    EXPECT_EQ(format_utc(frame.description().time), "2005-08-22T02:50:00Z");
+    EXPECT_FALSE(frame.description().provenance.provisional);
+    EXPECT_EQ(frame.description().provenance.revision, 1);
+    EXPECT_EQ(frame.description().provenance.source_files, (std::vector{sequence[0], sequence[1]}));
+
+    // A third volume brings the frame of 02:55 and leaves that of 02:50 alone.
+    const Kept third = take(load(sequence[2]));
+    ASSERT_EQ(third.frames.size(), 1U);
+    EXPECT_EQ(format_utc(open(third.frames[0]).description().time), "2005-08-22T02:55:00Z");
+    for (const cache::StoreEntry& entry : frames())
+        EXPECT_TRUE(open(entry.path).verify());
+}
+
+TEST_F(MosaicKeeperTest, AVolumeThatComesLateReplacesTheFramesAboutIt) {
+    take(load(sequence[0]));
+    const Kept last = take(load(sequence[2]));
+    ASSERT_EQ(last.frames.size(), 2U);  // 02:50 and 02:55, from volumes 11 minutes apart
+    const Kept late = take(load(sequence[1]));
+    EXPECT_EQ(late.frames, last.frames);
+    for (const auto& path : late.frames) {
+        const auto frame = open(path);
+        EXPECT_EQ(frame.description().provenance.revision, 2);
+        const auto& files = frame.description().provenance.source_files;
+        EXPECT_NE(std::find(files.begin(), files.end(), sequence[1]), files.end());
+    }
+}
+
+TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
+    GeometryCache geometries(4);
+    std::vector<MadePartial> partials;
+    for (const std::string& name : {sequence[0], sequence[1]}) {
+        const Loaded loaded = load(name);
+        take(loaded);
+        PartialOptions options;
+        const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
+        options.gridder.method =
+            grid::scene_choice(chain, grid::default_choice(chain, small_domain().spec, 0.95))
+                .method;
+        options.quantization = grid::default_quantization(level2::Moment::ref);
+        auto made =
+            make_partial(loaded.volume, loaded.site, small_domain().spec, options, geometries);
+        ASSERT_TRUE(made && *made);
+        partials.push_back(std::move(**made));
+    }
+    std::vector<PartialView> views;
+    for (const MadePartial& partial : partials)
+        views.push_back({&partial.description, partial.bricks.view()});
+    ASSERT_EQ(frames().size(), 1U);
+    const auto kept = open(frames()[0].path);
+    const auto made =
+        make_frame(small_domain().spec, views, kept.description().time, {}, geometries);
+    ASSERT_TRUE(made);
+    const grid::Grid a = grid::to_dense(made->mosaic.cells.view());
+    const grid::Grid b = grid::to_dense(kept.view());
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.values, b.values);
+}
+
+TEST_F(MosaicKeeperTest, ADomainThatTakesNotTheStationKeepsNothing) {
+    Domain other = small_domain();
+    other.stations = {"KTLX"};
+    MosaicKeeper keeper(&store_, {other});
+    const Loaded loaded = load(sequence[0]);
+    const auto kept = keeper.take_in({loaded.volume, loaded.site, loaded.file}, 1);
+    ASSERT_TRUE(kept);
+    EXPECT_TRUE(kept->partials.empty());
+    EXPECT_TRUE(store_.domains()->empty());
+}
+
+}  // namespace
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,108 @@
+// A catalog made again from real files, and from what is left of a damaged one.
+#include "pipeline/rebuild_catalog.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "catalog/check_catalog.h"
+#include "pipeline/ingest.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::Catalog;
+using catalog::FileState;
+
+class RebuildCatalog : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        fs::create_directories(drop_ / "KBGM");
+        options_.catalog = catalog_;
+        options_.drop = drop_;
+    }
+    // Two real volumes and a file that is none.
+    void fill_drop() {
+        for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"})
+            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name,
+                          drop_ / "KBGM" / name);
+        std::ofstream(drop_ / "noise") << std::string(5000, 'x');
+        std::ofstream(drop_ / ".hidden") << "not done";
+    }
+    std::vector<catalog::CatalogEntry> rows(const std::string& station) {
+        auto catalog = *Catalog::open_for_reading(catalog_);
+        return *catalog.list(station, {{}, {}, true});
+    }
+    testing::TemporaryDirectory directory_;
+    fs::path drop_ = directory_ / "drop";
+    fs::path catalog_ = directory_ / "state/catalog";
+    RebuildOptions options_;
+};
+
+TEST_F(RebuildCatalog, ADeletedCatalogComesBackFromTheDropDirectory) {
+    STORMCELLAR_NEED_DATA();
+    fill_drop();
+    std::size_t last = 0;
+    options_.progress = [&](std::size_t done, std::size_t all) {
+        EXPECT_EQ(all, 3U);
+        last = done;
+    };
+    const auto report = rebuild_catalog(options_);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->files, 3U);
+    EXPECT_EQ(report->registered, 2U);
+    EXPECT_EQ(report->rejected, 1U);
+    EXPECT_EQ(last, 3U);
+    EXPECT_TRUE(report->problems.empty());
+    ASSERT_EQ(rows("KBGM").size(), 2U);
+    EXPECT_EQ(rows("KBGM")[0].state, FileState::complete);
+    EXPECT_EQ(rows("KBGM")[0].volume.sweep_count > 0, true);
+    EXPECT_EQ(rows("").at(0).state, FileState::rejected);
+    EXPECT_TRUE(catalog::check_catalog(catalog_, "")->is_sound());
+    EXPECT_EQ(rebuild_catalog(options_)->unchanged, 3U) << "a sound one stays as it is";
+}
+
+TEST_F(RebuildCatalog, ADamagedCatalogKeepsItsGoneRows) {
+    STORMCELLAR_NEED_DATA();
+    fill_drop();
+    ASSERT_TRUE(rebuild_catalog(options_));
+    fs::remove(drop_ / "KBGM" / "KBGM20050822_024414.gz");
+    ASSERT_EQ(rebuild_catalog(options_)->gone, 1);
+    fs::resize_file(catalog_ / "KBGM.sqlite", fs::file_size(catalog_ / "KBGM.sqlite") - 100);
+    ASSERT_FALSE(catalog::check_catalog(catalog_, "")->is_sound());
+
+    const auto report = rebuild_catalog(options_);
+    ASSERT_TRUE(report) << report.error().message;
+    ASSERT_EQ(report->repairs.size(), 1U);
+    EXPECT_EQ(report->repairs[0].kept_gone, 1);
+    EXPECT_EQ(report->repairs[0].lost, 0);
+    EXPECT_EQ(report->registered, 1U);
+    ASSERT_EQ(rows("KBGM").size(), 2U);
+    EXPECT_EQ(rows("KBGM")[0].state, FileState::gone);
+    EXPECT_EQ(rows("KBGM")[1].state, FileState::complete);
+    const auto check = catalog::check_catalog(catalog_, "");
+    EXPECT_TRUE(check->is_sound());
+    EXPECT_EQ(check->set_aside.size(), 1U);
+}
+
+TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
+    STORMCELLAR_NEED_DATA();
+    fill_drop();
+    options_.station = "KOKX";
+    const auto report = rebuild_catalog(options_);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->files, 1U) << "noise may be anybody's";
+    options_.station = "KBGM";
+    EXPECT_EQ(rebuild_catalog(options_)->registered, 2U);
+}
+
+TEST_F(RebuildCatalog, AMissingDropDirectoryIsAnErrorAndMarksNothing) {
+    options_.drop = directory_ / "none";
+    EXPECT_EQ(rebuild_catalog(options_).error().code, ErrorCode::not_found);
+}
+
+}  // namespace
+}  // namespace stormcellar::pipeline
