@@ -1,8 +1,9 @@
 // bench_decode: what decoding costs beside the decompression that nobody can avoid.
 //
-// usage: bench_decode [--runs N] [--give-back] [FILE ...]   (default: 5 runs of every real volume)
+// usage: bench_decode [--data DIR] [--threads N] [--runs N] [--json] [--give-back] [FILE ...]
+//   (bench/request.h; every real volume, unless files are named)
 //   --give-back   freed memory goes back to the system, as glibc would have it: see base/memory.h
-// For each file and number of threads one row, tab-separated under a head of keys:
+// For each file and number of threads one row:
 //   file         its name
 //   threads      for decoding; libbz2 always has one
 //   libbz2_s     seconds that libbz2 alone takes over the same LDM records, into one buffer
@@ -14,14 +15,13 @@
 //   file_mib     and the file itself
 // Times are the least of the runs, in each of which the three are timed one behind the other. Files
 // without LDM records are left out.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,6 +29,8 @@
 #include "base/file_system.h"
 #include "base/memory.h"
 #include "bench/measure.h"
+#include "bench/request.h"
+#include "bench/table.h"
 #include "level2/decode.h"
 
 namespace stormcellar::bench {
@@ -52,7 +54,7 @@ level2::DecodeOptions with_threads(int threads) {
     return options;
 }
 
-void measure(const fs::path& file, int runs) {
+void measure(const fs::path& file, const Request& request, Table& table) {
     const auto raw = read_file(file);
     if (!raw) {
         fmt::print(stderr, "{}\n", raw.error().message);
@@ -66,23 +68,27 @@ void measure(const fs::path& file, int runs) {
     const auto message_bytes = static_cast<double>(decoded->report.message_bytes);
     const double arrays = arrays_mib(decoded->volume);
     double libbz2_s = HUGE_VAL;
-    std::array<double, 2> decode_s = {HUGE_VAL, HUGE_VAL};
-    for (int run = 0; run < runs; ++run) {
+    std::vector<double> decode_s(request.threads.size(), HUGE_VAL);
+    for (int run = 0; run < request.runs; ++run) {
         keep_least_seconds(libbz2_s, [&] { decompress_all(records); });
-        for (const int threads : {1, 2}) {
-            keep_least_seconds(decode_s[static_cast<std::size_t>(threads - 1)], [&] {
-                if (!level2::decode(*raw, with_threads(threads))) std::abort();
+        for (std::size_t i = 0; i < decode_s.size(); ++i) {
+            keep_least_seconds(decode_s[i], [&] {
+                if (!level2::decode(*raw, with_threads(request.threads[i]))) std::abort();
             });
         }
     }
-    for (const int threads : {1, 2}) {
-        const double seconds = decode_s[static_cast<std::size_t>(threads - 1)];
-        fmt::print("{}\t{}\t{:.4f}\t{:.4f}\t{:.3f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}\n",
-                   file.filename().string(), threads, libbz2_s, seconds, seconds / libbz2_s,
-                   message_bytes / 1e6 / seconds,
-                   peak_mib({"--decode-once", file.string(), std::to_string(threads)}).value_or(-1),
-                   arrays, static_cast<double>(raw->size()) / mebibyte);
-        std::fflush(stdout);
+    for (std::size_t i = 0; i < decode_s.size(); ++i) {
+        const int threads = request.threads[i];
+        const auto peak = peak_mib({"--decode-once", file.string(), std::to_string(threads)});
+        table.add({{"file", file.filename().string()},
+                   {"threads", threads},
+                   {"libbz2_s", {libbz2_s, 4}},
+                   {"decode_s", {decode_s[i], 4}},
+                   {"ratio", {decode_s[i] / libbz2_s, 3}},
+                   {"mb_per_s", {message_bytes / 1e6 / decode_s[i], 1}},
+                   {"peak_mib", {peak.value_or(HUGE_VAL), 1}},
+                   {"arrays_mib", {arrays, 1}},
+                   {"file_mib", {static_cast<double>(raw->size()) / mebibyte, 1}}});
     }
 }
 
@@ -99,18 +105,23 @@ int run(int argc, char** argv) {
         keep_freed_memory();
         return decode_once(argv[2], argv[3]);
     }
-    const bool give_back =
-        std::find(argv + 1, argv + argc, std::string_view{"--give-back"}) != argv + argc;
-    if (!give_back) keep_freed_memory();
-    const Choice choice = choice_of(std::span(argv, static_cast<std::size_t>(argc)));
-    if (choice.files.empty()) {
-        fmt::print(stderr, "bench_decode: no files: name some, or set STORMCELLAR_DATA\n");
+    const auto [request, status] =
+        read_request({"bench_decode",
+                      "[FILE ...]",
+                      "what decoding costs beside libbz2 over the same LDM records",
+                      {"--give-back"}},
+                     std::span(argv, static_cast<std::size_t>(argc)));
+    if (!request) return status;
+    if (!request->has("--give-back")) keep_freed_memory();
+    const std::vector<fs::path> files = request->volumes();
+    if (files.empty()) {
+        fmt::print(stderr, "bench_decode: no files: name some, or say --data DIR\n");
         return 3;
     }
-    fmt::print(
-        "file\tthreads\tlibbz2_s\tdecode_s\tratio\tmb_per_s\tpeak_mib\tarrays_mib\tfile_mib\n");
-    for (const fs::path& file : choice.files)
-        measure(file, choice.runs);
+    Table table(request->json);
+    for (const fs::path& file : files)
+        measure(file, *request, table);
+    table.finish();
     return 0;
 }
 

@@ -1,7 +1,8 @@
 // bench_grid: what gridding costs, beside the decompression that nobody can avoid.
 //
-// usage: bench_grid [--runs N] [FILE ...]      (default: 5 runs of the real volumes in LDM records)
-// For each file, grid spec and number of threads one row, tab-separated under a head of keys:
+// usage: bench_grid [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
+//   (bench/request.h; every real volume in LDM records, unless files are named)
+// For each file, grid spec and number of threads one row:
 //   file          its name
 //   spec          columns x rows x levels @ spacing, about the site
 //   threads       for decoding and gridding; libbz2 always has one
@@ -10,13 +11,13 @@
 //   first_grid_s  gridding a decoded volume when there is no geometry yet: geometry and grid
 //   grid_s        gridding a decoded volume with the geometry kept
 //   write_s       the netCDF file
-//   whole_s       what `stormcellar grid` does: decode, geometry, grid, write
+//   whole_s       the program `stormcellar grid` from its start to its end
 //   libbz2_s      libbz2 alone over the same LDM records
-//   ratio         (whole_s - write_s) / libbz2_s
+//   ratio         (whole_s - what its own netCDF write took) / libbz2_s
 //   mcells_per_s  10^6 cells a second of grid_s
 //   peak_mib      peak resident memory of a process that decodes and grids the file once
 // Times are the least of the runs, in each of which all are timed one behind the other. Files
-// without LDM records, or without the moment, are left out.
+// without LDM records have no libbz2_s and no ratio; without the moment they are left out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +33,10 @@
 
 #include "base/file_system.h"
 #include "base/memory.h"
+#include "base/station_table.h"
 #include "bench/measure.h"
+#include "bench/request.h"
+#include "bench/table.h"
 #include "export/grid_netcdf.h"
 #include "grid/gridder.h"
 #include "level2/decode.h"
@@ -66,8 +70,10 @@ grid::GridSpec spec_about(const grid::SitePosition& site, const NamedSpec& named
     return spec;
 }
 
-Result<level2::Volume> decode_ref(const Bytes& bytes, int threads) {
+Result<level2::Volume> decode_ref(const fs::path& file, const Bytes& bytes, int threads) {
+    const std::string name = file.filename().string().substr(0, 4);
     level2::DecodeOptions options;
+    if (find_station(name)) options.fallback_station = name;
     options.threads = threads;
     options.selection.moments = {level2::Moment::ref};
     auto decoded = level2::decode(bytes, options);
@@ -75,30 +81,60 @@ Result<level2::Volume> decode_ref(const Bytes& bytes, int threads) {
     return std::move(decoded->volume);
 }
 
+// As the volume says, else (message 1 says nothing) as the station table does.
 Result<grid::SitePosition> site_of(const level2::Volume& volume) {
-    const auto antenna = level2::antenna_position(volume);
-    if (!antenna) return fail(ErrorCode::not_found, "no position");
-    return grid::SitePosition{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                              antenna->altitude_m};
+    if (const auto antenna = level2::antenna_position(volume)) {
+        return grid::SitePosition{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    }
+    if (const auto station = find_station(volume.station)) {
+        return grid::SitePosition{volume.station, station->latitude_deg, station->longitude_deg,
+                                  station->antenna_altitude_m};
+    }
+    return fail(ErrorCode::not_found, "no position");
 }
 
 // Least seconds of each phase.
 struct Phases {
     double decode_s = HUGE_VAL, geometry_s = HUGE_VAL, first_grid_s = HUGE_VAL, grid_s = HUGE_VAL;
     double write_s = HUGE_VAL, whole_s = HUGE_VAL, libbz2_s = HUGE_VAL;
+    double unwritten_s = HUGE_VAL;  // whole_s without the write
+
+    [[nodiscard]] double ratio() const {
+        return std::isfinite(libbz2_s) ? unwritten_s / libbz2_s : HUGE_VAL;
+    }
 };
 
-void run_once(const Bytes& bytes, const NamedSpec& named, int threads, const fs::path& netcdf,
-              Phases& least) {
+// What `"key": number` of a JSON text says.
+double seconds_said(std::string_view json, std::string_view key) {
+    const std::size_t at = json.find(fmt::format("\"{}\": ", key));
+    if (at == std::string_view::npos) return 0;
+    return std::strtod(json.data() + at + key.size() + 4, nullptr);
+}
+
+void run_once(const fs::path& file, const Bytes& bytes, const NamedSpec& named, int threads,
+              const fs::path& netcdf, Phases& least) {
     Result<level2::Volume> volume = fail(ErrorCode::empty, "");
-    const double decode_s = seconds_of([&] { volume = decode_ref(bytes, threads); });
+    const double decode_s = seconds_of([&] { volume = decode_ref(file, bytes, threads); });
     const auto site = site_of(volume.value()).value();
     const grid::GridSpec spec = spec_about(site, named);
-    const grid::GridderOptions options{level2::Moment::ref, 0, threads};
+    const grid::GridderOptions options{level2::Moment::ref, 0, threads, {}, {}};
     Result<std::shared_ptr<const grid::ColumnGeometry>> geometry = fail(ErrorCode::empty, "");
     const double geometry_s =
         seconds_of([&] { geometry = grid::make_column_geometry(site, spec); });
     Result<grid::Grid> grid = fail(ErrorCode::empty, "");
+    const std::string levels = fmt::format("{0}:{1}:{0}", named.level_step_m / 1000,
+                                           named.levels * named.level_step_m / 1000);
+    const double side_km = named.side * named.spacing_m / 1000;
+    const auto whole = run_stormcellar(
+        {"grid", file.string(), "-o", netcdf.string(), "--json", "--threads",
+         std::to_string(threads), "--extent-km", fmt::format("{0},{0}", side_km), "--spacing-km",
+         fmt::format("{}", named.spacing_m / 1000), "--levels-km", levels});
+    if (whole) {
+        least.whole_s = std::min(least.whole_s, whole->seconds);
+        least.unwritten_s =
+            std::min(least.unwritten_s, whole->seconds - seconds_said(whole->said, "write_s"));
+    }
     const auto make = [&] { grid = grid::make_grid(*volume, site, **geometry, options); };
     const double first_s = seconds_of(make);
     const double write_s = seconds_of([&] {
@@ -110,11 +146,10 @@ void run_once(const Bytes& bytes, const NamedSpec& named, int threads, const fs:
     least.geometry_s = std::min(least.geometry_s, geometry_s);
     least.first_grid_s = std::min(least.first_grid_s, geometry_s + first_s);
     least.write_s = std::min(least.write_s, write_s);
-    least.whole_s = std::min(least.whole_s, decode_s + geometry_s + first_s + write_s);
 }
 
-bool can_be_gridded(const Bytes& bytes) {
-    const auto volume = decode_ref(bytes, 1);
+bool can_be_gridded(const fs::path& file, const Bytes& bytes) {
+    const auto volume = decode_ref(file, bytes, 1);
     if (!volume) return false;
     const auto site = site_of(*volume);
     if (!site) return false;
@@ -122,7 +157,25 @@ bool can_be_gridded(const Bytes& bytes) {
     return geometry && grid::make_grid(*volume, *site, **geometry, {}).has_value();
 }
 
-void measure(const fs::path& file, int runs) {
+Row row_of(const fs::path& file, const NamedSpec& named, int threads, const Phases& least) {
+    const double cells = static_cast<double>(named.side) * named.side * named.levels;
+    const auto peak = peak_mib({"--grid-once", file.string(), std::to_string(threads), named.name});
+    return {{"file", file.filename().string()},
+            {"spec", named.name},
+            {"threads", threads},
+            {"decode_s", {least.decode_s, 4}},
+            {"geometry_s", {least.geometry_s, 4}},
+            {"first_grid_s", {least.first_grid_s, 4}},
+            {"grid_s", {least.grid_s, 4}},
+            {"write_s", {least.write_s, 4}},
+            {"whole_s", {least.whole_s, 4}},
+            {"libbz2_s", {least.libbz2_s, 4}},
+            {"ratio", {least.ratio(), 3}},
+            {"mcells_per_s", {cells / 1e6 / least.grid_s, 1}},
+            {"peak_mib", {peak.value_or(HUGE_VAL), 1}}};
+}
+
+void measure(const fs::path& file, const Request& request, Table& table) {
     const auto raw = read_file(file);
     if (!raw) {
         fmt::print(stderr, "{}\n", raw.error().message);
@@ -130,26 +183,17 @@ void measure(const fs::path& file, int runs) {
     }
     Bytes peeled;
     const auto records = ldm_records(*raw, peeled);
-    if (records.empty() || !can_be_gridded(*raw)) return;
+    if (!can_be_gridded(file, *raw)) return;
     const fs::path netcdf = fs::temp_directory_path() / fmt::format("bench_grid.{}.nc", ::getpid());
     for (const NamedSpec& named : specs) {
-        for (const int threads : {1, 2}) {
+        for (const int threads : request.threads) {
             Phases least;
-            for (int run = 0; run < runs; ++run) {
-                keep_least_seconds(least.libbz2_s, [&] { decompress_all(records); });
-                run_once(*raw, named, threads, netcdf, least);
+            for (int run = 0; run < request.runs; ++run) {
+                if (!records.empty())
+                    keep_least_seconds(least.libbz2_s, [&] { decompress_all(records); });
+                run_once(file, *raw, named, threads, netcdf, least);
             }
-            const double cells = static_cast<double>(named.side) * named.side * named.levels;
-            const auto peak =
-                peak_mib({"--grid-once", file.string(), std::to_string(threads), named.name});
-            fmt::print(
-                "{}\t{}\t{}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.3f}"
-                "\t{:.1f}\t{:.1f}\n",
-                file.filename().string(), named.name, threads, least.decode_s, least.geometry_s,
-                least.first_grid_s, least.grid_s, least.write_s, least.whole_s, least.libbz2_s,
-                (least.whole_s - least.write_s) / least.libbz2_s, cells / 1e6 / least.grid_s,
-                peak.value_or(-1));
-            std::fflush(stdout);
+            table.add(row_of(file, named, threads, least));
         }
     }
     std::error_code ignored;
@@ -160,7 +204,7 @@ int grid_once(const char* file, const char* threads, std::string_view spec) {
     const auto raw = read_file(file);
     if (!raw) return 1;
     const int count = static_cast<int>(number_in(threads));
-    const auto volume = decode_ref(*raw, count);
+    const auto volume = decode_ref(file, *raw, count);
     if (!volume) return 1;
     const auto site = site_of(*volume);
     if (!site) return 1;
@@ -168,7 +212,7 @@ int grid_once(const char* file, const char* threads, std::string_view spec) {
         if (spec != named.name) continue;
         const auto geometry = grid::make_column_geometry(*site, spec_about(*site, named));
         const auto grid =
-            grid::make_grid(*volume, *site, **geometry, {level2::Moment::ref, 0, count});
+            grid::make_grid(*volume, *site, **geometry, {level2::Moment::ref, 0, count, {}, {}});
         if (!grid) return 1;
     }
     fmt::print("{}\n", high_water_kib());
@@ -180,16 +224,19 @@ int run(int argc, char** argv) {
     if (argc == 5 && std::string(argv[1]) == "--grid-once") {
         return grid_once(argv[2], argv[3], argv[4]);
     }
-    const Choice choice = choice_of(std::span(argv, static_cast<std::size_t>(argc)));
-    if (choice.files.empty()) {
-        fmt::print(stderr, "bench_grid: no files: name some, or set STORMCELLAR_DATA\n");
+    const auto [request, status] = read_request(
+        {"bench_grid", "[FILE ...]", "what gridding costs beside libbz2 over the same LDM records"},
+        std::span(argv, static_cast<std::size_t>(argc)));
+    if (!request) return status;
+    const std::vector<fs::path> files = request->volumes();
+    if (files.empty()) {
+        fmt::print(stderr, "bench_grid: no files: name some, or say --data DIR\n");
         return 3;
     }
-    fmt::print(
-        "file\tspec\tthreads\tdecode_s\tgeometry_s\tfirst_grid_s\tgrid_s\twrite_s\twhole_s\t"
-        "libbz2_s\tratio\tmcells_per_s\tpeak_mib\n");
-    for (const fs::path& file : choice.files)
-        measure(file, choice.runs);
+    Table table(request->json);
+    for (const fs::path& file : files)
+        measure(file, *request, table);
+    table.finish();
     return 0;
 }
 

@@ -3,9 +3,11 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include <bzlib.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,8 +20,6 @@ extern char** environ;
 
 namespace stormcellar::bench {
 namespace {
-
-namespace fs = std::filesystem;
 
 Bytes without_gzip(const Bytes& bytes) {
     if (!level2::is_gzip(bytes)) return bytes;
@@ -47,33 +47,6 @@ void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
 }
 
 }  // namespace
-
-std::vector<fs::path> real_volumes() {
-    const char* given = std::getenv("STORMCELLAR_DATA");
-    const fs::path data = given != nullptr ? given : "../shared/data";
-    std::vector<fs::path> files;
-    for (const char* folder : {"volumes", "sequence-kbgm", "mosaic-northeast"}) {
-        std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(data / folder, ignored))
-            files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-Choice choice_of(std::span<char* const> arguments) {
-    Choice choice;
-    for (std::size_t i = 1; i < arguments.size(); ++i) {
-        const std::string_view word = arguments[i];
-        if (word == "--runs" && i + 1 < arguments.size()) {
-            choice.runs = std::max(1, static_cast<int>(number_in(arguments[++i])));
-        } else if (!word.starts_with("--")) {
-            choice.files.emplace_back(word);
-        }
-    }
-    if (choice.files.empty()) choice.files = real_volumes();
-    return choice;
-}
 
 std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled) {
     peeled = without_gzip(file);
@@ -133,6 +106,38 @@ std::optional<double> peak_mib(std::vector<std::string> arguments) {
     ::waitpid(child, &status, 0);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length <= 0) return {};
     return static_cast<double>(number_in(text.data())) / 1024;
+}
+
+std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments) {
+    std::error_code failed;
+    const auto own = std::filesystem::read_symlink("/proc/self/exe", failed);
+    std::array<int, 2> ends{};
+    if (failed || ::pipe(ends.data()) != 0) return {};
+    std::string program = own.parent_path().parent_path() / "cli" / "stormcellar";
+    std::vector<char*> argv = {program.data()};
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    int status = -1;
+    ProgramRun run;
+    run.seconds = seconds_of([&] {
+        pid_t child = 0;
+        if (::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ) == 0) {
+            ::waitpid(child, &status, 0);
+        }
+    });
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    run.said.resize(std::size_t{1} << 16);  // what a pipe holds
+    const ssize_t length = ::read(ends[0], run.said.data(), run.said.size());
+    ::close(ends[0]);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length < 0) return {};
+    run.said.resize(static_cast<std::size_t>(length));
+    return run;
 }
 
 }  // namespace stormcellar::bench

@@ -1,10 +1,9 @@
-// bench/measure.h -- what the benchmarks share: clocks, real volumes, libbz2 alone, peak memory.
+// bench/measure.h -- what the benchmarks share: clocks, libbz2 alone, peak memory.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,17 +27,6 @@ void keep_least_seconds(double& least, Work work) {
     least = std::min(least, seconds_of(work));
 }
 
-// Every volume below $STORMCELLAR_DATA, or ../shared/data, sorted by path.
-[[nodiscard]] std::vector<std::filesystem::path> real_volumes();
-
-// What a command line asks for: `--runs N` (else 5), and files (else real_volumes()). Other words
-// that begin with -- are left to the program.
-struct Choice {
-    int runs = 5;
-    std::vector<std::filesystem::path> files;
-};
-[[nodiscard]] Choice choice_of(std::span<char* const> arguments);
-
 // The streams of the LDM records in a file, which may be a gzip file; `peeled` then holds what they
 // point into. Empty where there are none.
 [[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled);
@@ -51,6 +39,14 @@ void decompress_all(std::span<const std::span<const std::byte>> records);
 [[nodiscard]] std::optional<double> peak_mib(std::vector<std::string> arguments);
 // What this process held at most, in KiB; the kernel's own count (proc(5)).
 [[nodiscard]] long high_water_kib();
+
+// What the program `stormcellar` that was built beside the benchmarks takes, from its start to its
+// end, and what it said on stdout, up to 64 KiB. None where it failed or is not there.
+struct ProgramRun {
+    double seconds = 0;
+    std::string said;
+};
+[[nodiscard]] std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments);
 
 // A whole number at the start of a text, behind spaces; -1 when there is none.
 [[nodiscard]] long number_in(std::string_view text);

@@ -15,6 +15,9 @@ function(stormcellar_room name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  if(STORMCELLAR_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM stormcellar_headers)
+  endif()
   install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   if(NOT ARG_WITHOUT_HEADERS)
     install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
@@ -23,24 +26,34 @@ function(stormcellar_room name)
   endif()
 endfunction()
 
-# stormcellar_test(NAME SOURCES a_test.cpp [LIBS libs...] [LABELS labels...])
+# The rooms are tested as they are released; the tests themselves, and the command line, need not be
+# fast, but built soon.
+set(STORMCELLAR_SHORT_BUILD $<$<CONFIG:Release>:-O1>)
+# Under sanitizers what they test is checked for undefined behaviour, they themselves only for memory:
+# GoogleTest's and CLI11's templates take most of the time.
+if(STORMCELLAR_QUICK_TESTS)
+  list(APPEND STORMCELLAR_SHORT_BUILD -O0 -fno-sanitize=undefined)
+endif()
+
+# Builds the module of videos with a program that may load it.
+function(stormcellar_with_modules program)
+  if(STORMCELLAR_VIDEO)
+    add_dependencies(${program} stormcellar_video)
+  endif()
+endfunction()
+
+# stormcellar_test(NAME SOURCES a_test.cpp [LIBS libs...])
 #
-# One test program. Each GoogleTest case becomes a ctest case; a case that skips itself is shown by
-# ctest as skipped.
+# One test program. Each GoogleTest case becomes a ctest case with the program's name as a label; a
+# case that skips itself is shown by ctest as skipped.
 function(stormcellar_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  # The rooms are tested as they are released; the tests themselves need not be fast, but built soon.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(STORMCELLAR_QUICK_TESTS)
-    target_compile_options(${name} PRIVATE -O0)
+  target_compile_options(${name} PRIVATE ${STORMCELLAR_SHORT_BUILD})
+  if(STORMCELLAR_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM stormcellar_test_headers)
   endif()
-  target_link_libraries(${name} PRIVATE ${ARG_LIBS} stormcellar::testing GTest::gtest GTest::gmock
-    GTest::gtest_main)
-  set(properties TIMEOUT 300)
-  if(ARG_LABELS)
-    list(APPEND properties LABELS "${ARG_LABELS}")
-  endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} stormcellar::testing stormcellar_fp_traps
+    GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300 LABELS ${name})
 endfunction()

@@ -16,12 +16,15 @@ add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-con
   -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # False positives of gcc 12 in optimised standard library code.
-  add_compile_options(-Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow
+  add_compile_options(-Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-stringop-overread
     -Wno-array-bounds -Wno-dangling-pointer)
 else()
   # The fuzzers are built with clang; its warnings are no reason not to fuzz.
   add_compile_options(-Wno-error)
 endif()
+
+# A program starts with the libraries that it uses, not with all that its rooms name.
+add_link_options(-Wl,--as-needed)
 
 if(STORMCELLAR_SANITIZE)
   add_compile_options(-fsanitize=${STORMCELLAR_SANITIZE} -fno-omit-frame-pointer

@@ -56,5 +56,9 @@ TEST(Fuzz, Compress) {
                 });
 }
 
+TEST(Fuzz, GridFile) {
+    check_seeds(grid_file_seeds(), 300, check_grid_file, mutate_grid_file);
+}
+
 }  // namespace
 }  // namespace stormcellar::fuzz

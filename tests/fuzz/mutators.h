@@ -1,4 +1,4 @@
-// tests/fuzz/mutators.h -- changes to Level II bytes that reach behind the checks.
+// tests/fuzz/mutators.h -- changes to Level II bytes and grid files that reach behind the checks.
 //
 // Bytes changed at random almost never get past bzip2's checksums or a message's header. These
 // change records and messages as such, and pack again what they unpacked.
@@ -27,5 +27,8 @@ using MutateBytes = std::function<Bytes(Bytes bytes, std::size_t most)>;
                                 const MutateBytes& mutate);
 [[nodiscard]] Bytes mutate_messages(const Bytes& stream, std::size_t most, Random& random,
                                     const MutateBytes& mutate);
+// A grid file; its checksums are made right again most of the time.
+[[nodiscard]] Bytes mutate_grid_file(const Bytes& file, std::size_t most, Random& random,
+                                     const MutateBytes& mutate);
 
 }  // namespace stormcellar::fuzz

@@ -32,4 +32,9 @@ void check_live(std::span<const std::byte> input);
 // compressor.
 void check_compress(std::span<const std::byte> file);
 
+// A grid file. What is refused is named and has one of the promised codes; of what opens every cell
+// can be read; what verify() passes has true counts and extremes, and comes back from the writer;
+// a file that is cut under the map is an error.
+void check_grid_file(std::span<const std::byte> file);
+
 }  // namespace stormcellar::fuzz

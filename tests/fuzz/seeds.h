@@ -17,5 +17,6 @@ struct Seed {
 [[nodiscard]] std::vector<Seed> live_seeds();
 [[nodiscard]] std::vector<Seed> messages_seeds();
 [[nodiscard]] std::vector<Seed> compress_seeds();
+[[nodiscard]] std::vector<Seed> grid_file_seeds();
 
 }  // namespace stormcellar::fuzz

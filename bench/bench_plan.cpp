@@ -1,0 +1,184 @@
+// bench_plan: what the planner says that gridding will take, beside what it takes.
+//
+// usage: bench_plan [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
+//   (bench/request.h; every real volume, unless files are named)
+// For each file, moment, number of threads and choice of rungs one row:
+//   file         its name
+//   moment       REF or VEL
+//   threads      for gridding
+//   choice       the rungs that are not the default chain's
+//   predicted_s  by grid::predict()
+//   grid_s       gridding with the geometry kept, the least of the runs; with exact geodesics (no
+//                chain but those needs them) making the geometry counts too. One thread: seconds
+//                of the processor, so that what else runs does not count; more: of the clock
+//   ratio        predicted_s / grid_s
+//   predict_s    that predicting took, once for all choices
+// 460 x 460 x 32 cells at 1 km, 0.4 degrees east of the site so that frames differ. Choices: each
+// rung of each step with the others at their default, every interpolation with either extent of
+// cells, and the chain's exact form. Files without the moment are left out.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "accuracy/timing.h"
+#include "base/memory.h"
+#include "base/station_table.h"
+#include "bench/measure.h"
+#include "bench/request.h"
+#include "bench/table.h"
+#include "grid/effects.h"
+#include "grid/gridder.h"
+#include "level2/decode.h"
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using accuracy::Choice;
+
+Result<level2::Volume> decode_moment(const fs::path& file, level2::Moment moment) {
+    level2::DecodeOptions options;
+    const std::string name = file.filename().string().substr(0, 4);
+    if (find_station(name)) options.fallback_station = name;
+    options.selection.moments = {moment};
+    auto decoded = level2::decode_file(file, options);
+    if (!decoded) return pass_on(decoded);
+    return std::move(decoded->volume);
+}
+
+std::vector<Choice> choices_of(const accuracy::Chain& chain, const Choice& usual) {
+    std::vector<Choice> choices;
+    const auto add = [&](const Choice& choice) {
+        if (std::find(choices.begin(), choices.end(), choice) == choices.end())
+            choices.push_back(choice);
+    };
+    std::size_t interpolation = 0;
+    std::size_t cell = 0;
+    Choice exact;
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        const accuracy::Step& step = chain.steps[i];
+        if (step.name == "interpolation") interpolation = i;
+        if (step.name == "cell") cell = i;
+        exact.rungs.push_back(step.effects.size());
+        for (std::size_t rung = 0; rung < step.rung_count(); ++rung) {
+            Choice choice = usual;
+            choice.rungs[i] = rung;
+            // Beside the sphere and the geodesic, gridding hardly shows.
+            if (step.name != "frame" || rung == usual.rungs[i]) add(choice);
+        }
+    }
+    for (std::size_t rung = 0; rung < chain.steps[interpolation].rung_count(); ++rung) {
+        for (const std::size_t extent : {0, 1}) {
+            Choice choice = usual;
+            choice.rungs[interpolation] = rung;
+            choice.rungs[cell] = extent;
+            add(choice);
+        }
+    }
+    add(exact);
+    return choices;
+}
+
+std::string name_of(const accuracy::Chain& chain, const Choice& choice, const Choice& usual) {
+    std::string text;
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        if (choice.rungs[i] == usual.rungs[i]) continue;
+        if (!text.empty()) text += ", ";
+        text += chain.steps[i].rung_name(choice.rungs[i]);
+    }
+    return text.empty() ? "default" : text;
+}
+
+double now_s(int threads) {
+    return threads > 1 ? accuracy::monotonic_s() : accuracy::thread_s();
+}
+
+// The least of the runs; negative where there is no grid.
+double seconds_of_gridding(grid::GridScene& scene, const grid::SceneChoice& choice, int runs) {
+    grid::GridderOptions options;
+    options.moment = scene.options().moment;
+    options.threads = scene.options().threads;
+    options.method = choice.method;
+    double least_s = HUGE_VAL;
+    for (int run = 0; run < std::max(1, runs); ++run) {
+        const double start_s = now_s(options.threads);
+        const auto geometry =
+            choice.frame == grid::FrameKind::geodesic
+                ? grid::make_column_geometry(scene.site(), scene.spec(), choice.frame)
+                : scene.geometry(choice.frame);
+        if (!geometry) return -1;
+        if (!grid::make_grid(scene.volume(), scene.site(), **geometry, options)) return -1;
+        least_s = std::min(least_s, now_s(options.threads) - start_s);
+        if (least_s > 1 && run > 0) break;  // the costly ones are steady
+    }
+    return least_s;
+}
+
+void measure(const fs::path& file, level2::Moment moment, int threads, int runs, Table& table) {
+    const auto volume = decode_moment(file, moment);
+    if (!volume) return;
+    const auto antenna = level2::antenna_position(*volume);
+    if (!antenna) return;
+    const grid::SitePosition site{volume->station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg + 0.4);
+    spec.nx = spec.ny = 460;
+    spec.spacing_m = 1000;
+    grid::SceneOptions options;
+    options.moment = moment;
+    options.threads = threads;
+    auto scene = grid::GridScene::make(*volume, site, spec, options);
+    if (!scene || scene->columns_with_echo() == 0) return;
+    accuracy::Chain chain = grid::effects_of(moment);
+    const double start_s = accuracy::monotonic_s();
+    if (!grid::predict(*scene, {}, chain)) return;
+    const double predict_s = accuracy::monotonic_s() - start_s;
+    const Choice usual = grid::usual_choice(chain);
+    for (const Choice& choice : choices_of(chain, usual)) {
+        const double predicted_s = accuracy::cost_s(chain, choice);
+        const double grid_s = seconds_of_gridding(*scene, grid::scene_choice(chain, choice), runs);
+        table.add({{"file", file.filename().string()},
+                   {"moment", std::string(level2::moment_name(moment))},
+                   {"threads", threads},
+                   {"choice", name_of(chain, choice, usual)},
+                   {"predicted_s", {predicted_s, 4}},
+                   {"grid_s", {grid_s, 4}},
+                   {"ratio", {predicted_s / grid_s, 2}},
+                   {"predict_s", {predict_s, 3}}});
+    }
+}
+
+int run(int argc, char** argv) {
+    keep_freed_memory();
+    const auto [request, status] =
+        read_request({"bench_plan", "[FILE ...]",
+                      "what the planner says that gridding takes, and what it takes"},
+                     std::span(argv, static_cast<std::size_t>(argc)));
+    if (!request) return status;
+    const std::vector<fs::path> files = request->volumes();
+    if (files.empty()) {
+        fmt::print(stderr, "bench_plan: no files: name some, or say --data DIR\n");
+        return 3;
+    }
+    Table table(request->json);
+    for (const fs::path& file : files) {
+        for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::vel}) {
+            for (const int threads : request->threads)
+                measure(file, moment, threads, request->runs, table);
+        }
+    }
+    table.finish();
+    return 0;
+}
+
+}  // namespace
+}  // namespace stormcellar::bench
+
+int main(int argc, char** argv) {
+    return stormcellar::bench::run(argc, argv);
+}

@@ -1,0 +1,45 @@
+// bench/table.h -- rows of measurements, printed as a table or as one JSON document.
+//
+// A row is a list of keys and values, and both forms come from it: as text, values are separated by
+// tabs under a head of keys (a new head where the keys change), printed as soon as they are known;
+// as JSON, {"machine": {...}, "rows": [{...}]}, printed by finish().
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace stormcellar::bench {
+
+class Cell {
+  public:
+    Cell(std::string_view text) : text_(text), is_number_(false) {}
+    Cell(const char* text) : Cell(std::string_view{text}) {}
+    Cell(const std::string& text) : Cell(std::string_view{text}) {}
+    Cell(int number) : text_(std::to_string(number)), is_number_(true) {}
+    // In both forms with that many places behind the point; "-" and null where it is not finite.
+    Cell(double number, int places);
+
+    [[nodiscard]] const std::string& text() const { return text_; }
+    [[nodiscard]] bool is_number() const { return is_number_; }
+
+  private:
+    std::string text_;
+    bool is_number_;
+};
+
+using Row = std::vector<std::pair<std::string, Cell>>;
+
+class Table {
+  public:
+    explicit Table(bool json) : json_(json) {}
+    void add(Row row);
+    void finish() const;
+
+  private:
+    bool json_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace stormcellar::bench

@@ -1,0 +1,125 @@
+// What every benchmark promises: options, and rows as a table or as JSON (DESIGN section 3).
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+using testing::run_program;
+namespace fs = std::filesystem;
+
+fs::path bench(const std::string& name) {
+    return fs::path(BENCH_DIRECTORY) / name;
+}
+std::string smallest_volume() {
+    return *testing::data_directory() / "volumes/KIWX20160429_194300_V06.gz";
+}
+std::set<std::string> keys_of(const nlohmann::json& row) {
+    std::set<std::string> keys;
+    for (const auto& [key, value] : row.items())
+        keys.insert(key);
+    return keys;
+}
+
+class EachBenchmark : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EachBenchmark, SaysItsUsage) {
+    const auto said = run_program(bench(GetParam()), {"--help"});
+    EXPECT_EQ(said.status, 0);
+    EXPECT_NE(said.out.find("--threads N"), std::string::npos);
+}
+
+TEST_P(EachBenchmark, RefusesWhatItDoesNotKnow) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--jsn"},
+                                               {"--threads"},
+                                               {"--threads", "0"},
+                                               {"--threads", "two"},
+                                               {"--runs", "-1"}}) {
+        const auto said = run_program(bench(GetParam()), words);
+        EXPECT_EQ(said.status, 2) << words.front();
+        EXPECT_NE(said.err.find("usage:"), std::string::npos);
+        EXPECT_EQ(said.out, "");
+    }
+}
+
+TEST_P(EachBenchmark, SaysThatADirectoryIsMissing) {
+    const auto said = run_program(bench(GetParam()), {"--data", "/no/such/directory"});
+    EXPECT_EQ(said.status, 2);
+    EXPECT_NE(said.err.find("/no/such/directory"), std::string::npos) << said.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachBenchmark,
+                         ::testing::Values("bench_beam", "bench_decode", "bench_frame",
+                                           "bench_grid", "bench_merge", "bench_plan"));
+
+TEST(Benchmark, WithoutVolumesThereIsNothingToMeasure) {
+    const testing::TemporaryDirectory empty;
+    EXPECT_EQ(run_program(bench("bench_grid"), {"--data", empty.path().string()}).status, 3);
+    EXPECT_EQ(run_program(bench("bench_decode"), {"--data", empty.path().string()}).status, 3);
+}
+
+TEST(BenchGrid, JsonHasARowForEachSpecAndNumberOfThreads) {
+    STORMCELLAR_NEED_DATA();
+    const auto said =
+        run_program(bench("bench_grid"), {"--json", "--runs", "1", smallest_volume()});
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto document = nlohmann::json::parse(said.out);
+    EXPECT_EQ(keys_of(document), (std::set<std::string>{"machine", "rows"}));
+    EXPECT_GE(document["machine"]["cores"], 1);
+    ASSERT_EQ(document["rows"].size(), 6U);
+    for (const auto& row : document["rows"]) {
+        const auto keys = keys_of(row);
+        for (const char* key : {"file", "spec", "threads", "first_grid_s", "grid_s", "whole_s",
+                                "libbz2_s", "ratio", "peak_mib"}) {
+            EXPECT_TRUE(keys.contains(key)) << key;
+        }
+        EXPECT_EQ(row["file"], "KIWX20160429_194300_V06.gz");
+        EXPECT_GT(row["grid_s"], 0.0);
+        EXPECT_GT(row["peak_mib"], 1.0);
+    }
+}
+
+// One row under its head: the same keys as in JSON.
+TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
+    STORMCELLAR_NEED_DATA();
+    const std::string file =
+        *testing::data_directory() / "volumes/example_nexrad_archive_msg31_compressed.ar2v";
+    const std::vector<std::string> words = {"--threads", "1", "--runs", "1", file};
+    const auto text = run_program(bench("bench_decode"), words);
+    std::vector<std::string> with_json = words;
+    with_json.emplace_back("--json");
+    const auto json = run_program(bench("bench_decode"), with_json);
+    ASSERT_EQ(text.status, 0) << text.err;
+    ASSERT_EQ(json.status, 0) << json.err;
+    EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), 2);
+    const auto rows = nlohmann::ordered_json::parse(json.out)["rows"];
+    ASSERT_EQ(rows.size(), 1U);
+    std::string head;
+    for (const auto& [key, value] : rows[0].items())
+        head += (head.empty() ? "" : "\t") + key;
+    EXPECT_EQ(text.out.substr(0, text.out.find('\n')), head);
+    EXPECT_EQ(rows[0]["threads"], 1);
+}
+
+TEST(BenchBeam, JsonHasBothKindsOfRows) {
+    const auto said = run_program(bench("bench_beam"), {"--json", "--runs", "1"});
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto rows = nlohmann::json::parse(said.out)["rows"];
+    ASSERT_GT(rows.size(), 6U);
+    EXPECT_TRUE(rows.front().contains("paths_ms"));
+    EXPECT_TRUE(rows.back().contains("gate_height_m"));
+}
+
+}  // namespace
+}  // namespace stormcellar
