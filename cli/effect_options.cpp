@@ -8,6 +8,7 @@
 
 #include "accuracy/effect.h"
 #include "grid/sounding.h"
+#include "pipeline/mosaic_effects.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -36,14 +37,33 @@ const std::map<std::string, Settings>& methods() {
     return known;
 }
 
-Result<Settings> settings_of_method(const std::string& name) {
+const std::map<std::string, Settings>& time_methods() {
+    static const std::map<std::string, Settings> known = {
+        {"nearest", {{"time_blend", Setting::off}}},
+        {"blend", {{"time_blend", Setting::on}, {"echo_motion", Setting::off}}},
+        {"advected", {{"echo_motion", Setting::on}}},
+    };
+    return known;
+}
+
+Result<Settings> settings_of(const std::map<std::string, Settings>& known, std::string_view option,
+                             const std::string& name) {
     if (name.empty()) return Settings{};
-    if (const auto method = methods().find(name); method != methods().end()) return method->second;
+    if (const auto method = known.find(name); method != known.end()) return method->second;
     std::vector<std::string> names;
-    for (const auto& [known, ignored] : methods())
-        names.push_back(known);
-    return fail(ErrorCode::bad_argument, "--method takes one of {}, not '{}'",
+    for (const auto& [one, ignored] : known)
+        names.push_back(one);
+    return fail(ErrorCode::bad_argument, "{} takes one of {}, not '{}'", option,
                 fmt::join(names, ", "), name);
+}
+
+Result<Settings> settings_of_methods(const EffectOptions& options) {
+    auto settings = settings_of(methods(), "--method", options.method);
+    if (!settings) return settings;
+    const auto time = settings_of(time_methods(), "--time-method", options.time_method);
+    if (!time) return time;
+    settings->insert(settings->end(), time->begin(), time->end());
+    return settings;
 }
 
 // As in "column_interpolation on, cell_size off".
@@ -56,7 +76,7 @@ std::string text_of(const Settings& settings) {
 }
 
 Status set_effects(const EffectOptions& options, accuracy::Chain& chain) {
-    auto by_method = settings_of_method(options.method);
+    auto by_method = settings_of_methods(options);
     if (!by_method) return pass_on(by_method);
     const auto names = accuracy::effect_names(chain);
     Settings settings;
@@ -74,8 +94,11 @@ Status set_effects(const EffectOptions& options, accuracy::Chain& chain) {
     });
     settings.insert(settings.end(), by_method->begin(), by_method->end());
     if (auto set = accuracy::apply_overrides(chain, settings); !set) {
-        return fail(set.error().code, "{} (--method {} sets {})", set.error().message,
-                    options.method, text_of(*by_method));
+        const bool both = !options.method.empty() && !options.time_method.empty();
+        return fail(set.error().code, "{} ({}{}{} {} {})", set.error().message,
+                    options.method.empty() ? "" : "--method " + options.method, both ? " and " : "",
+                    options.time_method.empty() ? "" : "--time-method " + options.time_method,
+                    both ? "set" : "sets", text_of(*by_method));
     }
     return {};
 }
@@ -129,12 +152,14 @@ Status take_profile(const EffectOptions& options, EffectRequest& request) {
 
 }  // namespace
 
-Result<EffectRequest> parse_effects(const EffectOptions& options, level2::Moment moment) {
+Result<EffectRequest> parse_effects(const EffectOptions& options, level2::Moment moment,
+                                    std::optional<grid::Overlap> overlap) {
     EffectRequest request;
     const auto averaging = parse_averaging(options.averaging, moment);
     if (!averaging) return pass_on(averaging);
     request.averaging = *averaging;
-    request.chain = grid::effects_of(moment, *averaging);
+    request.chain = overlap ? pipeline::mosaic_effects_of(moment, *averaging, *overlap)
+                            : grid::effects_of(moment, *averaging);
     request.explain = options.explain;
     if (auto set = set_effects(options, request.chain); !set) return pass_on(set);
     if (!options.tolerance.empty()) {

@@ -10,6 +10,7 @@
 #include "accuracy/chain.h"
 #include "base/result.h"
 #include "grid/effects.h"
+#include "grid/mosaic.h"
 #include "grid/refractivity.h"
 
 namespace CLI {
@@ -27,6 +28,7 @@ struct EffectOptions {
     std::vector<std::string> effects;
     std::string tolerance;
     std::string profile{default_profile};
+    std::string time_method;  // of several volumes; add_mosaic_options() adds it
     bool explain = false;
 };
 
@@ -46,9 +48,11 @@ struct EffectRequest {
 };
 
 // A profile other than the default turns refraction on, unless that is set already or a tolerance
-// leaves it to the planner. Errors: bad_argument, naming the option; io and permission of a
-// sounding that cannot be read.
-[[nodiscard]] Result<EffectRequest> parse_effects(const EffectOptions& options,
-                                                  level2::Moment moment);
+// leaves it to the planner. Of several volumes, which overlap by this rule, the chain is that of
+// their mosaic (pipeline/mosaic_effects.h). Errors: bad_argument, naming the option; io and
+// permission of a sounding that cannot be read.
+[[nodiscard]] Result<EffectRequest> parse_effects(
+    const EffectOptions& options, level2::Moment moment,
+    std::optional<grid::Overlap> overlap = std::nullopt);
 
 }  // namespace stormcellar::cli

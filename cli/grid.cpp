@@ -225,13 +225,9 @@ Status check_output(const GridOptions& options) {
     return check_target(options.output);
 }
 
-Result<Made> grid_files(const GridOptions& options, const MosaicRequest& mosaic,
+Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& mosaic,
                         const GridRequest& request, const EffectRequest& effects,
                         Timings& timings) {
-    if (effects.needs_plan()) {
-        return fail(ErrorCode::bad_argument,
-                    "--tolerance and --explain are for one FILE: a mosaic is not planned yet");
-    }
     if (request.details.any()) {
         return fail(ErrorCode::bad_argument, "--fields is for one FILE, not {}",
                     options.files.size());
@@ -240,9 +236,10 @@ Result<Made> grid_files(const GridOptions& options, const MosaicRequest& mosaic,
     if (!made) return pass_on(made);
     timings.read_s = made->timings.read_s;
     timings.decode_s = made->timings.decode_s;
+    timings.plan_s = made->timings.plan_s;
     timings.grid_s = made->timings.grid_s;
     timings.merge_s = made->timings.merge_s;
-    return Made{std::move(made->grid), std::nullopt};
+    return Made{std::move(made->grid), std::move(made->plan)};
 }
 
 int run_grid(const GridOptions& options, const EffectOptions& effect_options,
@@ -250,15 +247,17 @@ int run_grid(const GridOptions& options, const EffectOptions& effect_options,
     Stopwatch total;
     const auto request = parse_request(options);
     if (!request) return report_error(request.error());
-    const auto effects = parse_effects(effect_options, request->moment);
-    if (!effects) return report_error(effects.error());
-    const auto mosaic = parse_mosaic(mosaic_options, options.files.size(), *request, *effects);
+    const bool is_mosaic = options.files.size() > 1;
+    const auto mosaic =
+        parse_mosaic(mosaic_options, effect_options, options.files.size(), *request);
     if (!mosaic) return report_error(mosaic.error());
+    const auto effects = parse_effects(effect_options, request->moment,
+                                       is_mosaic ? std::optional(mosaic->overlap) : std::nullopt);
+    if (!effects) return report_error(effects.error());
     Timings timings;
     if (auto writable = check_output(options); !writable) return report_error(writable.error());
-    const auto made = options.files.size() == 1
-                          ? grid_file(options.files.front(), *request, *effects, timings)
-                          : grid_files(options, *mosaic, *request, *effects, timings);
+    const auto made = is_mosaic ? grid_files(options, *mosaic, *request, *effects, timings)
+                                : grid_file(options.files.front(), *request, *effects, timings);
     if (!made) return report_error(made.error());
     if (made->plan && effect_options.explain) {
         fmt::print(options.json ? stderr : stdout, "{}", accuracy::explain(*made->plan));
@@ -291,7 +290,7 @@ Command add_grid(CLI::App& app) {
     const auto effects = std::make_shared<EffectOptions>();
     const auto mosaic = std::make_shared<MosaicOptions>();
     add_grid_options(*grid, *options);
-    add_mosaic_options(*grid, *mosaic);
+    add_mosaic_options(*grid, *mosaic, *effects);
     add_effect_options(*grid, *effects);
     return {grid, [=] { return run_grid(*options, *effects, *mosaic); }};
 }

@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/stopwatch.h"
-#include "cli/volume_source.h"
 #include "grid/effects.h"
 #include "grid/projection.h"
 #include "grid/site_frame.h"
@@ -61,44 +60,28 @@ Result<grid::GridSpec> spec_of(const std::vector<grid::SitePosition>& sites, Gri
     return spec_about(request, center[0], center[1]);
 }
 
-// The middle of the newest volumes' middles, the earliest and the latest of them counting.
-UtcTime instant_of(const std::vector<pipeline::PartialView>& partials) {
-    std::map<std::string, UtcTime> newest;
-    for (const pipeline::PartialView& partial : partials) {
-        UtcTime& time = newest[partial.site().icao];
-        time = std::max(time, partial.middle());
-    }
-    const auto [first, last] =
-        std::minmax_element(newest.begin(), newest.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; });
-    return first->second + (last->second - first->second) / 2;
+// Of one site: its beam is as wide as its radar's.
+accuracy::Choice default_of(const EffectRequest& effects, const grid::GridSpec& spec,
+                            const grid::SitePosition& site) {
+    return pipeline::default_mosaic_choice(effects.chain, spec, grid::beam_width_of(site.icao));
 }
 
-pipeline::PartialOptions partial_options(const GridRequest& request, const EffectRequest& effects,
-                                         const grid::GridSpec& spec,
-                                         const grid::SitePosition& site) {
-    const accuracy::Choice rungs =
-        grid::default_choice(effects.chain, spec, grid::beam_width_of(site.icao));
+pipeline::PartialOptions partial_options(const GridRequest& request, const EffectRequest& effects) {
     pipeline::PartialOptions options;
     options.gridder.moment = request.moment;
     options.gridder.threads = request.threads;
-    options.gridder.method = grid::scene_choice(effects.chain, rungs).method;
     options.gridder.profile = effects.profile;
-    options.quantization = grid::default_quantization(request.moment);
     return options;
 }
 
-Result<std::vector<SourceVolume>> load_all(const std::vector<std::string>& files,
-                                           const GridRequest& request, MosaicTimings& timings) {
-    std::vector<SourceVolume> sources;
-    for (const std::string& file : files) {
-        auto source = load_volume(file, request.moment, request.threads);
-        if (!source) return pass_on(source);
-        timings.read_s += source->read_s;
-        timings.decode_s += source->decode_s;
-        sources.push_back(std::move(*source));
-    }
-    return sources;
+pipeline::FrameOptions frame_options(const GridRequest& request, const grid::MosaicOptions& overlap,
+                                     const EffectRequest& effects) {
+    pipeline::FrameOptions options;
+    options.overlap = overlap;
+    options.overlap.averaging = effects.averaging;
+    options.threads = request.threads;
+    if (!request.frame_time) options.greatest_gap = std::chrono::hours{24 * 365 * 100};
+    return options;
 }
 
 std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& sources) {
@@ -112,31 +95,19 @@ std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& source
     return sites;
 }
 
-Result<std::vector<pipeline::MadePartial>> grid_all(const std::vector<std::string>& files,
-                                                    const std::vector<SourceVolume>& sources,
-                                                    const grid::GridSpec& spec,
+Result<std::vector<pipeline::MadePartial>> grid_all(const MosaicSources& sources,
                                                     const GridRequest& request,
                                                     const EffectRequest& effects,
                                                     pipeline::GeometryCache& geometries) {
     std::vector<pipeline::MadePartial> partials;
-    for (std::size_t at = 0; at < sources.size(); ++at) {
-        const grid::SitePosition& site = sources[at].site;
-        auto made =
-            pipeline::make_partial(sources[at].volume, site, spec,
-                                   partial_options(request, effects, spec, site), geometries);
-        if (!made) return fail(made.error().code, "{}: {}", files[at], made.error().message);
-        if (!*made) {
-            return fail(ErrorCode::bad_argument, "{}: {} sees nothing of the grid", files[at],
-                        site.icao);
-        }
-        grid::Provenance& provenance = (*made)->description.provenance;
-        provenance.source_files = {std::filesystem::path(files[at]).filename().string()};
-        provenance.partial = sources[at].partial;
-        provenance.notes.insert(provenance.notes.begin(), sources[at].notes.begin(),
-                                sources[at].notes.end());
-        for (std::string& note : provenance.notes)
-            note = fmt::format("{}: {}", site.icao, note);
-        partials.push_back(std::move(**made));
+    for (const pipeline::SceneVolume& volume : sources.scene_volumes()) {
+        const auto choice =
+            pipeline::mosaic_choice(effects.chain, default_of(effects, sources.spec, volume.site));
+        auto made = pipeline::make_partials(
+            {&volume, 1}, sources.spec,
+            pipeline::with_choice(partial_options(request, effects), choice), geometries);
+        if (!made) return pass_on(made);
+        partials.push_back(std::move(made->front()));
     }
     return partials;
 }
@@ -166,31 +137,30 @@ void note_missing(const std::vector<grid::SitePosition>& sites, const grid::Grid
 
 }  // namespace
 
-void add_mosaic_options(CLI::App& app, MosaicOptions& options) {
+void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
     app.add_option("--overlap", options.overlap,
                    "Where several sites see a cell: distance-weighted (the default), mean, maximum "
                    "or nearest (all that VEL and PHI allow)");
     app.add_option("--overlap-km", options.overlap_km,
                    "L of the weight exp(-r^2/L^2) of a site r away; else 250");
-    app.add_option("--time-method", options.time_method,
+    app.add_option("--time-method", effects.time_method,
                    "Between two volumes of a site: advected (the default), blend or nearest");
 }
 
-Result<MosaicRequest> parse_mosaic(const MosaicOptions& options, std::size_t files,
-                                   const GridRequest& request, const EffectRequest& effects) {
-    MosaicRequest mosaic;
+Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const EffectOptions& effects,
+                                         std::size_t files, const GridRequest& request) {
+    grid::MosaicOptions mosaic;
     if (files == 1) {
         const std::string_view given = !options.overlap.empty()       ? "--overlap"
                                        : options.overlap_km           ? "--overlap-km"
-                                       : !options.time_method.empty() ? "--time-method"
+                                       : !effects.time_method.empty() ? "--time-method"
                                                                       : "";
         if (given.empty()) return mosaic;
         return fail(ErrorCode::bad_argument, "{} is for several FILEs", given);
     }
-    mosaic.overlap.moment = request.moment;
-    mosaic.overlap.overlap = grid::default_overlap(request.moment);
-    mosaic.overlap.averaging = effects.averaging;
-    mosaic.overlap.threads = request.threads;
+    mosaic.moment = request.moment;
+    mosaic.overlap = grid::default_overlap(request.moment);
+    mosaic.threads = request.threads;
     if (!options.overlap.empty()) {
         const auto overlap = grid::overlap_from_name(options.overlap);
         if (!overlap) {
@@ -199,55 +169,122 @@ Result<MosaicRequest> parse_mosaic(const MosaicOptions& options, std::size_t fil
                         "'{}'",
                         options.overlap);
         }
-        mosaic.overlap.overlap = *overlap;
+        mosaic.overlap = *overlap;
     }
     if (options.overlap_km) {
         if (!(*options.overlap_km >= 1 && *options.overlap_km <= 10'000)) {
             return fail(ErrorCode::bad_argument, "--overlap-km must be 1 to 10000, not {}",
                         *options.overlap_km);
         }
-        mosaic.overlap.length_m = *options.overlap_km * 1000;
-    }
-    if (!options.time_method.empty()) {
-        const auto method = grid::time_method_from_name(options.time_method);
-        if (!method) {
-            return fail(ErrorCode::bad_argument,
-                        "--time-method takes one of advected, blend, nearest, not '{}'",
-                        options.time_method);
-        }
-        mosaic.time = *method;
+        mosaic.length_m = *options.overlap_km * 1000;
     }
     return mosaic;
 }
 
-Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files, const GridRequest& request,
-                               const MosaicRequest& mosaic, const EffectRequest& effects) {
-    MadeMosaic made;
-    const auto sources = load_all(files, request, made.timings);
-    if (!sources) return pass_on(sources);
-    const std::vector<grid::SitePosition> sites = sites_of(*sources);
-    const auto spec = spec_of(sites, request);
+std::vector<pipeline::SceneVolume> MosaicSources::scene_volumes() const {
+    std::vector<pipeline::SceneVolume> made;
+    for (std::size_t at = 0; at < volumes.size(); ++at) {
+        const SourceVolume& source = volumes[at];
+        made.push_back({&source.volume, source.site, files[at], source.partial, source.notes});
+    }
+    return made;
+}
+
+Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
+                                  const GridRequest& request) {
+    MosaicSources sources;
+    sources.files = files;
+    for (const std::string& file : files) {
+        auto source = load_volume(file, request.moment, request.threads);
+        if (!source) return pass_on(source);
+        sources.timings.read_s += source->read_s;
+        sources.timings.decode_s += source->decode_s;
+        sources.volumes.push_back(std::move(*source));
+    }
+    auto spec = spec_of(sites_of(sources.volumes), request);
     if (!spec) return pass_on(spec);
+    sources.spec = std::move(*spec);
+    return sources;
+}
+
+Result<pipeline::MosaicScene> mosaic_scene(const MosaicSources& sources, const GridRequest& request,
+                                           const grid::MosaicOptions& overlap,
+                                           const EffectRequest& effects) {
+    pipeline::MosaicSceneOptions options;
+    options.frame = frame_options(request, overlap, effects);
+    options.partial = partial_options(request, effects);
+    options.instant = request.frame_time;
+    return pipeline::MosaicScene::make(sources.scene_volumes(), sources.spec, effects.chain,
+                                       options);
+}
+
+namespace {
+
+Result<pipeline::MosaicFrame> frame_plainly(const MosaicSources& sources,
+                                            const GridRequest& request,
+                                            const grid::MosaicOptions& overlap,
+                                            const EffectRequest& effects, MosaicTimings& timings) {
     Stopwatch watch;
     pipeline::GeometryCache geometries(kept_geometries);
-    const auto partials = grid_all(files, *sources, *spec, request, effects, geometries);
+    const auto partials = grid_all(sources, request, effects, geometries);
     if (!partials) return pass_on(partials);
-    made.timings.grid_s = watch.lap_s();
+    timings.grid_s = watch.lap_s();
+    const auto views = pipeline::views_of(*partials);
+    const auto choice = pipeline::mosaic_choice(
+        effects.chain, default_of(effects, sources.spec, sources.volumes.front().site));
+    const UtcTime instant = request.frame_time.value_or(pipeline::middle_of_newest(views));
+    auto frame = pipeline::make_frame(
+        sources.spec, views, instant,
+        pipeline::with_choice(frame_options(request, overlap, effects), choice), geometries);
+    timings.merge_s = watch.lap_s();
+    return frame;
+}
 
-    std::vector<pipeline::PartialView> views;
-    for (const pipeline::MadePartial& partial : *partials)
-        views.push_back({&partial.description, partial.bricks.view()});
-    pipeline::FrameOptions options;
-    options.overlap = mosaic.overlap;
-    options.time = mosaic.time;
-    options.threads = request.threads;
-    if (!request.frame_time) options.greatest_gap = std::chrono::hours{24 * 365 * 100};
-    const UtcTime instant = request.frame_time.value_or(instant_of(views));
-    const auto frame = pipeline::make_frame(*spec, views, instant, options, geometries);
+// None where the budget cannot be met.
+Result<std::optional<pipeline::MosaicFrame>> frame_by_plan(const MosaicSources& sources,
+                                                           const GridRequest& request,
+                                                           const grid::MosaicOptions& overlap,
+                                                           const EffectRequest& effects,
+                                                           MadeMosaic& made) {
+    Stopwatch watch;
+    auto scene = mosaic_scene(sources, request, overlap, effects);
+    if (!scene) return pass_on(scene);
+    auto planned = pipeline::plan_mosaic(*scene, effects.chain, effects.budget);
+    if (!planned) return pass_on(planned);
+    made.plan = std::move(planned->plan);
+    made.timings.plan_s = watch.lap_s();
+    if (!made.plan->meets_budget) return std::optional<pipeline::MosaicFrame>{};
+    if (auto gridded = scene->partials(planned->choice); !gridded) return pass_on(gridded);
+    made.timings.grid_s = watch.lap_s();
+    auto frame = scene->frame(planned->choice);
     if (!frame) return pass_on(frame);
-    made.grid = dense_of(*frame);
-    note_missing(sites, made.grid, made.grid.provenance.notes);
     made.timings.merge_s = watch.lap_s();
+    frame->description.provenance.predicted_error = grid::predicted_error(*made.plan);
+    frame->description.provenance.effects = made.plan->description;
+    return std::optional<pipeline::MosaicFrame>{std::move(*frame)};
+}
+
+}  // namespace
+
+Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files, const GridRequest& request,
+                               const grid::MosaicOptions& overlap, const EffectRequest& effects) {
+    const auto sources = load_mosaic(files, request);
+    if (!sources) return pass_on(sources);
+    MadeMosaic made;
+    made.timings = sources->timings;
+    std::optional<pipeline::MosaicFrame> frame;
+    if (effects.needs_plan()) {
+        auto planned = frame_by_plan(*sources, request, overlap, effects, made);
+        if (!planned) return pass_on(planned);
+        frame = std::move(*planned);
+    } else {
+        auto plain = frame_plainly(*sources, request, overlap, effects, made.timings);
+        if (!plain) return pass_on(plain);
+        frame = std::move(*plain);
+    }
+    if (!frame) return made;
+    made.grid = dense_of(*frame);
+    note_missing(sites_of(sources->volumes), made.grid, made.grid.provenance.notes);
     return made;
 }
 

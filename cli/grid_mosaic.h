@@ -4,12 +4,15 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "cli/effect_options.h"
 #include "cli/grid_request.h"
+#include "cli/volume_source.h"
 #include "grid/grid.h"
-#include "pipeline/mosaic_frame.h"
+#include "pipeline/mosaic_plan.h"
+#include "pipeline/mosaic_scene.h"
 
 namespace stormcellar::cli {
 
@@ -17,25 +20,41 @@ namespace stormcellar::cli {
 struct MosaicOptions {
     std::string overlap;
     std::optional<double> overlap_km;
-    std::string time_method;
 };
-void add_mosaic_options(CLI::App& app, MosaicOptions& options);
+void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-struct MosaicRequest {
-    grid::MosaicOptions overlap;
-    grid::TimeMethod time = grid::TimeMethod::advected;
-};
 // Errors: bad_argument, naming the option: also for one that only several files have a use for.
-[[nodiscard]] Result<MosaicRequest> parse_mosaic(const MosaicOptions& options, std::size_t files,
-                                                 const GridRequest& request,
-                                                 const EffectRequest& effects);
+// The averaging is the default: it is among the effects.
+[[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
+                                                       const EffectOptions& effects,
+                                                       std::size_t files,
+                                                       const GridRequest& request);
 
 struct MosaicTimings {
-    double read_s = 0, decode_s = 0, grid_s = 0, merge_s = 0;
+    double read_s = 0, decode_s = 0, plan_s = 0, grid_s = 0, merge_s = 0;
 };
 
+// The volumes of a mosaic and the grid that holds them.
+struct MosaicSources {
+    std::vector<SourceVolume> volumes;
+    std::vector<std::string> files;  // one a volume
+    grid::GridSpec spec;
+    MosaicTimings timings;
+
+    [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes() const;
+};
+[[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
+                                                const GridRequest& request);
+
+// What the accuracy planner measures on. The sources must outlive it.
+[[nodiscard]] Result<pipeline::MosaicScene> mosaic_scene(const MosaicSources& sources,
+                                                         const GridRequest& request,
+                                                         const grid::MosaicOptions& overlap,
+                                                         const EffectRequest& effects);
+
 struct MadeMosaic {
-    grid::Grid grid;
+    grid::Grid grid;                     // empty where the plan does not meet its budget
+    std::optional<accuracy::Plan> plan;  // where one was asked for
     MosaicTimings timings;
 };
 
@@ -43,7 +62,7 @@ struct MadeMosaic {
 // the middle of what the newest volumes of all sites show, however far they are apart.
 [[nodiscard]] Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files,
                                              const GridRequest& request,
-                                             const MosaicRequest& mosaic,
+                                             const grid::MosaicOptions& overlap,
                                              const EffectRequest& effects);
 
 }  // namespace stormcellar::cli

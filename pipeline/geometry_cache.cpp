@@ -11,10 +11,11 @@ bool same_site(const grid::SitePosition& a, const grid::SitePosition& b) {
 }  // namespace
 
 std::shared_ptr<const grid::ColumnGeometry> GeometryCache::find(const grid::SitePosition& site,
-                                                                const grid::GridSpec& spec) {
+                                                                const grid::GridSpec& spec,
+                                                                grid::FrameKind frame) {
     const std::scoped_lock lock(mutex_);
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        if (same_site(entry->site, site) && entry->spec == spec) {
+        if (same_site(entry->site, site) && entry->spec == spec && entry->frame == frame) {
             entries_.splice(entries_.begin(), entries_, entry);
             return entry->geometry;
         }
@@ -23,14 +24,14 @@ std::shared_ptr<const grid::ColumnGeometry> GeometryCache::find(const grid::Site
 }
 
 Result<std::shared_ptr<const grid::ColumnGeometry>> GeometryCache::get(
-    const grid::SitePosition& site, const grid::GridSpec& spec) {
-    if (auto found = find(site, spec)) return found;
-    auto made = grid::make_column_geometry(site, spec);
+    const grid::SitePosition& site, const grid::GridSpec& spec, grid::FrameKind frame) {
+    if (auto found = find(site, spec, frame)) return found;
+    auto made = grid::make_column_geometry(site, spec, frame);
     if (!made) return made;
     // Another thread may have made the same meanwhile.
-    if (auto found = find(site, spec)) return found;
+    if (auto found = find(site, spec, frame)) return found;
     const std::scoped_lock lock(mutex_);
-    entries_.push_front({site, spec, *made});
+    entries_.push_front({site, spec, frame, *made});
     if (entries_.size() > capacity_) entries_.pop_back();
     return made;
 }

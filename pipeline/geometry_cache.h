@@ -1,4 +1,4 @@
-// pipeline/geometry_cache.h -- column geometries that were made before, by site and spec.
+// pipeline/geometry_cache.h -- column geometries that were made before, by site, spec and frame.
 //
 // Making one takes longer than using it, and a site's volumes all share it. The least recently
 // used go first. Thread contract: may be used by many threads; a geometry that two threads want at
@@ -19,17 +19,20 @@ class GeometryCache {
   public:
     explicit GeometryCache(std::size_t capacity) : capacity_(capacity) {}
 
-    Result<std::shared_ptr<const grid::ColumnGeometry>> get(const grid::SitePosition& site,
-                                                            const grid::GridSpec& spec);
+    Result<std::shared_ptr<const grid::ColumnGeometry>> get(
+        const grid::SitePosition& site, const grid::GridSpec& spec,
+        grid::FrameKind frame = grid::FrameKind::table);
 
   private:
     struct Entry {
         grid::SitePosition site;
         grid::GridSpec spec;
+        grid::FrameKind frame = grid::FrameKind::table;
         std::shared_ptr<const grid::ColumnGeometry> geometry;
     };
     std::shared_ptr<const grid::ColumnGeometry> find(const grid::SitePosition& site,
-                                                     const grid::GridSpec& spec);
+                                                     const grid::GridSpec& spec,
+                                                     grid::FrameKind frame);
 
     std::size_t capacity_;
     std::mutex mutex_;          // guards entries_

@@ -9,7 +9,6 @@
 #include "base/version.h"
 #include "grid/audit.h"
 #include "grid/column_geometry.h"
-#include "grid/motion.h"
 #include "grid/position_error.h"
 
 namespace stormcellar::pipeline {
@@ -38,16 +37,38 @@ const PartialView* nearest_of(const PartialView* before, const PartialView* afte
     return after->middle() - instant < instant - before->middle() ? after : before;
 }
 
+// Two windows of one site differ where it moved, codes where the configuration was changed.
+bool is_pair(const PartialView* before, const PartialView* after) {
+    return before != nullptr && after != nullptr && *before->view.spec == *after->view.spec &&
+           before->view.quantization == after->view.quantization;
+}
+
+Result<std::optional<grid::MotionField>> motion_between(const PartialView& before,
+                                                        const PartialView& after) {
+    return grid::estimate_motion(before.view, after.view,
+                                 seconds_between(before.middle(), after.middle()));
+}
+
+Result<std::optional<grid::MotionField>> motion_of(const PartialView& before,
+                                                   const PartialView& after, level2::Moment moment,
+                                                   const FrameOptions& options) {
+    if (options.time != grid::TimeMethod::advected || moment != level2::Moment::ref) {
+        return std::optional<grid::MotionField>{};
+    }
+    if (options.motions == nullptr) return motion_between(before, after);
+    const auto known = options.motions->find(before.site().icao);
+    return known != options.motions->end() ? known->second : std::nullopt;
+}
+
 Result<SiteGrid> site_grid(const PartialView* before, const PartialView* after, UtcTime instant,
                            level2::Moment moment, const FrameOptions& options,
                            GeometryCache& geometries) {
     SiteGrid site;
     site.partial = nearest_of(before, after, instant);
-    // Two windows of one site differ where it moved: the nearer one stands then.
-    const bool pair = before != nullptr && after != nullptr &&
-                      *before->view.spec == *after->view.spec &&
-                      before->view.quantization == after->view.quantization;
-    if (options.time == grid::TimeMethod::nearest || !pair) return site;
+    // The nearer one stands where the two do not fit each other.
+    if (options.time == grid::TimeMethod::nearest || !is_pair(before, after)) {
+        return site;
+    }
 
     const auto geometry = geometries.get(site.partial->site(), *site.partial->view.spec);
     if (!geometry) return pass_on(geometry);
@@ -56,14 +77,9 @@ Result<SiteGrid> site_grid(const PartialView* before, const PartialView* after, 
     at.moment = moment;
     at.method = options.time;
     at.sweep_times = options.sweep_times;
-    std::optional<grid::MotionField> motion;
-    if (at.method == grid::TimeMethod::advected && moment == level2::Moment::ref) {
-        auto found = grid::estimate_motion(before->view, after->view,
-                                           seconds_between(before->middle(), after->middle()));
-        if (!found) return pass_on(found);
-        motion = std::move(*found);
-        if (motion) at.motion = &*motion;
-    }
+    const auto motion = motion_of(*before, *after, moment, options);
+    if (!motion) return pass_on(motion);
+    if (*motion) at.motion = &**motion;
     auto made = grid::grid_at(timed(*before), timed(*after), **geometry, at);
     if (!made) return pass_on(made);
     site.made = std::move(*made);
@@ -123,7 +139,7 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
                                                 GeometryCache& geometries) {
     const auto window = grid::site_window(domain, site, options.reach_m);
     if (!window) return std::optional<MadePartial>{};
-    const auto geometry = geometries.get(site, grid::window_spec(domain, *window));
+    const auto geometry = geometries.get(site, grid::window_spec(domain, *window), options.frame);
     if (!geometry) return pass_on(geometry);
     auto made = grid::make_grid(volume, site, **geometry, options.gridder);
     if (!made) return pass_on(made);
@@ -152,6 +168,22 @@ std::vector<Bracket> brackets_of(std::span<const PartialView> partials, UtcTime 
     for (const auto& [icao, bracket] : sites)
         brackets.push_back(bracket);
     return brackets;
+}
+
+Result<Motions> estimate_motions(std::span<const PartialView> partials, UtcTime instant,
+                                 level2::Moment moment, const FrameOptions& options) {
+    Motions motions;
+    if (moment != level2::Moment::ref) return motions;
+    for (const Bracket& bracket : brackets_of(partials, instant, options.greatest_gap)) {
+        if (!bracket.before || !bracket.after) continue;
+        const PartialView& before = partials[*bracket.before];
+        const PartialView& after = partials[*bracket.after];
+        if (!is_pair(&before, &after)) continue;
+        auto motion = motion_between(before, after);
+        if (!motion) return pass_on(motion);
+        motions[before.site().icao] = std::move(*motion);
+    }
+    return motions;
 }
 
 Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const PartialView> partials,

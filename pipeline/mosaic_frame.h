@@ -9,7 +9,9 @@
 // Threads: pure functions but for the caches of geometries, which many threads may share.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "grid/brick_grid.h"
 #include "grid/gridder.h"
 #include "grid/mosaic.h"
+#include "grid/motion.h"
 #include "grid/time_interpolation.h"
 #include "pipeline/geometry_cache.h"
 
@@ -29,6 +32,7 @@ namespace stormcellar::pipeline {
 struct PartialOptions {
     grid::GridderOptions gridder;
     grid::Quantization quantization;
+    grid::FrameKind frame = grid::FrameKind::table;
     double reach_m = grid::site_reach_m;
 };
 
@@ -56,12 +60,18 @@ struct PartialView {
     }
 };
 
+// By ICAO; none where the echo's motion is not known.
+using Motions = std::map<std::string, std::optional<grid::MotionField>>;
+
 struct FrameOptions {
     grid::MosaicOptions overlap;
     grid::TimeMethod time = grid::TimeMethod::advected;
     bool sweep_times = true;
     // A partial farther from the instant than this is not used: its site had a gap there.
     std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
+    // Estimated before (estimate_motions()); sites that it lacks do not move. None: estimated from
+    // the partials. Must outlive the call.
+    const Motions* motions = nullptr;
     int threads = 1;
 };
 
@@ -74,6 +84,12 @@ struct Bracket {
 [[nodiscard]] std::vector<Bracket> brackets_of(std::span<const PartialView> partials,
                                                UtcTime instant,
                                                std::chrono::milliseconds greatest_gap);
+
+// Of each site that has a volume before the instant and one after it; REF alone moves.
+// Errors: those of grid::estimate_motion().
+[[nodiscard]] Result<Motions> estimate_motions(std::span<const PartialView> partials,
+                                               UtcTime instant, level2::Moment moment,
+                                               const FrameOptions& options);
 
 struct MosaicFrame {
     cache::GridDescription description;

@@ -47,7 +47,6 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "b", "--overlap", "min"}, "--overlap takes one of");
     expect_usage({"a", "b", "--time-method", "now"}, "--time-method takes one of");
     expect_usage({"a", "b", "--overlap-km", "0"}, "--overlap-km");
-    expect_usage({"a", "b", "--tolerance", "1 dB"}, "not planned yet");
     expect_usage({"a", "b", "--fields", "age"}, "--fields is for one FILE");
     expect_usage({"a", "--center", "35"}, "--center");
     expect_usage({"a", "--center", "95,0"}, "not on the earth");

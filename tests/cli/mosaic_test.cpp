@@ -65,6 +65,45 @@ TEST_F(Mosaic, OfASiteWithNoVolumeNearTheTimeSaysSo) {
     EXPECT_NE(none.err.find("no site has a volume"), std::string::npos) << none.err;
 }
 
+TEST_F(Mosaic, AToleranceChoosesOfTimeOverlapAndCodesToo) {
+    const auto effects_by = [&](const std::string& tolerance) {
+        const ProgramResult ran =
+            run({"grid", real("sequence-kbgm/KBGM20050822_024414.gz"),
+                 real("sequence-kbgm/KBGM20050822_025001.gz"), "--time", "2005-08-22T02:50:00Z",
+                 "--spacing-km", "3", "--tolerance", tolerance, "--json", "-o",
+                 (directory_ / "out.nc").string()});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        const auto made = nlohmann::json::parse(ran.out);
+        EXPECT_NE(made["predicted_error"].dump().find("(99th percentile)"), std::string::npos);
+        return made["effects"].get<std::string>();
+    };
+    const std::string close = effects_by("1 km, 8 dB");
+    EXPECT_NE(close.find("time: advected"), std::string::npos) << close;
+    EXPECT_NE(close.find("codes: default steps"), std::string::npos) << close;
+    const std::string fine = effects_by("100 m, 0.1 dB");
+    EXPECT_NE(fine.find("codes: fine steps"), std::string::npos) << fine;
+    const std::string loose = effects_by("30 km, 90 dB");
+    EXPECT_NE(loose.find("time: nearest"), std::string::npos) << loose;
+}
+
+TEST_F(Mosaic, ExplainsEveryEffectOfItsOwn) {
+    const ProgramResult ran = run({"grid", real(bgm), real(enx), "--spacing-km", "8", "--levels-km",
+                                   "1,3", "--explain", "-o", (directory_ / "out.nc").string()});
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    for (const char* effect :
+         {"time_blend", "echo_motion", "sweep_times", "site_overlap", "fine_codes"})
+        EXPECT_NE(ran.out.find(effect), std::string::npos) << effect;
+    const ProgramResult velocity = run({"grid", real(bgm), real(enx), "--moment", "VEL",
+                                        "--explain", "-o", (directory_ / "vel.nc").string()});
+    EXPECT_EQ(velocity.status, 2) << velocity.err;
+    EXPECT_NE(velocity.err.find("no plan is made for VEL"), std::string::npos) << velocity.err;
+    const ProgramResult wrong =
+        run({"grid", real(bgm), real(enx), "--time-method", "advected", "--effect",
+             "time_blend=off", "-o", (directory_ / "out.nc").string()});
+    EXPECT_EQ(wrong.status, 2) << wrong.err;
+    EXPECT_NE(wrong.err.find("--time-method advected"), std::string::npos) << wrong.err;
+}
+
 TEST_F(Mosaic, VolumesHeldOutAreMadeAgainBestByAdvection) {
     const ProgramResult ran =
         run({"accuracy", real("sequence-kbgm/KBGM20050822_024414.gz"),
