@@ -14,6 +14,7 @@
 #include "cli/grid_request.h"
 #include "cli/held_out.h"
 #include "cli/ladder_markdown.h"
+#include "cli/mosaic_accuracy.h"
 #include "cli/stopwatch.h"
 #include "cli/truth_errors.h"
 #include "cli/volume_source.h"
@@ -32,9 +33,6 @@ struct AccuracyOptions {
     int rounds = 3;
     bool markdown = false;
     bool held_out = false;
-
-    // Three files can only be a sequence.
-    [[nodiscard]] bool is_over_time() const { return held_out || grid.files.size() > 1; }
 };
 
 // The volume of a file, or the first one of a simulated scene.
@@ -105,21 +103,21 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
     return write_file_atomically(real_file_system(), file, bytes);
 }
 
-void print_tables(const Subject& subject, const Measured& measured, accuracy::ValueUnit unit,
+void print_tables(const std::string& subject, const Measured& measured, accuracy::ValueUnit unit,
                   bool markdown) {
     const auto& [rows, truth] = measured;
     fmt::print("{}\n\nEach rung against the chain's exact form on the same gates:\n\n{}",
-               printable(subject.name),
+               printable(subject),
                markdown ? ladder_markdown(rows, unit) : accuracy::format_table(rows, unit));
     if (truth.empty()) return;
     fmt::print("\nAgainst the truth of the scene (sampling error; never budgeted):\n\n{}",
                format_truth(truth, unit, markdown));
 }
 
-void print_json(const Subject& subject, level2::Moment moment, const Measured& measured,
+void print_json(const std::string& subject, level2::Moment moment, const Measured& measured,
                 accuracy::ValueUnit unit) {
     nlohmann::ordered_json json;
-    json["subject"] = subject.name;
+    json["subject"] = subject;
     json["moment"] = level2::moment_name(moment);
     json["value_unit"] = accuracy::name_of(unit);
     json["rows"] = to_json(measured.rows, unit);
@@ -128,9 +126,7 @@ void print_json(const Subject& subject, level2::Moment moment, const Measured& m
     fmt::print("{}\n", json.dump(1, ' ', false, replace));
 }
 
-void print_notes(const std::vector<accuracy::LadderRow>& rows, const EffectRequest& effects,
-                 const grid::SitePosition& site) {
-    if (const auto note = note_on_sounding(effects, site)) print_note(*note);
+void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
     const bool any_value = std::any_of(
         rows.begin(), rows.end(),
         [](const accuracy::LadderRow& row) { return row.value && row.value->count > 0; });
@@ -143,8 +139,9 @@ void print_notes(const std::vector<accuracy::LadderRow>& rows, const EffectReque
 Result<Measured> measure(const Subject& subject, const GridRequest& request,
                          const grid::GridSpec& spec, const EffectRequest& effects,
                          const AccuracyOptions& options) {
-    auto scene = grid::GridScene::make(subject.source.volume, subject.source.site, spec,
-                                       {request.moment, 0, effects.profile, request.threads});
+    auto scene = grid::GridScene::make(
+        subject.source.volume, subject.source.site, spec,
+        {request.moment, 0, effects.profile, request.threads, request.frame_time});
     if (!scene) return pass_on(scene);
     grid::LadderOptions ladder;
     ladder.columns = static_cast<std::size_t>(options.columns);
@@ -161,13 +158,11 @@ Result<Measured> measure(const Subject& subject, const GridRequest& request,
 
 Status check_options(AccuracyOptions& options) {
     const std::size_t files = options.grid.files.size();
-    const bool sensible = options.scene.empty() ? files == 1 || files >= 3 : files == 0;
-    if (!sensible) {
-        return fail(ErrorCode::bad_argument,
-                    "name a FILE, or three or more of one site, or a scene with --scene");
+    if (options.scene.empty() == (files == 0)) {
+        return fail(ErrorCode::bad_argument, "name one FILE or more, or a scene with --scene");
     }
-    if (options.is_over_time() && !options.plot.empty()) {
-        return fail(ErrorCode::bad_argument, "--plot is for one FILE or scene, not --held-out");
+    if (options.held_out && !options.plot.empty()) {
+        return fail(ErrorCode::bad_argument, "--plot shows a ladder, not what was held out");
     }
     if (!options.scene.empty()) options.grid.files = {options.scene};
     if (options.grid.json && options.markdown) {
@@ -181,17 +176,8 @@ Status check_options(AccuracyOptions& options) {
     return check_target(options.plot);
 }
 
-Result<std::vector<TimedVolume>> load_over_time(const AccuracyOptions& options,
-                                                const GridRequest& request) {
-    if (options.grid.files.size() > 1) return load_sequence(options.grid.files, request);
-    if (options.scene.empty()) return load_repeats(options.grid.files.front(), request);
-    const auto scene = synth::read_scene(options.scene);
-    if (!scene) return pass_on(scene);
-    return observe_sequence(*scene);
-}
-
-int run_over_time(const AccuracyOptions& options, const GridRequest& request) {
-    const auto sequence = load_over_time(options, request);
+int report_over_time(const AccuracyOptions& options, const GridRequest& request,
+                     const Result<std::vector<TimedVolume>>& sequence) {
     if (!sequence) return report_error(sequence.error());
     const auto rows = score_sequence(*sequence, request);
     if (!rows) return report_error(rows.error());
@@ -210,14 +196,65 @@ int run_over_time(const AccuracyOptions& options, const GridRequest& request) {
     return exit_done;
 }
 
+int run_held_out(const AccuracyOptions& options, const GridRequest& request) {
+    if (options.scene.empty()) {
+        return report_over_time(options, request,
+                                load_repeats(options.grid.files.front(), request));
+    }
+    const auto scene = synth::read_scene(options.scene);
+    if (!scene) return report_error(scene.error());
+    return report_over_time(options, request, observe_sequence(*scene));
+}
+
+// Plots, notes and tables of a ladder.
+int report_ladder(const AccuracyOptions& options, const GridRequest& request,
+                  const std::string& subject, const Measured& measured) {
+    const accuracy::ValueUnit unit = grid::value_unit_of(request.moment);
+    if (!options.plot.empty()) {
+        const auto title = fmt::format("{}, {}", std::filesystem::path(subject).filename().string(),
+                                       level2::moment_name(request.moment));
+        if (auto drawn = write_plot(measured.rows, unit, title, options.plot); !drawn) {
+            return report_error(drawn.error());
+        }
+    }
+    note_without_values(measured.rows);
+    if (options.grid.json) {
+        print_json(subject, request.moment, measured, unit);
+    } else {
+        print_tables(subject, measured, unit, options.markdown);
+    }
+    return exit_done;
+}
+
+// Of several sites, or for an instant, a mosaic's own steps; else volumes held out.
+int run_files(const AccuracyOptions& options, const GridRequest& request) {
+    auto sources = load_mosaic(options.grid.files, request);
+    if (!sources) return report_error(sources.error());
+    if (!request.frame_time && sources->site_count() == 1) {
+        if (!options.plot.empty()) {
+            return report_error({ErrorCode::bad_argument,
+                                 "--plot shows a ladder, not what was held out: give a --time"});
+        }
+        return report_over_time(options, request, sequence_of(std::move(*sources)));
+    }
+    const auto effects =
+        parse_effects(options.effects, request.moment, grid::default_overlap(request.moment));
+    if (!effects) return report_error(effects.error());
+    auto rows = ladder_of_mosaic(*sources, request, *effects, options.rounds);
+    if (!rows) return report_error(rows.error());
+    const std::string subject =
+        fmt::format("{} and {} more", options.grid.files.front(), options.grid.files.size() - 1);
+    return report_ladder(options, request, subject, {std::move(*rows), {}});
+}
+
 int run_accuracy(AccuracyOptions options) {
     if (auto sound = check_options(options); !sound) return report_error(sound.error());
     const auto request = parse_request(options.grid);
     if (!request) return report_error(request.error());
-    if (options.is_over_time()) return run_over_time(options, *request);
+    if (options.held_out) return run_held_out(options, *request);
+    if (options.grid.files.size() > 1) return run_files(options, *request);
     const auto effects = parse_effects(options.effects, request->moment);
     if (!effects) return report_error(effects.error());
-    const accuracy::ValueUnit unit = grid::value_unit_of(request->moment);
     const auto subject = load_subject(options, *request);
     if (!subject) return report_error(subject.error());
     const grid::SitePosition& site = subject->source.site;
@@ -230,21 +267,8 @@ int run_accuracy(AccuracyOptions options) {
         const Error& error = measured.error();
         return report_error({error.code, fmt::format("{}: {}", subject->name, error.message)});
     }
-    if (!options.plot.empty()) {
-        const auto title =
-            fmt::format("{}, {}", std::filesystem::path(subject->name).filename().string(),
-                        level2::moment_name(request->moment));
-        if (auto drawn = write_plot(measured->rows, unit, title, options.plot); !drawn) {
-            return report_error(drawn.error());
-        }
-    }
-    print_notes(measured->rows, *effects, site);
-    if (options.grid.json) {
-        print_json(*subject, request->moment, *measured, unit);
-    } else {
-        print_tables(*subject, *measured, unit, options.markdown);
-    }
-    return exit_done;
+    if (const auto note = note_on_sounding(*effects, site)) print_note(*note);
+    return report_ladder(options, *request, subject->name, *measured);
 }
 
 }  // namespace
@@ -254,9 +278,14 @@ Command add_accuracy(CLI::App& app) {
     options->grid.threads = 1;
     CLI::App* command =
         app.add_subcommand("accuracy", "Show what accuracy costs in time, rung by rung");
-    command->add_option("FILE", options->grid.files,
-                        "One Level II file; or three or more of one site, of which each is made "
-                        "again from its neighbours in time");
+    command->add_option(
+        "FILE", options->grid.files,
+        "One Level II file; or several of several sites, or of one at a --time: the "
+        "steps that make one frame of them; or three or more of one site, of which "
+        "each is made again from its neighbours in time");
+    command->add_option("--time", options->grid.time,
+                        "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
+                        "repeated sweeps is taken");
     command->add_flag("--held-out", options->held_out,
                       "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
                       "the repeats beside it; of a scene: its second volume");

@@ -190,6 +190,10 @@ std::vector<pipeline::SceneVolume> MosaicSources::scene_volumes() const {
     return made;
 }
 
+std::size_t MosaicSources::site_count() const {
+    return sites_of(volumes).size();
+}
+
 Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                   const GridRequest& request) {
     MosaicSources sources;

@@ -42,6 +42,7 @@ struct MosaicSources {
     MosaicTimings timings;
 
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes() const;
+    [[nodiscard]] std::size_t site_count() const;
 };
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);

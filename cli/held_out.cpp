@@ -52,33 +52,25 @@ std::set<std::size_t> lowest_sweeps(const level2::Volume& volume, const grid::Si
     return found;
 }
 
-Status check_sequence(const std::vector<TimedVolume>& sequence) {
-    for (std::size_t at = 1; at < sequence.size(); ++at) {
-        if (sequence[at].site.icao != sequence.front().site.icao) {
-            return fail(ErrorCode::bad_argument, "{} is of {}, {} of {}: this takes one site's",
-                        sequence[at].name, sequence[at].site.icao, sequence.front().name,
-                        sequence.front().site.icao);
-        }
-    }
-    return {};
-}
-
 std::string_view name_of(const grid::HeldOutScore& score) {
     return grid::time_method_name(score.method);
 }
 
 }  // namespace
 
-Result<std::vector<TimedVolume>> load_sequence(const std::vector<std::string>& files,
-                                               const GridRequest& request) {
-    std::vector<TimedVolume> sequence;
-    for (const std::string& file : files) {
-        auto source = load_volume(file, request.moment, request.threads);
-        if (!source) return pass_on(source);
-        sequence.push_back({std::move(source->volume), source->site,
-                            std::filesystem::path(file).filename().string()});
+Result<std::vector<TimedVolume>> sequence_of(MosaicSources sources) {
+    if (sources.volumes.size() < fewest) {
+        return fail(ErrorCode::bad_argument,
+                    "of one site it takes {} FILEs or more, each to be made again from its "
+                    "neighbours, or a --time",
+                    fewest);
     }
-    if (auto good = check_sequence(sequence); !good) return pass_on(good);
+    std::vector<TimedVolume> sequence;
+    for (std::size_t at = 0; at < sources.volumes.size(); ++at) {
+        SourceVolume& source = sources.volumes[at];
+        sequence.push_back({std::move(source.volume), source.site,
+                            std::filesystem::path(sources.files[at]).filename().string()});
+    }
     std::stable_sort(sequence.begin(), sequence.end(), [](const auto& a, const auto& b) {
         return a.volume.start_time() < b.volume.start_time();
     });

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/result.h"
+#include "cli/grid_mosaic.h"
 #include "cli/grid_request.h"
 #include "grid/held_out.h"
 #include "level2/volume.h"
@@ -23,9 +24,8 @@ struct TimedVolume {
     std::string name;
 };
 
-// Three files or more of one site, in order of time.
-[[nodiscard]] Result<std::vector<TimedVolume>> load_sequence(const std::vector<std::string>& files,
-                                                             const GridRequest& request);
+// Volumes of one site, in order of time. bad_argument when there are less than three.
+[[nodiscard]] Result<std::vector<TimedVolume>> sequence_of(MosaicSources sources);
 // The repeated cuts (SAILS, MRLE) of the file's lowest elevation, each as a volume of its own.
 // not_found when there are less than three.
 [[nodiscard]] Result<std::vector<TimedVolume>> load_repeats(const std::string& file,

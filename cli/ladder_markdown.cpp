@@ -12,9 +12,9 @@ using accuracy::format_number;
 constexpr const char* none = "-";
 
 std::string position_of(const accuracy::LadderRow& row) {
-    if (!row.position_max_m || !row.position_rms_m) return none;
+    if (!row.position_max_m) return none;
     return fmt::format("{} / {}", format_number(*row.position_max_m),
-                       format_number(*row.position_rms_m));
+                       row.position_rms_m ? format_number(*row.position_rms_m) : none);
 }
 
 std::string value_of(const accuracy::LadderRow& row) {

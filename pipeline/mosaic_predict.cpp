@@ -163,31 +163,6 @@ double seconds_between(UtcTime from, UtcTime to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-// The fastest echo of each pair of volumes, times how long it moves.
-void set_positions(const MosaicScene& scene, const std::vector<MadePartial>& partials,
-                   accuracy::Chain& chain) {
-    double moved_m = 0, within_volume_m = 0;
-    for (const Bracket& bracket : scene.brackets()) {
-        if (!bracket.before || !bracket.after) continue;
-        const cache::GridDescription& before = partials[*bracket.before].description;
-        const cache::GridDescription& after = partials[*bracket.after].description;
-        const auto known = scene.motions().find(before.sites.front().icao);
-        if (known == scene.motions().end() || !known->second) continue;
-        const grid::CellMotion greatest = known->second->greatest();
-        const double speed_mps =
-            std::hypot(static_cast<double>(greatest.x) * scene.domain().cell_width_m(),
-                       static_cast<double>(greatest.y) * scene.domain().cell_height_m());
-        for (const cache::GridDescription* end : {&before, &after}) {
-            const double half_s = seconds_between(end->start_time, end->end_time) / 2;
-            const double away_s = seconds_between(end->start_time, scene.instant()) - half_s;
-            moved_m = std::max(moved_m, speed_mps * std::abs(away_s));
-            within_volume_m = std::max(within_volume_m, speed_mps * half_s);
-        }
-    }
-    step_named(chain, "time").effects[1].predicted.position_m = moved_m;
-    step_named(chain, "sweeps").effects[0].predicted.position_m = within_volume_m;
-}
-
 // Each rounding moves a value by at most half a step, and means of such by no more.
 void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFrame& coarse,
                accuracy::Chain& chain) {
@@ -247,9 +222,9 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     const auto rounded = timed_frame(scene, coarse);
     if (!rounded) return pass_on(rounded);
     set_codes(scene, *fine, *rounded, chain);
-    const auto partials = scene.partials(coarse);
-    if (!partials) return pass_on(partials);
-    set_positions(scene, **partials, chain);
+    const Displacements moved = displacements(scene);
+    step_named(chain, "time").effects[1].predicted.position_m = moved.to_instant_m;
+    step_named(chain, "sweeps").effects[0].predicted.position_m = moved.within_volume_m;
     set_efforts(scene, chain);
     // What the cheapest frame takes beside its gridding.
     MosaicChoice cheapest = coarse;
@@ -263,6 +238,27 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
 }
 
 }  // namespace
+
+Displacements displacements(const MosaicScene& scene) {
+    Displacements moved;
+    for (const Bracket& bracket : scene.brackets()) {
+        if (!bracket.before || !bracket.after) continue;
+        for (const std::size_t end : {*bracket.before, *bracket.after}) {
+            const auto known = scene.motions().find(scene.volumes()[end].site.icao);
+            if (known == scene.motions().end() || !known->second) continue;
+            const grid::CellMotion greatest = known->second->greatest();
+            const double speed_mps =
+                std::hypot(static_cast<double>(greatest.x) * scene.domain().cell_width_m(),
+                           static_cast<double>(greatest.y) * scene.domain().cell_height_m());
+            const MosaicScene::Times& times = scene.times()[end];
+            const double half_s = seconds_between(times.start, times.end) / 2;
+            const double away_s = seconds_between(times.start, scene.instant()) - half_s;
+            moved.to_instant_m = std::max(moved.to_instant_m, speed_mps * std::abs(away_s));
+            moved.within_volume_m = std::max(moved.within_volume_m, speed_mps * half_s);
+        }
+    }
+    return moved;
+}
 
 Status predict(MosaicScene& scene, const grid::PlanOptions& options, accuracy::Chain& chain) {
     const level2::Moment moment = scene.options().partial.gridder.moment;

@@ -94,6 +94,7 @@ Status MosaicScene::keep_what_is_near(std::vector<SceneVolume> volumes,
     Kept kept{default_.gridding, default_.fine_codes, {}};
     for (const std::size_t at : used) {
         volumes_.push_back(std::move(volumes[at]));
+        times_.push_back({partials[at].description.start_time, partials[at].description.end_time});
         kept.partials.push_back(std::move(partials[at]));
     }
     kept_.push_front(std::move(kept));
@@ -130,6 +131,12 @@ Result<const std::vector<MadePartial>*> MosaicScene::partials(const MosaicChoice
     kept_.push_front({choice.gridding, choice.fine_codes, std::move(*made)});
     if (kept_.size() > most_kept) kept_.pop_back();
     return &kept_.front().partials;
+}
+
+void MosaicScene::forget(const MosaicChoice& choice) {
+    kept_.remove_if([&](const Kept& kept) {
+        return kept.gridding == choice.gridding && kept.fine_codes == choice.fine_codes;
+    });
 }
 
 Result<MosaicFrame> MosaicScene::frame(const MosaicChoice& choice) {

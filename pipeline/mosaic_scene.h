@@ -49,6 +49,11 @@ struct MosaicSceneOptions {
 
 class MosaicScene {
   public:
+    // Of a volume's first radial and of its last.
+    struct Times {
+        UtcTime start, end;
+    };
+
     // Grids all volumes the default way. The volumes must outlive the scene.
     // Errors: those of make_partials(), not_found when no volume is near the instant.
     [[nodiscard]] static Result<MosaicScene> make(std::vector<SceneVolume> volumes,
@@ -61,8 +66,12 @@ class MosaicScene {
     // Partials of the volumes in use, gridded and kept as the choice has it.
     [[nodiscard]] Result<const std::vector<MadePartial>*> partials(const MosaicChoice& choice);
 
+    // What was kept of this choice's gridding, so that it is made anew.
+    void forget(const MosaicChoice& choice);
+
     // Those that the instant brackets.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
+    [[nodiscard]] const std::vector<Times>& times() const { return times_; }
     // Of them, by place; pairs are what time is interpolated between.
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
@@ -84,6 +93,7 @@ class MosaicScene {
                                            std::vector<MadePartial> partials);
 
     std::vector<SceneVolume> volumes_;
+    std::vector<Times> times_;
     grid::GridSpec domain_;
     MosaicSceneOptions options_;
     MosaicChoice default_;

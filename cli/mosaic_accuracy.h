@@ -1,0 +1,19 @@
+// cli/mosaic_accuracy.h -- `stormcellar accuracy A B ...` of several sites, or for an instant
+// between volumes of one: the ladder of a mosaic's own steps (pipeline/mosaic_ladder.h).
+#pragma once
+
+#include <vector>
+
+#include "accuracy/ladder.h"
+#include "base/result.h"
+#include "cli/effect_options.h"
+#include "cli/grid_mosaic.h"
+
+namespace stormcellar::cli {
+
+// Overlapping by the moment's default rule. Errors name the file.
+[[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(
+    const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
+    int rounds);
+
+}  // namespace stormcellar::cli
