@@ -21,9 +21,20 @@ Candidate evaluate(const Chain& chain, const Choice& choice) {
     return candidate;
 }
 
-bool comes_before(const Candidate& a, const Candidate& b) {
+// Measured costs would make the order hang on how busy the machine was.
+bool has_efforts(const Chain& chain) {
+    for (const Step& step : chain.steps) {
+        for (const Effect& effect : step.effects) {
+            if (effect.effort > 0) return true;
+        }
+    }
+    return !std::all_of(chain.joint_costs.begin(), chain.joint_costs.end(),
+                        [](const JointCost& joint) { return joint.effort == 0; });
+}
+
+bool comes_before(const Candidate& a, const Candidate& b, bool by_cost) {
     if (a.effort != b.effort) return a.effort < b.effort;
-    if (a.cost_s != b.cost_s) return a.cost_s < b.cost_s;
+    if (by_cost && a.cost_s != b.cost_s) return a.cost_s < b.cost_s;
     if (a.off != b.off) return a.off < b.off;
     return a.choice.rungs > b.choice.rungs;
 }
@@ -81,7 +92,9 @@ Result<std::vector<Candidate>> list_candidates(const Chain& chain) {
     do {
         if (!is_reckless(chain, choice, ranges)) candidates.push_back(evaluate(chain, choice));
     } while (advance(choice, ranges));
-    std::sort(candidates.begin(), candidates.end(), comes_before);
+    const bool by_cost = !has_efforts(chain);
+    std::sort(candidates.begin(), candidates.end(),
+              [&](const Candidate& a, const Candidate& b) { return comes_before(a, b, by_cost); });
     return candidates;
 }
 

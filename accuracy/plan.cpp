@@ -46,8 +46,6 @@ std::string reason_on(const Situation& situation, std::size_t at, std::size_t in
         return fmt::format("{} needs it, which is set on", step.effects[least - 1].name);
     if (is_unbounded(effect.predicted)) return "how much it matters has no bound";
     const Lowered lowered = without(situation, at, index);
-    if (lowered.saved_s == 0) return "costs nothing";
-    if (!situation.budget.bounds_errors()) return "there is time for it";
     for (const Quantity quantity : all_quantities) {
         const auto limit = situation.budget.limit(quantity);
         const double sum = lowered.left_off.of(quantity);
@@ -56,6 +54,8 @@ std::string reason_on(const Situation& situation, std::size_t at, std::size_t in
                            format_quantity(quantity, sum, situation.chain.value_unit),
                            format_quantity(quantity, *limit, situation.chain.value_unit));
     }
+    if (lowered.saved_s == 0) return "costs nothing";
+    if (!situation.budget.bounds_errors()) return "there is time for it";
     return situation.outcome == Outcome::met ? "no cheaper choice was shown to be good enough"
                                              : "the budget is not met, this is the best";
 }

@@ -90,11 +90,15 @@ Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
             if (auto made = scene.frame(rung.with_times); !made) status = pass_on(made);
         });
     }
-    const auto timings = accuracy::time_in_rounds(works, rounds);
+    const auto timings =
+        accuracy::time_in_rounds(works, rounds, [&scene] { return scene.now_s(); });
     if (!status) return status;
     for (std::size_t at = 0; at < rungs.size(); ++at) {
-        rungs[at].row.time_s = timings[at].first_s;
-        rungs[at].row.kept_time_s = timings[at].least_s;
+        // The scene's frames find their motion made.
+        const bool moves = rungs[at].with_times.time == grid::TimeMethod::advected;
+        const double motion_s = moves ? scene.motion_seconds() : 0;
+        rungs[at].row.time_s = timings[at].first_s + motion_s;
+        rungs[at].row.kept_time_s = timings[at].least_s + motion_s;
     }
     return {};
 }

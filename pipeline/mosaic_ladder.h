@@ -4,7 +4,8 @@
 // For each of them a row a rung: its error with every other step exact, against the frame by the
 // exact chain, over all cells valued in both; its time as a frame from partials of the default
 // chain that are kept, with the other steps at their default. Rows of the step "chain" are whole
-// chains, whose time is that of gridding every volume too.
+// chains, whose time is that of gridding every volume too. Of one thread it is time of the
+// processor, of several by the clock.
 // Position errors are how far the fastest echo moves (pipeline/mosaic_plan.h); whole chains have
 // none: that of beams is another one.
 #pragma once

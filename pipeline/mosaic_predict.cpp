@@ -13,9 +13,9 @@ namespace {
 
 // Times of a site between two of its volumes, and of merging, in units of gridding one volume by
 // nearest gates (grid/effects.cpp; docs/accuracy.md).
-constexpr double blend_effort = 1.3;
-constexpr double motion_effort = 10;
-constexpr double sweep_times_effort = 0.5;
+constexpr double blend_effort = 2.5;
+constexpr double motion_effort = 4.5;
+constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
@@ -131,10 +131,10 @@ struct TimedFrame {
 Result<TimedFrame> timed_frame(MosaicScene& scene, const MosaicChoice& choice) {
     const auto gridded = scene.partials(choice);
     if (!gridded) return pass_on(gridded);
-    const double start_s = accuracy::monotonic_s();
+    const double start_s = scene.now_s();
     auto frame = scene.frame(choice);
     if (!frame) return pass_on(frame);
-    return TimedFrame{std::move(*frame), accuracy::monotonic_s() - start_s};
+    return TimedFrame{std::move(*frame), scene.now_s() - start_s};
 }
 
 // One step from its exact rung downwards; all frames are of the default grids in fine codes.
@@ -225,6 +225,7 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     const Displacements moved = displacements(scene);
     step_named(chain, "time").effects[1].predicted.position_m = moved.to_instant_m;
     step_named(chain, "sweeps").effects[0].predicted.position_m = moved.within_volume_m;
+    step_named(chain, "time").effects[1].cost_s += scene.motion_seconds();
     set_efforts(scene, chain);
     // What the cheapest frame takes beside its gridding.
     MosaicChoice cheapest = coarse;

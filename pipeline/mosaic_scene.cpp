@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "base/parallel.h"
+#include "accuracy/timing.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -103,11 +103,17 @@ Status MosaicScene::keep_what_is_near(std::vector<SceneVolume> volumes,
     }
     const auto views = views_of(kept_.front().partials);
     brackets_ = brackets_of(views, instant_, options_.frame.greatest_gap);
+    const double start_s = now_s();
     auto motions =
         estimate_motions(views, instant_, options_.partial.gridder.moment, options_.frame);
     if (!motions) return pass_on(motions);
     motions_ = std::move(*motions);
+    motion_s_ = now_s() - start_s;
     return {};
+}
+
+double MosaicScene::now_s() const {
+    return options_.frame.threads == 1 ? accuracy::thread_s() : accuracy::monotonic_s();
 }
 
 std::size_t MosaicScene::pair_count() const {

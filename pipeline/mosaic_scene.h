@@ -76,6 +76,9 @@ class MosaicScene {
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
     [[nodiscard]] const Motions& motions() const { return motions_; }
+    // That estimating them took: of one thread by the processor's time, of several by the clock.
+    [[nodiscard]] double motion_seconds() const { return motion_s_; }
+    [[nodiscard]] double now_s() const;
     [[nodiscard]] const grid::GridSpec& domain() const { return domain_; }
     [[nodiscard]] UtcTime instant() const { return instant_; }
     [[nodiscard]] const MosaicSceneOptions& options() const { return options_; }
@@ -100,6 +103,7 @@ class MosaicScene {
     UtcTime instant_;
     std::vector<Bracket> brackets_;
     Motions motions_;
+    double motion_s_ = 0;
     std::list<Kept> kept_;  // used last first
     std::shared_ptr<GeometryCache> geometries_;
 };
