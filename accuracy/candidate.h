@@ -22,11 +22,11 @@ struct Candidate {
 inline constexpr std::size_t most_candidates = 65536;
 
 // Of what the settings allow, in order of rising effort; of cost where the chain has no efforts:
-// which is the cheapest is the same however busy the machine is. Left out are those that leave an effect of unbounded size off
-// which may be on: no budget allows that, not even one that does not bound the quantity. Among
-// equals the one with fewer effects left off comes first (accuracy that costs nothing is taken),
-// then the one with the higher rung at the first step where they differ. Errors: as validate();
-// unsupported beyond most_candidates.
+// which is the cheapest is the same however busy the machine is. Left out are those that leave an
+// effect of unbounded size off which may be on: no budget allows that, not even one that does not
+// bound the quantity. Among equals the one with fewer effects left off comes first (accuracy that
+// costs nothing is taken), then the one with the higher rung at the first step where they differ.
+// Errors: as validate(); unsupported beyond most_candidates.
 [[nodiscard]] Result<std::vector<Candidate>> list_candidates(const Chain& chain);
 
 // Whether each sum is within its limit; what is not budgeted is not bounded.
