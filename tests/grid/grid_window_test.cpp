@@ -224,8 +224,11 @@ TEST(GridWindow, NoWindowWhereNothingIsReached) {
     EXPECT_FALSE(site_window(cone, {"PGUA", 13.45, 144.81, 100}));
 }
 
-// One volume, on a domain and on windows of it: the same cells.
-TEST(GridWindow, AVolumeIsTheSameInAWindow) {
+// One volume, on a domain and on a window of it, by methods that look about a cell too: the same
+// cells, those at the window's edge as well.
+class InAWindow : public ::testing::TestWithParam<std::pair<Interpolation, CellExtent>> {};
+
+TEST_P(InAWindow, AVolumeIsTheSame) {
     level2::Volume volume;
     volume.station = "KTLX";
     for (const double elevation_deg : {0.5, 1.5, 3.0}) {
@@ -249,7 +252,10 @@ TEST(GridWindow, AVolumeIsTheSameInAWindow) {
         const GridWindow window{32, 48, 80, 64};
         const auto gridded = [&](const GridSpec& spec) {
             const auto geometry = make_column_geometry(site, spec, FrameKind::geodesic);
-            auto made = make_grid(volume, site, **geometry, {});
+            GridderOptions options;
+            options.method.interpolation = GetParam().first;
+            options.method.cell = GetParam().second;
+            auto made = make_grid(volume, site, **geometry, options);
             EXPECT_TRUE(made);
             return *std::move(made);
         };
@@ -273,6 +279,13 @@ TEST(GridWindow, AVolumeIsTheSameInAWindow) {
                   make_column_geometry(site, window_spec(domain, window)).value()->row(0)[0].arc_m);
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, InAWindow,
+                         ::testing::Values(std::pair{Interpolation::linear, CellExtent::point},
+                                           std::pair{Interpolation::eight_point, CellExtent::point},
+                                           std::pair{Interpolation::nearest, CellExtent::area},
+                                           std::pair{Interpolation::beam_weighted,
+                                                     CellExtent::area}));
 
 }  // namespace
 }  // namespace stormcellar::grid
