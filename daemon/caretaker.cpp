@@ -110,11 +110,11 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
             break;
         case GridCondition::made_again:
             spdlog::warn("damaged grid {}: dropped, and made again from {}", reason,
-                         printable(mended->raw.native()));
+                         printable(mended->from));
             break;
         case GridCondition::dropped:
-            spdlog::warn("damaged grid {}: dropped; it cannot be made again, no raw file is left",
-                         reason);
+            spdlog::warn("damaged grid {}: dropped; it cannot be made again: {}", reason,
+                         printable(mended->why_not));
             break;
         case GridCondition::left_alone:
             spdlog::warn("grid {}: cannot be checked", reason);
@@ -130,9 +130,24 @@ void Caretaker::refill() {
         if (!pause({})) return;
         const auto made = mender_.make(grid);
         if (!made) return log_problem("cannot make a missing grid", made.error());
-        if (made->result != pipeline::IngestResult::gridded) continue;
-        spdlog::info("missing grid {} {}: made again from {}", grid.station, format_utc(grid.time),
-                     printable(grid.raw.native()));
+        if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
+        spdlog::info("missing grid {} {}: made again from {}", grid.names.front().domain,
+                     format_utc(grid.time), printable(grid.raw.native()));
+    }
+    refill_frames();
+}
+
+// After the partials, of which they are made.
+void Caretaker::refill_frames() {
+    const auto missing = mender_.missing_frames(times_.refill);
+    if (!missing) return log_problem("cannot look for missing frames", missing.error());
+    for (const cache::GridName& frame : *missing) {
+        if (!pause({})) return;
+        const auto made = mender_.make(frame);
+        if (!made) return log_problem("cannot make a missing frame", made.error());
+        if (!*made) continue;
+        spdlog::info("missing frame {} {}: made again from {}", frame.domain,
+                     format_utc(frame.time), **made);
     }
 }
 

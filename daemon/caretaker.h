@@ -40,6 +40,7 @@ class Caretaker {
     // True when all were looked at.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
+    void refill_frames();
     void mend(const cache::StoreEntry& entry, pipeline::MendDepth depth);
     // Waits so long, and then until there is nothing else to do; false when it is to end.
     bool pause(std::chrono::milliseconds least);
