@@ -14,6 +14,7 @@
 #include "cli/grid_request.h"
 #include "cli/held_out.h"
 #include "cli/ladder_markdown.h"
+#include "cli/site_pairs.h"
 #include "cli/stopwatch.h"
 #include "cli/truth_errors.h"
 #include "cli/volume_source.h"
@@ -32,6 +33,7 @@ struct AccuracyOptions {
     int rounds = 3;
     bool markdown = false;
     bool held_out = false;
+    bool compare_sites = false;
 
     // Three files can only be a sequence.
     [[nodiscard]] bool is_over_time() const { return held_out || grid.files.size() > 1; }
@@ -159,8 +161,22 @@ Result<Measured> measure(const Subject& subject, const GridRequest& request,
     return measured;
 }
 
+Status check_site_options(const AccuracyOptions& options) {
+    if (options.grid.files.size() < 2 || options.held_out || !options.scene.empty() ||
+        !options.plot.empty()) {
+        return fail(ErrorCode::bad_argument,
+                    "--compare-sites takes two FILEs or more, of different sites, and neither "
+                    "--scene, --plot nor --held-out");
+    }
+    if (options.grid.json && options.markdown) {
+        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+    }
+    return {};
+}
+
 Status check_options(AccuracyOptions& options) {
     const std::size_t files = options.grid.files.size();
+    if (options.compare_sites) return check_site_options(options);
     const bool sensible = options.scene.empty() ? files == 1 || files >= 3 : files == 0;
     if (!sensible) {
         return fail(ErrorCode::bad_argument,
@@ -214,9 +230,12 @@ int run_accuracy(AccuracyOptions options) {
     if (auto sound = check_options(options); !sound) return report_error(sound.error());
     const auto request = parse_request(options.grid);
     if (!request) return report_error(request.error());
-    if (options.is_over_time()) return run_over_time(options, *request);
+    if (options.is_over_time() && !options.compare_sites) return run_over_time(options, *request);
     const auto effects = parse_effects(options.effects, request->moment);
     if (!effects) return report_error(effects.error());
+    if (options.compare_sites) {
+        return run_site_pairs(options.grid, *request, *effects, options.markdown);
+    }
     const accuracy::ValueUnit unit = grid::value_unit_of(request->moment);
     const auto subject = load_subject(options, *request);
     if (!subject) return report_error(subject.error());
@@ -256,10 +275,13 @@ Command add_accuracy(CLI::App& app) {
         app.add_subcommand("accuracy", "Show what accuracy costs in time, rung by rung");
     command->add_option("FILE", options->grid.files,
                         "One Level II file; or three or more of one site, of which each is made "
-                        "again from its neighbours in time");
+                        "again from its neighbours in time; or, with --compare-sites, of several");
     command->add_flag("--held-out", options->held_out,
                       "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
                       "the repeats beside it; of a scene: its second volume");
+    command->add_flag("--compare-sites", options->compare_sites,
+                      "Compare sites that overlap: bias, azimuth, elevation and clock of each "
+                      "pair; of a site with two FILEs the motion of the weather is known");
     command->add_option("--scene", options->scene,
                         "A simulated scene instead; its truth is compared with too");
     add_spec_options(*command, options->grid);

@@ -17,7 +17,6 @@ namespace stormcellar::cli {
 namespace {
 
 constexpr double beyond_sites_m = 230'000;  // what a mosaic shows about its outermost sites
-constexpr std::size_t kept_geometries = 4;
 
 // The middle of the box that holds the sites, by the shorter way round the earth.
 std::array<double, 2> middle_of(const std::vector<grid::SitePosition>& sites) {
@@ -220,33 +219,49 @@ Result<MosaicRequest> parse_mosaic(const MosaicOptions& options, std::size_t fil
     return mosaic;
 }
 
+std::vector<pipeline::PartialView> MosaicParts::views() const {
+    std::vector<pipeline::PartialView> views;
+    for (const pipeline::MadePartial& partial : partials)
+        views.push_back({&partial.description, partial.bricks.view()});
+    return views;
+}
+
+Result<MosaicParts> make_parts(const std::vector<std::string>& files, const GridRequest& request,
+                               const EffectRequest& effects, pipeline::GeometryCache& geometries) {
+    MosaicParts parts;
+    const auto sources = load_all(files, request, parts.timings);
+    if (!sources) return pass_on(sources);
+    parts.sites = sites_of(*sources);
+    auto spec = spec_of(parts.sites, request);
+    if (!spec) return pass_on(spec);
+    parts.spec = std::move(*spec);
+    Stopwatch watch;
+    auto partials = grid_all(files, *sources, parts.spec, request, effects, geometries);
+    if (!partials) return pass_on(partials);
+    parts.partials = std::move(*partials);
+    parts.timings.grid_s = watch.lap_s();
+    parts.instant = request.frame_time.value_or(instant_of(parts.views()));
+    return parts;
+}
+
 Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files, const GridRequest& request,
                                const MosaicRequest& mosaic, const EffectRequest& effects) {
+    pipeline::GeometryCache geometries(mosaic_geometries);
+    const auto parts = make_parts(files, request, effects, geometries);
+    if (!parts) return pass_on(parts);
     MadeMosaic made;
-    const auto sources = load_all(files, request, made.timings);
-    if (!sources) return pass_on(sources);
-    const std::vector<grid::SitePosition> sites = sites_of(*sources);
-    const auto spec = spec_of(sites, request);
-    if (!spec) return pass_on(spec);
+    made.timings = parts->timings;
     Stopwatch watch;
-    pipeline::GeometryCache geometries(kept_geometries);
-    const auto partials = grid_all(files, *sources, *spec, request, effects, geometries);
-    if (!partials) return pass_on(partials);
-    made.timings.grid_s = watch.lap_s();
-
-    std::vector<pipeline::PartialView> views;
-    for (const pipeline::MadePartial& partial : *partials)
-        views.push_back({&partial.description, partial.bricks.view()});
     pipeline::FrameOptions options;
     options.overlap = mosaic.overlap;
     options.time = mosaic.time;
     options.threads = request.threads;
     if (!request.frame_time) options.greatest_gap = std::chrono::hours{24 * 365 * 100};
-    const UtcTime instant = request.frame_time.value_or(instant_of(views));
-    const auto frame = pipeline::make_frame(*spec, views, instant, options, geometries);
+    const auto frame =
+        pipeline::make_frame(parts->spec, parts->views(), parts->instant, options, geometries);
     if (!frame) return pass_on(frame);
     made.grid = dense_of(*frame);
-    note_missing(sites, made.grid, made.grid.provenance.notes);
+    note_missing(parts->sites, made.grid, made.grid.provenance.notes);
     made.timings.merge_s = watch.lap_s();
     return made;
 }

@@ -34,6 +34,26 @@ struct MosaicTimings {
     double read_s = 0, decode_s = 0, grid_s = 0, merge_s = 0;
 };
 
+// How many geometries of sites are kept at once.
+inline constexpr std::size_t mosaic_geometries = 4;
+
+// What the files show, each on its site's window of one grid.
+struct MosaicParts {
+    grid::GridSpec spec;
+    std::vector<grid::SitePosition> sites;
+    std::vector<pipeline::MadePartial> partials;
+    UtcTime instant;  // what it is made for
+    MosaicTimings timings;
+
+    [[nodiscard]] std::vector<pipeline::PartialView> views() const;  // valid while this lives
+};
+// Grid and instant as make_mosaic() has them. Errors: those of reading, decoding and gridding;
+// bad_argument for a site that sees nothing of the grid.
+[[nodiscard]] Result<MosaicParts> make_parts(const std::vector<std::string>& files,
+                                             const GridRequest& request,
+                                             const EffectRequest& effects,
+                                             pipeline::GeometryCache& geometries);
+
 struct MadeMosaic {
     grid::Grid grid;
     MosaicTimings timings;
