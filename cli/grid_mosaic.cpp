@@ -149,6 +149,14 @@ grid::Grid dense_of(const pipeline::MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
+    // Where no site sees a cell both are 0, as to_dense() leaves what has no value.
+    if (frame.mosaic.counts) {
+        const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
+        grid.site_counts.assign(counts.values.begin(), counts.values.end());
+    }
+    if (frame.mosaic.weights) {
+        grid.site_weights = std::move(grid::to_dense(frame.mosaic.weights->view()).values);
+    }
     return grid;
 }
 
@@ -190,6 +198,8 @@ Result<MosaicRequest> parse_mosaic(const MosaicOptions& options, std::size_t fil
     mosaic.overlap.overlap = grid::default_overlap(request.moment);
     mosaic.overlap.averaging = effects.averaging;
     mosaic.overlap.threads = request.threads;
+    mosaic.overlap.counts = request.site_counts;
+    mosaic.overlap.weights = request.site_weights;
     if (!options.overlap.empty()) {
         const auto overlap = grid::overlap_from_name(options.overlap);
         if (!overlap) {
