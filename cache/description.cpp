@@ -30,6 +30,8 @@ enum class RecordKind : std::uint16_t {
     sweep = 15,
     frame = 16,
     audit = 17,
+    frame_part = 18,
+    recipe = 19,
 };
 
 struct RecordHead {
@@ -84,6 +86,27 @@ void append_sweep(std::vector<std::byte>& bytes, const grid::SweepTime& sweep) {
     append_record(bytes, RecordKind::sweep, std::as_bytes(std::span(&stored, 1)));
 }
 
+// As a record holds it; the ICAO follows.
+struct StoredPart {
+    std::int64_t time_ms = 0;
+    std::uint64_t fingerprint = 0;
+    std::int32_t first_x = 0, first_y = 0, nx = 0, ny = 0;
+};
+static_assert(sizeof(StoredPart) == 32);
+
+void append_part(std::vector<std::byte>& bytes, const grid::FramePart& part) {
+    const StoredPart stored{part.time.time_since_epoch().count(),
+                            part.fingerprint,
+                            part.window.first_x,
+                            part.window.first_y,
+                            part.window.nx,
+                            part.window.ny};
+    std::vector<std::byte> contents;
+    append(contents, &stored, 1);
+    append(contents, part.icao.data(), part.icao.size());
+    append_record(bytes, RecordKind::frame_part, contents);
+}
+
 std::string text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -101,6 +124,28 @@ bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     std::memcpy(numbers.data(), bytes.data(), site_numbers_bytes);
     description.sites.push_back(
         {text_of(bytes.subspan(site_numbers_bytes)), numbers[0], numbers[1], numbers[2]});
+    return true;
+}
+
+// Of columns that a grid can have.
+bool is_window(const StoredPart& part) {
+    constexpr std::int32_t most = grid::GridSpec::greatest_side;
+    const auto lies_within = [](std::int32_t first, std::int32_t count) {
+        return first >= 0 && first < most && count >= 1 && count <= most - first;
+    };
+    return lies_within(part.first_x, part.nx) && lies_within(part.first_y, part.ny);
+}
+
+bool read_part(std::span<const std::byte> bytes, GridDescription& description) {
+    StoredPart stored;
+    if (bytes.size() < sizeof stored) return false;
+    std::memcpy(&stored, bytes.data(), sizeof stored);
+    if (!is_window(stored)) return false;
+    description.provenance.parts.push_back(
+        {text_of(bytes.subspan(sizeof stored)),
+         UtcTime{std::chrono::milliseconds{stored.time_ms}},
+         stored.fingerprint,
+         {stored.first_x, stored.first_y, stored.nx, stored.ny}});
     return true;
 }
 
@@ -183,6 +228,10 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
             return read_sweep(contents, description);
         case RecordKind::frame:
             return read_frame(contents, description);
+        case RecordKind::frame_part:
+            return read_part(contents, description);
+        case RecordKind::recipe:
+            return read_number(contents, provenance.recipe);
         case RecordKind::audit:
             return read_audit(contents, provenance.audit);
     }
@@ -227,6 +276,11 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
         const std::array<std::int32_t, 2> frame = {provenance.provisional ? 1 : 0,
                                                    provenance.revision};
         append_record(bytes, RecordKind::frame, std::as_bytes(std::span(frame)));
+    }
+    for (const auto& part : provenance.parts)
+        append_part(bytes, part);
+    if (provenance.recipe != 0) {
+        append_record(bytes, RecordKind::recipe, std::as_bytes(std::span(&provenance.recipe, 1)));
     }
     if (!provenance.audit.empty()) {
         append_record(bytes, RecordKind::audit, std::as_bytes(std::span(provenance.audit)));

@@ -15,6 +15,7 @@
 #include "cli/held_out.h"
 #include "cli/ladder_markdown.h"
 #include "cli/mosaic_accuracy.h"
+#include "cli/site_pairs.h"
 #include "cli/stopwatch.h"
 #include "cli/truth_errors.h"
 #include "cli/volume_source.h"
@@ -33,6 +34,7 @@ struct AccuracyOptions {
     int rounds = 3;
     bool markdown = false;
     bool held_out = false;
+    bool compare_sites = false;
 };
 
 // The volume of a file, or the first one of a simulated scene.
@@ -156,8 +158,22 @@ Result<Measured> measure(const Subject& subject, const GridRequest& request,
     return measured;
 }
 
+Status check_site_options(const AccuracyOptions& options) {
+    if (options.grid.files.size() < 2 || options.held_out || !options.scene.empty() ||
+        !options.plot.empty()) {
+        return fail(ErrorCode::bad_argument,
+                    "--compare-sites takes two FILEs or more, of different sites, and neither "
+                    "--scene, --plot nor --held-out");
+    }
+    if (options.grid.json && options.markdown) {
+        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+    }
+    return {};
+}
+
 Status check_options(AccuracyOptions& options) {
     const std::size_t files = options.grid.files.size();
+    if (options.compare_sites) return check_site_options(options);
     if (options.scene.empty() == (files == 0)) {
         return fail(ErrorCode::bad_argument, "name one FILE or more, or a scene with --scene");
     }
@@ -247,11 +263,19 @@ int run_files(const AccuracyOptions& options, const GridRequest& request) {
     return report_ladder(options, request, subject, {std::move(*rows), {}});
 }
 
+int run_comparison(const AccuracyOptions& options, const GridRequest& request) {
+    const auto effects =
+        parse_effects(options.effects, request.moment, grid::default_overlap(request.moment));
+    if (!effects) return report_error(effects.error());
+    return run_site_pairs(options.grid, request, *effects, options.markdown);
+}
+
 int run_accuracy(AccuracyOptions options) {
     if (auto sound = check_options(options); !sound) return report_error(sound.error());
     const auto request = parse_request(options.grid);
     if (!request) return report_error(request.error());
     if (options.held_out) return run_held_out(options, *request);
+    if (options.compare_sites) return run_comparison(options, *request);
     if (options.grid.files.size() > 1) return run_files(options, *request);
     const auto effects = parse_effects(options.effects, request->moment);
     if (!effects) return report_error(effects.error());
@@ -282,13 +306,16 @@ Command add_accuracy(CLI::App& app) {
         "FILE", options->grid.files,
         "One Level II file; or several of several sites, or of one at a --time: the "
         "steps that make one frame of them; or three or more of one site, of which "
-        "each is made again from its neighbours in time");
+        "each is made again from its neighbours in time; or, with --compare-sites, of several");
     command->add_option("--time", options->grid.time,
                         "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
                         "repeated sweeps is taken");
     command->add_flag("--held-out", options->held_out,
                       "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
                       "the repeats beside it; of a scene: its second volume");
+    command->add_flag("--compare-sites", options->compare_sites,
+                      "Compare sites that overlap: bias, azimuth, elevation and clock of each "
+                      "pair; of a site with two FILEs the motion of the weather is known");
     command->add_option("--scene", options->scene,
                         "A simulated scene instead; its truth is compared with too");
     add_spec_options(*command, options->grid);

@@ -168,6 +168,8 @@ nlohmann::ordered_json describe(const GridOptions& options, const grid::Grid& gr
     for (const grid::Detail detail : grid::all_details) {
         if (grid.details.set().has(detail)) json["fields"].push_back(grid::detail_name(detail));
     }
+    if (!grid.site_counts.empty()) json["fields"].push_back("counts");
+    if (!grid.site_weights.empty()) json["fields"].push_back("weights");
     json["method"] = grid.provenance.method;
     json["beam_model"] = grid.provenance.beam_model;
     json["averaging"] = grid.provenance.averaging;
@@ -228,10 +230,6 @@ Status check_output(const GridOptions& options) {
 Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& mosaic,
                         const GridRequest& request, const EffectRequest& effects,
                         Timings& timings) {
-    if (request.details.any()) {
-        return fail(ErrorCode::bad_argument, "--fields is for one FILE, not {}",
-                    options.files.size());
-    }
     auto made = make_mosaic(options.files, request, mosaic, effects);
     if (!made) return pass_on(made);
     timings.read_s = made->timings.read_s;

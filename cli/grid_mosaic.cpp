@@ -16,7 +16,6 @@ namespace stormcellar::cli {
 namespace {
 
 constexpr double beyond_sites_m = 230'000;  // what a mosaic shows about its outermost sites
-constexpr std::size_t kept_geometries = 4;
 
 // The middle of the box that holds the sites, by the shorter way round the earth.
 std::array<double, 2> middle_of(const std::vector<grid::SitePosition>& sites) {
@@ -95,23 +94,6 @@ std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& source
     return sites;
 }
 
-Result<std::vector<pipeline::MadePartial>> grid_all(const MosaicSources& sources,
-                                                    const GridRequest& request,
-                                                    const EffectRequest& effects,
-                                                    pipeline::GeometryCache& geometries) {
-    std::vector<pipeline::MadePartial> partials;
-    for (const pipeline::SceneVolume& volume : sources.scene_volumes()) {
-        const auto choice =
-            pipeline::mosaic_choice(effects.chain, default_of(effects, sources.spec, volume.site));
-        auto made = pipeline::make_partials(
-            {&volume, 1}, sources.spec,
-            pipeline::with_choice(partial_options(request, effects), choice), geometries);
-        if (!made) return pass_on(made);
-        partials.push_back(std::move(made->front()));
-    }
-    return partials;
-}
-
 grid::Grid dense_of(const pipeline::MosaicFrame& frame) {
     grid::Grid grid = grid::to_dense(frame.mosaic.cells.view());
     grid.moment = frame.description.moment;
@@ -121,6 +103,14 @@ grid::Grid dense_of(const pipeline::MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
+    // Where no site sees a cell both are 0, as to_dense() leaves what has no value.
+    if (frame.mosaic.counts) {
+        const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
+        grid.site_counts.assign(counts.values.begin(), counts.values.end());
+    }
+    if (frame.mosaic.weights) {
+        grid.site_weights = std::move(grid::to_dense(frame.mosaic.weights->view()).values);
+    }
     return grid;
 }
 
@@ -161,6 +151,8 @@ Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const Eff
     mosaic.moment = request.moment;
     mosaic.overlap = grid::default_overlap(request.moment);
     mosaic.threads = request.threads;
+    mosaic.counts = request.site_counts;
+    mosaic.weights = request.site_weights;
     if (!options.overlap.empty()) {
         const auto overlap = grid::overlap_from_name(options.overlap);
         if (!overlap) {
@@ -211,6 +203,23 @@ Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
     return sources;
 }
 
+Result<std::vector<pipeline::MadePartial>> grid_sources(const MosaicSources& sources,
+                                                        const GridRequest& request,
+                                                        const EffectRequest& effects,
+                                                        pipeline::GeometryCache& geometries) {
+    std::vector<pipeline::MadePartial> partials;
+    for (const pipeline::SceneVolume& volume : sources.scene_volumes()) {
+        const auto choice =
+            pipeline::mosaic_choice(effects.chain, default_of(effects, sources.spec, volume.site));
+        auto made = pipeline::make_partials(
+            {&volume, 1}, sources.spec,
+            pipeline::with_choice(partial_options(request, effects), choice), geometries);
+        if (!made) return pass_on(made);
+        partials.push_back(std::move(made->front()));
+    }
+    return partials;
+}
+
 Result<pipeline::MosaicScene> mosaic_scene(const MosaicSources& sources, const GridRequest& request,
                                            const grid::MosaicOptions& overlap,
                                            const EffectRequest& effects) {
@@ -229,8 +238,8 @@ Result<pipeline::MosaicFrame> frame_plainly(const MosaicSources& sources,
                                             const grid::MosaicOptions& overlap,
                                             const EffectRequest& effects, MosaicTimings& timings) {
     Stopwatch watch;
-    pipeline::GeometryCache geometries(kept_geometries);
-    const auto partials = grid_all(sources, request, effects, geometries);
+    pipeline::GeometryCache geometries(mosaic_geometries);
+    const auto partials = grid_sources(sources, request, effects, geometries);
     if (!partials) return pass_on(partials);
     timings.grid_s = watch.lap_s();
     const auto views = pipeline::views_of(*partials);

@@ -34,6 +34,9 @@ struct MosaicTimings {
     double read_s = 0, decode_s = 0, plan_s = 0, grid_s = 0, merge_s = 0;
 };
 
+// How many geometries of sites are kept at once.
+inline constexpr std::size_t mosaic_geometries = 4;
+
 // The volumes of a mosaic and the grid that holds them.
 struct MosaicSources {
     std::vector<SourceVolume> volumes;
@@ -46,6 +49,12 @@ struct MosaicSources {
 };
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
+
+// One a volume, gridded the default way as the effects' settings change it.
+// Errors name the file: those of gridding; bad_argument for a site that sees nothing of the grid.
+[[nodiscard]] Result<std::vector<pipeline::MadePartial>> grid_sources(
+    const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
+    pipeline::GeometryCache& geometries);
 
 // What the accuracy planner measures on. The sources must outlive it.
 [[nodiscard]] Result<pipeline::MosaicScene> mosaic_scene(const MosaicSources& sources,

@@ -179,32 +179,52 @@ Result<level2::Moment> parse_moment(const std::string& name) {
                 fmt::join(names, " "), name);
 }
 
-Result<grid::DetailSet> parse_fields(const std::string& text) {
-    grid::DetailSet set;
-    if (text.empty()) return set;
+constexpr std::string_view counts_field = "counts";
+constexpr std::string_view weights_field = "weights";
+
+// Adds one of --fields; false where there is none of that name.
+bool add_field(std::string_view name, bool mosaic, GridRequest& request) {
+    const bool all = name == "all";
+    request.site_counts = request.site_counts || name == counts_field || (all && mosaic);
+    request.site_weights = request.site_weights || name == weights_field || (all && mosaic);
+    const auto detail = grid::detail_from_name(name);
+    for (const grid::Detail known : grid::all_details) {
+        if (detail == known || (all && !mosaic)) request.details.add(known);
+    }
+    return all || detail || name == counts_field || name == weights_field;
+}
+
+Status parse_fields(const GridOptions& options, GridRequest& request) {
+    const std::string& text = options.fields;
+    if (text.empty()) return {};
+    const bool mosaic = options.files.size() > 1;
     for (std::size_t from = 0; from <= text.size();) {
         const std::size_t to = std::min(text.find(',', from), text.size());
         const std::string name = text.substr(from, to - from);
         from = to + 1;
-        const auto detail = grid::detail_from_name(name);
-        if (!detail && name != "all") {
-            std::vector<std::string_view> names;
-            for (const grid::Detail known : grid::all_details)
-                names.push_back(grid::detail_name(known));
-            return fail(ErrorCode::bad_argument, "--fields takes any of {} or all, not '{}'",
-                        fmt::join(names, ", "), name);
-        }
-        for (const grid::Detail known : grid::all_details) {
-            if (!detail || known == *detail) set.add(known);
-        }
+        if (add_field(name, mosaic, request)) continue;
+        std::vector<std::string_view> names;
+        for (const grid::Detail known : grid::all_details)
+            names.push_back(grid::detail_name(known));
+        return fail(ErrorCode::bad_argument,
+                    "--fields takes any of {} or all, of several FILEs {}, {} or all, not '{}'",
+                    fmt::join(names, ", "), counts_field, weights_field, name);
     }
-    return set;
+    if (mosaic && request.details.any()) {
+        return fail(ErrorCode::bad_argument,
+                    "--fields {}: what tells of single gates is for one "
+                    "FILE; of several there are {} and {}",
+                    text, counts_field, weights_field);
+    }
+    if (!mosaic && (request.site_counts || request.site_weights)) {
+        return fail(ErrorCode::bad_argument, "--fields {}: {} and {} are for several FILEs", text,
+                    counts_field, weights_field);
+    }
+    return {};
 }
 
 Status parse_beside(const GridOptions& options, GridRequest& request) {
-    const auto details = parse_fields(options.fields);
-    if (!details) return pass_on(details);
-    request.details = *details;
+    if (Status done = parse_fields(options, request); !done) return done;
     if (options.time.empty()) return {};
     const auto time = parse_utc(options.time, now_utc());
     if (!time) return fail(time.error().code, "--time: {}", time.error().message);
@@ -307,7 +327,8 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
     app.add_option(
         "--fields", options.fields,
         "Beside the value, any of age (s), height_offset (m above the nearest beam), "
-        "distance (m to the nearest gate), weight (share seen), e.g. age,weight; or all");
+        "distance (m to the nearest gate), weight (share seen), e.g. age,weight; or all. Of "
+        "several FILEs: counts (sites that see a cell), weights (the sum of theirs)");
 }
 
 void add_spec_options(CLI::App& app, GridOptions& options) {

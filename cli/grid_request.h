@@ -54,7 +54,9 @@ struct GridRequest {
     std::vector<double> levels_m;          // empty: those of grid::default_spec()
     level2::Moment moment = level2::Moment::ref;
     std::optional<UtcTime> frame_time;  // sweeps are then the nearest in time to it
-    grid::DetailSet details;
+    grid::DetailSet details;            // of one file
+    bool site_counts = false;           // of several files
+    bool site_weights = false;
     int threads = 1;
 };
 

@@ -1,5 +1,6 @@
 #include "daemon/caretaker.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -23,14 +24,8 @@ void log_problem(std::string_view what, const Error& error) {
 
 }  // namespace
 
-Caretaker::Caretaker(catalog::Catalog& catalog, const cache::Store& store,
-                     pipeline::CacheMender& mender, CareTimes times, std::function<bool()> is_idle)
-    : catalog_(catalog),
-      store_(store),
-      mender_(mender),
-      times_(times),
-      is_idle_(std::move(is_idle)),
-      thread_([this] { run(); }) {}
+Caretaker::Caretaker(CareOf of, CareTimes times, CareLinks links)
+    : of_(of), times_(times), links_(std::move(links)), thread_([this] { run(); }) {}
 
 Caretaker::~Caretaker() {
     {
@@ -45,9 +40,34 @@ bool Caretaker::pause(std::chrono::milliseconds least) {
     std::unique_lock lock(mutex_);
     const auto stopped = [this] { return stopping_; };
     if (changed_.wait_for(lock, least, stopped)) return false;
-    while (!is_idle_()) {
+    while (!links_.is_idle()) {
         if (changed_.wait_for(lock, look_again, stopped)) return false;
     }
+    return true;
+}
+
+bool Caretaker::rest(std::chrono::milliseconds least) {
+    const auto until = std::chrono::steady_clock::now() + least;
+    while (true) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+        if (!pause(std::clamp(left, std::chrono::milliseconds{0}, times_.between_looks))) {
+            return false;
+        }
+        if (!compare_sites()) return false;
+        if (std::chrono::steady_clock::now() >= until) return true;
+    }
+}
+
+bool Caretaker::compare_sites() {
+    if (std::chrono::steady_clock::now() < next_look_) return true;
+    while (true) {
+        if (!pause({})) return false;
+        auto report = of_.sites.compare_next();
+        if (!report || !*report) break;  // of a cache that cannot be read the rounds tell
+        links_.compared(std::move(**report));
+    }
+    next_look_ = std::chrono::steady_clock::now() + times_.between_looks;
     return true;
 }
 
@@ -60,7 +80,7 @@ void Caretaker::run() {
         do {
             refill();
             if (!check_grids(MendDepth::all, times_.between_grids)) return;
-        } while (pause(times_.between_rounds));
+        } while (rest(times_.between_rounds));
     } catch (const std::exception& error) {
         spdlog::error("grids are not looked after any more: {}", error.what());
     }
@@ -68,32 +88,32 @@ void Caretaker::run() {
 
 // What was mended is logged by the service, which then scans for the files.
 void Caretaker::examine_databases() {
-    const auto stations = catalog_.station_names();
+    const auto stations = of_.catalog.station_names();
     if (!stations) return log_problem("cannot examine the catalog", stations.error());
     for (const std::string& station : *stations) {
         if (station.empty()) continue;  // met by every file anyway
         if (!pause({})) return;
-        if (const Status sound = catalog_.examine(station); !sound) {
+        if (const Status sound = of_.catalog.examine(station); !sound) {
             log_problem("cannot mend a database", sound.error());
         }
     }
 }
 
 bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) {
-    const auto domains = store_.domains();
+    const auto domains = of_.store.domains();
     if (!domains) {
         log_problem("cannot look into the cache", domains.error());
         return true;
     }
     for (const std::string& domain : *domains) {
         for (const level2::Moment moment : level2::all_moments) {
-            const auto entries = store_.list(domain, moment, std::nullopt, std::nullopt);
+            const auto entries = of_.store.list(domain, moment, std::nullopt, std::nullopt);
             if (!entries) {
                 log_problem("cannot look into the cache", entries.error());
                 continue;
             }
             for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry) {
-                if (!pause(between)) return false;
+                if (!rest(between)) return false;
                 mend(*entry, depth);
             }
         }
@@ -102,7 +122,7 @@ bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) 
 }
 
 void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
-    const auto mended = mender_.mend(entry, depth);
+    const auto mended = of_.mender.mend(entry, depth);
     if (!mended) return log_problem("cannot mend a damaged grid", mended.error());
     const std::string reason = printable(mended->reason);
     switch (mended->condition) {
@@ -110,11 +130,11 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
             break;
         case GridCondition::made_again:
             spdlog::warn("damaged grid {}: dropped, and made again from {}", reason,
-                         printable(mended->raw.native()));
+                         printable(mended->from));
             break;
         case GridCondition::dropped:
-            spdlog::warn("damaged grid {}: dropped; it cannot be made again, no raw file is left",
-                         reason);
+            spdlog::warn("damaged grid {}: dropped; it cannot be made again: {}", reason,
+                         printable(mended->why_not));
             break;
         case GridCondition::left_alone:
             spdlog::warn("grid {}: cannot be checked", reason);
@@ -124,15 +144,30 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
 
 void Caretaker::refill() {
     if (times_.refill <= std::chrono::milliseconds{0}) return;
-    const auto missing = mender_.missing(times_.refill);
+    const auto missing = of_.mender.missing(times_.refill);
     if (!missing) return log_problem("cannot look for missing grids", missing.error());
     for (const pipeline::MissingGrid& grid : *missing) {
         if (!pause({})) return;
-        const auto made = mender_.make(grid);
+        const auto made = of_.mender.make(grid);
         if (!made) return log_problem("cannot make a missing grid", made.error());
-        if (made->result != pipeline::IngestResult::gridded) continue;
-        spdlog::info("missing grid {} {}: made again from {}", grid.station, format_utc(grid.time),
-                     printable(grid.raw.native()));
+        if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
+        spdlog::info("missing grid {} {}: made again from {}", grid.names.front().domain,
+                     format_utc(grid.time), printable(grid.raw.native()));
+    }
+    refill_frames();
+}
+
+// After the partials, of which they are made.
+void Caretaker::refill_frames() {
+    const auto missing = of_.mender.missing_frames(times_.refill);
+    if (!missing) return log_problem("cannot look for missing frames", missing.error());
+    for (const cache::GridName& frame : *missing) {
+        if (!pause({})) return;
+        const auto made = of_.mender.make(frame);
+        if (!made) return log_problem("cannot make a missing frame", made.error());
+        if (!*made) continue;
+        spdlog::info("missing frame {} {}: made again from {}", frame.domain,
+                     format_utc(frame.time), **made);
     }
 }
 

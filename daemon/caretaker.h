@@ -3,10 +3,11 @@
 // At the start: every database is examined, every grid's header is checked, and the newest grids
 // that are missing are made again. Then, while there is nothing else to do, every grid is read and
 // verified, one a second; an hour after the last one it begins again. What is damaged is mended
-// (pipeline/mend_cache.h) and named in the log. Files that come go first: nothing begins here while
-// jobs wait.
-// Thread contract: `is_idle` is called from the thread and must be safe to call from it; the
-// destructor waits for what has begun (one grid).
+// (pipeline/mend_cache.h) and named in the log. Between grids, sites that overlap are compared
+// (pipeline/site_watch.h) as frames of mosaics become complete. Files that come go first: nothing
+// begins here while jobs wait.
+// Thread contract: what CareLinks holds is called from the thread and must be safe to call from it;
+// the destructor waits for what has begun (one grid, one pair of sites).
 #pragma once
 
 #include <chrono>
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "pipeline/mend_cache.h"
+#include "pipeline/site_watch.h"
 
 namespace stormcellar::daemon {
 
@@ -23,13 +25,25 @@ struct CareTimes {
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // the newest so long; 0: none
     std::chrono::milliseconds between_grids{1000};
     std::chrono::milliseconds between_rounds{std::chrono::hours{1}};
+    std::chrono::milliseconds between_looks{5000};  // at the frames, for sites to compare
+};
+
+// What it works on; all must outlive it.
+struct CareOf {
+    catalog::Catalog& catalog;
+    const cache::Store& store;
+    pipeline::CacheMender& mender;
+    pipeline::SiteWatch& sites;
+};
+
+struct CareLinks {
+    std::function<bool()> is_idle;
+    std::function<void(pipeline::PairReport)> compared;
 };
 
 class Caretaker {
   public:
-    // All must outlive it.
-    Caretaker(catalog::Catalog& catalog, const cache::Store& store, pipeline::CacheMender& mender,
-              CareTimes times, std::function<bool()> is_idle);
+    Caretaker(CareOf of, CareTimes times, CareLinks links);
     Caretaker(const Caretaker&) = delete;
     Caretaker& operator=(const Caretaker&) = delete;
     ~Caretaker();
@@ -40,15 +54,19 @@ class Caretaker {
     // True when all were looked at.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
+    void refill_frames();
     void mend(const cache::StoreEntry& entry, pipeline::MendDepth depth);
+    // Compares the sites that are due, if it is time to look; false when it is to end.
+    bool compare_sites();
     // Waits so long, and then until there is nothing else to do; false when it is to end.
     bool pause(std::chrono::milliseconds least);
+    // The same, and compares sites meanwhile.
+    bool rest(std::chrono::milliseconds least);
 
-    catalog::Catalog& catalog_;
-    const cache::Store& store_;
-    pipeline::CacheMender& mender_;
+    CareOf of_;
     CareTimes times_;
-    std::function<bool()> is_idle_;
+    CareLinks links_;
+    std::chrono::steady_clock::time_point next_look_{};
     std::mutex mutex_;
     std::condition_variable changed_;
     bool stopping_ = false;  // guarded by mutex_

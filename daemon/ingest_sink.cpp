@@ -9,7 +9,8 @@ IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Confi
       catalog_(std::move(catalog)),
       store_(std::move(store)),
       ingestor_(catalog_, store_, config.ingest),
-      mender_(catalog_, store_, ingestor_, config.ingest.moment) {}
+      mender_(catalog_, store_, ingestor_, config.ingest.moment),
+      site_watch_(store_, config.ingest.domains) {}
 
 Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
     auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog");

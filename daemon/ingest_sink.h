@@ -7,6 +7,7 @@
 #include "daemon/config.h"
 #include "daemon/sink.h"
 #include "pipeline/mend_cache.h"
+#include "pipeline/site_watch.h"
 
 namespace stormcellar::daemon {
 
@@ -24,6 +25,7 @@ class IngestSink final : public Sink {
     [[nodiscard]] catalog::Catalog& catalog() { return catalog_; }
     [[nodiscard]] const cache::Store& store() const { return store_; }
     [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }
+    [[nodiscard]] pipeline::SiteWatch& site_watch() { return site_watch_; }
 
   private:
     IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config);
@@ -33,6 +35,7 @@ class IngestSink final : public Sink {
     cache::Store store_;
     pipeline::Ingestor ingestor_;
     pipeline::CacheMender mender_;
+    pipeline::SiteWatch site_watch_;
 };
 
 }  // namespace stormcellar::daemon

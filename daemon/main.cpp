@@ -112,8 +112,11 @@ int serve(const Config& config, const std::filesystem::path& file) {
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
     Service service(config, file, {**sink, *events, notifier, real_file_system(), &*signals});
-    const Caretaker keeper((*sink)->catalog(), (*sink)->store(), (*sink)->mender(),
-                           {.refill = config.refill}, [&] { return service.is_idle(); });
+    const Caretaker keeper(
+        {(*sink)->catalog(), (*sink)->store(), (*sink)->mender(), (*sink)->site_watch()},
+        {.refill = config.refill},
+        {[&] { return service.is_idle(); },
+         [&](pipeline::PairReport report) { service.sites_compared(std::move(report)); }});
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;

@@ -105,6 +105,20 @@ void Reporter::report_directory(const Error& error, SteadyTime now) {
         error.code == ErrorCode::no_space ? "; until then files there are found by rescans" : "");
 }
 
+// Where the air is clear nothing can be told: that is no news, hour by hour.
+void Reporter::report_sites(const pipeline::PairReport& report) {
+    const std::string line =
+        fmt::format("sites of {} at {}: {}", printable(report.domain), format_utc(report.instant),
+                    pipeline::describe(report.found));
+    if (pipeline::tells_anything(report.found)) {
+        spdlog::info("{}", line);
+    } else {
+        spdlog::debug("{}", line);
+    }
+    for (const std::string& fault : report.faults)
+        spdlog::warn("sites of {}: {}", printable(report.domain), fault);
+}
+
 void Reporter::report_held_back(SteadyTime now) {
     log_held_back(rejected_, now, "files rejected or with nothing to grid");
     log_held_back(failures_, now, "failures to store a file");

@@ -7,6 +7,7 @@
 
 #include "daemon/log.h"
 #include "daemon/worker_pool.h"
+#include "pipeline/site_watch.h"
 
 namespace stormcellar::daemon {
 
@@ -18,6 +19,8 @@ class Reporter {
     void report(const Finished& finished, SteadyTime now);
     // A directory that cannot be watched or read.
     void report_directory(const Error& error, SteadyTime now);
+    // What two sites of a mosaic say otherwise than each other: a warning for each fault.
+    static void report_sites(const pipeline::PairReport& report);
     // Logs what was held back; call now and then.
     void report_held_back(SteadyTime now);
 

@@ -217,6 +217,7 @@ void Service::keep_house() {
         spdlog::warn("the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
     report_repairs();
+    report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         reporter_.report_directory(problem, now);
     reporter_.report_held_back(now);
@@ -233,6 +234,27 @@ void Service::report_repairs() {
     for (const std::string& line : repairs)
         spdlog::error("{}", printable(line));
     if (!repairs.empty()) intake_.forget_seen();
+}
+
+void Service::sites_compared(pipeline::PairReport report) {
+    {
+        const std::scoped_lock lock(compared_mutex_);
+        compared_.push_back(std::move(report));
+    }
+    wake_up_.set();
+}
+
+void Service::report_sites() {
+    std::vector<pipeline::PairReport> reports;
+    {
+        const std::scoped_lock lock(compared_mutex_);
+        reports.swap(compared_);
+    }
+    for (pipeline::PairReport& report : reports) {
+        Reporter::report_sites(report);
+        status_.add(std::move(report));
+        status_file_.changed();
+    }
 }
 
 Stopped Service::stop() {

@@ -6,13 +6,15 @@
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
 // The cache is brought within its budgets every few seconds, in a thread of its own.
-// Thread contract: run() once; request_stop() from any thread.
+// Thread contract: run() once; request_stop(), is_idle() and sites_compared() from any thread.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
 #include <future>
+#include <mutex>
 #include <optional>
+#include <vector>
 
 #include "base/file_system.h"
 #include "daemon/cache_keeper.h"
@@ -27,6 +29,7 @@
 #include "daemon/wake_up.h"
 #include "daemon/watcher.h"
 #include "daemon/worker_pool.h"
+#include "pipeline/site_watch.h"
 
 namespace stormcellar::daemon {
 
@@ -55,6 +58,8 @@ class Service {
     void request_stop();
     // Whether no file waits, for work that may wait; from any thread.
     [[nodiscard]] bool is_idle() const { return idle_; }
+    // What two sites say otherwise than each other, for the log and the status; from any thread.
+    void sites_compared(pipeline::PairReport report);
 
   private:
     bool start();
@@ -71,6 +76,7 @@ class Service {
     void start_jobs();
     void keep_house();
     void report_repairs();
+    void report_sites();
     [[nodiscard]] SteadyTime next_time() const;
 
     Config config_;
@@ -85,6 +91,8 @@ class Service {
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
     std::atomic<bool> idle_ = false;
+    std::mutex compared_mutex_;
+    std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     bool drop_missing_ = false;
     SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
     WorkerPool pool_;                    // last: its threads use what stands above

@@ -39,6 +39,27 @@ nlohmann::ordered_json json_of(const std::optional<cache::StoreUsage>& usage) {
             {"not_kept", usage->not_kept}};
 }
 
+nlohmann::ordered_json json_of(const grid::Estimate& estimate) {
+    if (!estimate.untold.empty()) return {{"untold", estimate.untold}};
+    return {{"value", estimate.value}, {"standard_error", estimate.standard_error}};
+}
+
+nlohmann::ordered_json json_of(const pipeline::PairReport& report) {
+    const grid::SiteComparison& found = report.found;
+    return {{"domain", report.domain},
+            {"a", found.a},
+            {"b", found.b},
+            {"time", format_utc(report.instant)},
+            {"bias_db", json_of(found.bias_db)},
+            {"azimuth_deg", json_of(found.azimuth_deg)},
+            {"elevation_deg", json_of(found.elevation_deg)},
+            {"time_s", json_of(found.time_s)},
+            {"cells", found.cells},
+            {"correlation", found.correlation},
+            {"apart_s", found.apart_s},
+            {"faults", report.faults}};
+}
+
 }  // namespace
 
 std::optional<double> latency_of(const Finished& finished) {
@@ -77,6 +98,11 @@ void StatusBook::add(const Finished& finished) {
     const IngestResult result = finished.taken->ingest.result;
     ++results_.at(static_cast<std::size_t>(result));
     if (result == IngestResult::gridded) add_ingested(finished);
+}
+
+void StatusBook::add(pipeline::PairReport report) {
+    const std::array<std::string, 3> key = {report.domain, report.found.a, report.found.b};
+    sites_.insert_or_assign(key, std::move(report));
 }
 
 void StatusBook::add_ingested(const Finished& finished) {
@@ -144,6 +170,9 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
                                        {"grid_s", volume.grid_s},
                                        {"commit_s", volume.commit_s}});
     }
+    document["sites"] = nlohmann::ordered_json::array();
+    for (const auto& [key, report] : sites_)
+        document["sites"].push_back(json_of(report));
     // Texts were made printable; whatever else a name may bring must not end the service.
     return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -20,6 +20,12 @@
 //                  whose close was seen; files found by a scan have none. null values with count 0
 //   volumes        the last 64 ingested files, oldest first: {"file","station","time","grids",
 //                  "latency_s" (null: not seen closing),"read_s","decode_s","grid_s","commit_s"}
+//   sites          pairs of sites that overlap in a mosaic, by domain and names, as they were
+//   compared
+//                  last: {"domain","a","b","time","bias_db","azimuth_deg","elevation_deg","time_s",
+//                  "cells","correlation","apart_s","faults"}; each of the four, of B against A
+//                  (grid/site_comparison.h), is {"value","standard_error"} or, where it could not
+//                  be told, {"untold"}; faults: those that are named, one text each
 // Thread contract: one thread.
 #pragma once
 
@@ -27,6 +33,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +42,7 @@
 #include "base/utc_time.h"
 #include "cache/store.h"
 #include "daemon/worker_pool.h"
+#include "pipeline/site_watch.h"
 
 namespace stormcellar::daemon {
 
@@ -57,6 +65,7 @@ class StatusBook {
     void count_overflow() { ++overflows_; }
     void count_scan(std::size_t directories);
     void set_state(std::string state) { state_ = std::move(state); }
+    void add(pipeline::PairReport report);
     void set_usage(const cache::StoreUsage& usage) { usage_ = usage; }
 
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
@@ -83,6 +92,7 @@ class StatusBook {
     std::optional<cache::StoreUsage> usage_;
     std::deque<double> latencies_;
     std::deque<Volume> volumes_;
+    std::map<std::array<std::string, 3>, pipeline::PairReport> sites_;  // by domain, a, b
 };
 
 // Seconds from the last close that was seen to the end of the job; none when none was seen.

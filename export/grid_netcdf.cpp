@@ -125,6 +125,8 @@ void write_field(NetcdfBuilder& file, const Grid& grid, const Dimensions& size, 
         if (grid.details.set().has(detail))
             beside += fmt::format(" {}", describe_detail(detail, grid).name);
     }
+    if (!grid.site_counts.empty()) beside += " site_count";
+    if (!grid.site_weights.empty()) beside += " site_weight";
     file.text(field, "ancillary_variables", beside);
     const auto values = in_file_order<float>(grid.spec, [&](std::size_t cell) {
         return grid.status[cell] == CellStatus::value ? grid.values[cell] : fill;
@@ -171,6 +173,33 @@ void write_details(NetcdfBuilder& file, const Grid& grid, const Dimensions& size
             return grid.details.at(detail, cell).value_or(fill);
         });
         file.write(variable, std::span(cells));
+    }
+}
+
+// Of a mosaic. Both are known everywhere, and 0 where no site sees a cell.
+void write_overlap(NetcdfBuilder& file, const Grid& grid, const Dimensions& size,
+                   int deflate_level) {
+    if (!grid.site_counts.empty()) {
+        const int count =
+            define_field(file, "site_count", NC_SHORT, size, grid.spec, deflate_level);
+        file.text(count, "long_name", "number of sites that see the cell");
+        file.text(count, "standard_name", "number_of_observations");
+        file.text(count, "units", "1");
+        const auto cells = in_file_order<int>(
+            grid.spec, [&](std::size_t cell) { return static_cast<int>(grid.site_counts[cell]); });
+        file.write(count, std::span(cells));
+    }
+    if (!grid.site_weights.empty()) {
+        const int weight =
+            define_field(file, "site_weight", NC_FLOAT, size, grid.spec, deflate_level);
+        file.text(weight, "long_name", "sum of the weights of the sites that see the cell");
+        file.text(weight, "units", "1");
+        file.text(weight, "comment",
+                  "of each site as the rule of overlap has it: exp(-r^2/L^2) at the arc r from the "
+                  "site for distance-weighted, else 1; within 2^-11, at most 63");
+        const auto cells = in_file_order<float>(
+            grid.spec, [&](std::size_t cell) { return grid.site_weights[cell]; });
+        file.write(weight, std::span(cells));
     }
 }
 
@@ -240,6 +269,11 @@ Status check(const Grid& grid, const GridWriteOptions& options) {
         return fail(ErrorCode::bad_argument, "the grid has details of {} cells for {} cells",
                     grid.details.size(), cells);
     }
+    for (const std::size_t have : {grid.site_counts.size(), grid.site_weights.size()}) {
+        if (have == 0 || have == cells) continue;
+        return fail(ErrorCode::bad_argument,
+                    "the grid has counts or weights of {} cells for {} cells", have, cells);
+    }
     if (options.deflate_level < 0 || options.deflate_level > 9) {
         return fail(ErrorCode::bad_argument, "the deflate level must be 0 to 9, not {}",
                     options.deflate_level);
@@ -260,6 +294,7 @@ Result<std::vector<std::byte>> build(const Grid& grid, const GridWriteOptions& o
     write_field(file, grid, size, options.deflate_level);
     write_status(file, grid, size, options.deflate_level);
     write_details(file, grid, size, options.deflate_level);
+    write_overlap(file, grid, size, options.deflate_level);
     return file.finish();
 }
 

@@ -4,7 +4,9 @@
 // every cell that holds no value; the byte variable `status` keeps the four states apart by
 // flag_values and flag_meanings. Where the grid has details (grid/cell_details.h), they are floats
 // beside it: age (s, from the time coordinate), beam_height_offset and gate_distance (m) and
-// sample_weight (1), _FillValue where nothing is known. The time is the frame time, which is the
+// sample_weight (1), _FillValue where nothing is known. Where a mosaic has them, site_count (short,
+// how many sites see a cell) and site_weight (float, the sum of their weights), 0 where none does.
+// The time is the frame time, which is the
 // start of the volume unless another was asked for. Coordinates time, z, y, x in CF units and the
 // grid mapping of the projection on WGS84 (export/grid_coordinates.h); provenance as global
 // attributes. The file is made in memory and appears whole or not at all (base/file_system.h); the

@@ -33,6 +33,15 @@ struct SweepTime {
     bool operator==(const SweepTime&) const = default;
 };
 
+// One site's volume, as a part of a frame that several make (pipeline/frame_parts.h).
+struct FramePart {
+    std::string icao;
+    UtcTime time;                   // start of the volume: the part's name in time
+    std::uint64_t fingerprint = 0;  // of its cells, its place and its times
+    GridWindow window;              // the columns of the frame on which it lies
+    bool operator==(const FramePart&) const = default;
+};
+
 // Where a grid comes from and how it was made; written into every file and loop.
 struct Provenance {
     std::vector<std::string> source_files;  // names without directories
@@ -52,6 +61,8 @@ struct Provenance {
     // frame.
     bool provisional = false;
     int revision = 0;
+    std::vector<FramePart> parts;   // of a frame: by ICAO, then time; empty: not known, or no frame
+    std::uint64_t recipe = 0;       // of a frame: by which rules the parts became one; 0: not known
     std::vector<SweepTime> sweeps;  // that it is made of, rising; none: of several sites or undated
     std::vector<AuditRow> audit;    // against the gates (grid/audit.h); empty: not audited
 };
@@ -76,6 +87,10 @@ struct Grid {
     std::vector<float> values;       // index by spec.index(); unspecified (0) where not a value
     std::vector<CellStatus> status;  // same shape
     CellDetails details;             // of the same shape, where they were asked for
+    // Of a mosaic, of the same shape where they were asked for, else empty (grid/mosaic.h): how
+    // many sites see a cell, and the sum of their weights. 0 where none does.
+    std::vector<std::uint16_t> site_counts;
+    std::vector<float> site_weights;
 };
 
 }  // namespace stormcellar::grid

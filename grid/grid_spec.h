@@ -90,6 +90,17 @@ struct GridSpec {
     [[nodiscard]] double height_at_center_m() const;
 };
 
+// A rectangle of columns of a grid (grid/grid_window.h).
+struct GridWindow {
+    int first_x = 0;  // columns and rows of the domain
+    int first_y = 0;
+    int nx = 0;
+    int ny = 0;
+    [[nodiscard]] int end_x() const { return first_x + nx; }
+    [[nodiscard]] int end_y() const { return first_y + ny; }
+    bool operator==(const GridWindow&) const = default;
+};
+
 // How long a degree of longitude and of latitude is on WGS84.
 struct DegreeLength {
     double east_m = 0;   // N cos(latitude) per degree; 0 at the poles

@@ -13,16 +13,6 @@
 
 namespace stormcellar::grid {
 
-struct GridWindow {
-    int first_x = 0;  // columns and rows of the domain
-    int first_y = 0;
-    int nx = 0;
-    int ny = 0;
-    [[nodiscard]] int end_x() const { return first_x + nx; }
-    [[nodiscard]] int end_y() const { return first_y + ny; }
-    bool operator==(const GridWindow&) const = default;
-};
-
 // Which columns of a domain a site is gridded on: beyond the last gate of a WSR-88D.
 inline constexpr double site_reach_m = 460000;
 

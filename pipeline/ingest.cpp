@@ -111,6 +111,10 @@ Ingestor::Ingestor(catalog::Catalog& catalog, IngestOptions options)
     : impl_(new Impl(catalog, nullptr, std::move(options))) {}
 Ingestor::~Ingestor() = default;
 
+MosaicKeeper& Ingestor::mosaics() {
+    return impl_->mosaics;
+}
+
 Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string reason,
                                              IngestOutcome outcome) {
     FileFacts rejected = facts;
@@ -196,6 +200,7 @@ Status Ingestor::Impl::keep_mosaics(const FileFacts& facts, const level2::Volume
         outcome.reason = "in no mosaic: " + kept.error().message;
         return {};
     }
+    outcome.partials.insert(outcome.partials.end(), kept->partials.begin(), kept->partials.end());
     if (!kept->problems.empty()) outcome.reason = "left out: " + kept->problems.front();
     outcome.frames.insert(outcome.frames.end(), kept->frames.begin(), kept->frames.end());
     return {};

@@ -54,10 +54,13 @@ struct IngestOutcome {
     std::string reason;    // why rejected, or what is wrong or worth saying; one line
     bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
-    std::vector<std::filesystem::path> frames;  // of mosaics that it changed
+    std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)
+    std::vector<std::filesystem::path> frames;    // of mosaics that it changed
     int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
+
+class MosaicKeeper;
 
 class Ingestor {
   public:
@@ -72,6 +75,8 @@ class Ingestor {
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
     // The same for a file that was settled before: its volumes are gridded again, as they are.
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path);
+
+    [[nodiscard]] MosaicKeeper& mosaics();
 
   private:
     struct Impl;

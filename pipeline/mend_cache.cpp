@@ -5,7 +5,10 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "base/station_table.h"
+#include "grid/grid_window.h"
 #include "pipeline/file_facts.h"
 
 namespace stormcellar::pipeline {
@@ -31,12 +34,20 @@ std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
     return std::nullopt;
 }
 
-// A failed read of an open file is damage, too, but worth nothing to us only where the raw file is
-// there; a failed open may mean that the system has no descriptors left.
-bool is_damage(const Finding& found, bool has_raw) {
+// A failed read of an open file is damage, too, but worth nothing to us only where the grid can be
+// made again; a failed open may mean that the system has no descriptors left.
+bool is_damage(const Finding& found, bool has_source) {
     const ErrorCode code = found.error.code;
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
-           (code == ErrorCode::io && found.opened && has_raw);
+           (code == ErrorCode::io && found.opened && has_source);
+}
+
+bool holds(const std::vector<fs::path>& paths, const fs::path& path) {
+    return std::find(paths.begin(), paths.end(), path) != paths.end();
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 // Whether the catalog knows the file as it stands there now. Its modification time; none if not.
@@ -87,23 +98,110 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
     const auto found = look_at(entry.path, depth);
     // Evicted or replaced meanwhile: nothing is wrong with that.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
-    auto raw = entry.moment == moment_ ? raw_of(entry.domain, entry.time)
-                                       : Result<std::optional<fs::path>>{std::nullopt};
-    if (!raw) return pass_on(raw);
-    MendedGrid mended{GridCondition::left_alone, found->error.message, {}};
-    if (!is_damage(*found, raw->has_value())) return mended;
-
+    const MosaicKeeper& mosaics = ingestor_.mosaics();
+    if (mosaics.find(entry.domain, entry.moment) != nullptr) {
+        if (is_damage(*found, true)) return mend_frame(entry, found->error);
+        return MendedGrid{GridCondition::left_alone, found->error.message, {}, {}};
+    }
+    const std::string group{cache::group_of(entry.domain)};
+    const bool part = cache::is_part(entry.domain);
+    const std::string station = part ? entry.domain.substr(group.size() + 1) : entry.domain;
+    const Domain* domain = part ? mosaics.find(group, entry.moment) : nullptr;
+    const bool wanted =
+        part ? domain != nullptr && domain->takes(station) : entry.moment == moment_;
+    if (!is_damage(*found, wanted)) {
+        return MendedGrid{GridCondition::left_alone, found->error.message, {}, {}};
+    }
+    if (wanted && is_icao(station)) return mend_from_raw(entry, station, found->error);
+    if (found->error.code == ErrorCode::io) {
+        return MendedGrid{GridCondition::left_alone, found->error.message, {}, {}};
+    }
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
-    mended.condition = GridCondition::dropped;
+    return MendedGrid{GridCondition::dropped,
+                      found->error.message,
+                      {},
+                      fmt::format("no {} of {} is configured any more",
+                                  level2::moment_name(entry.moment), entry.domain)};
+}
+
+Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
+                                              const std::string& station, const Error& damage) {
+    const auto raw = raw_of(station, entry.time);
+    if (!raw) return pass_on(raw);
+    if (!*raw && damage.code == ErrorCode::io) {
+        return MendedGrid{GridCondition::left_alone, damage.message, {}, {}};
+    }
+    const Status removed = store_.remove(entry);
+    if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
+    MendedGrid mended{GridCondition::dropped, damage.message, {}, "no raw file of it is left"};
     if (!*raw) return mended;
     const auto outcome = ingestor_.ingest_again(**raw);
     if (!outcome) return pass_on(outcome);
-    const auto& made = outcome->grids;
-    if (std::find(made.begin(), made.end(), entry.path) == made.end()) return mended;
+    if (!holds(outcome->grids, entry.path) && !holds(outcome->partials, entry.path)) {
+        mended.why_not = fmt::format(
+            "{} gives no such grid{}", (*raw)->native(),
+            outcome->reason.empty() ? std::string{} : fmt::format(" ({})", outcome->reason));
+        return mended;
+    }
     mended.condition = GridCondition::made_again;
-    mended.raw = std::move(**raw);
+    mended.from = (*raw)->native();
+    mended.why_not.clear();
     return mended;
+}
+
+// The new frame takes the damaged one's place at once, and counts on from its revision.
+Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const Error& damage) {
+    MendedGrid mended{GridCondition::made_again, damage.message, {}, {}};
+    std::vector<std::string> problems;
+    const auto made =
+        ingestor_.mosaics().make_again({entry.domain, entry.moment, entry.time}, 1, problems);
+    if (made && !made->path.empty()) {
+        mended.from = fmt::format("the partials of {}", joined(made->stations));
+        if (!problems.empty()) mended.from += fmt::format(" (left out: {})", joined(problems));
+        return mended;
+    }
+    const bool no_partials = !made && (made.error().code == ErrorCode::not_found ||
+                                       made.error().code == ErrorCode::bad_argument);
+    if (!made && !no_partials) return pass_on(made);
+    const Status removed = store_.remove(entry);
+    if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
+    mended.condition = GridCondition::dropped;
+    mended.why_not = made ? "it is older than what the cache keeps" : made.error().message;
+    if (!problems.empty()) mended.why_not += fmt::format(" (left out: {})", joined(problems));
+    return mended;
+}
+
+// What the ingestor makes of this station's volumes; partials where it is known to reach.
+std::vector<CacheMender::Series> CacheMender::series_of(const std::string& station) const {
+    std::vector<Series> all = {{station, moment_}};
+    const auto place = find_station(station);
+    if (!place) return all;
+    const grid::SitePosition site{station, place->latitude_deg, place->longitude_deg,
+                                  place->antenna_altitude_m};
+    for (const Domain& domain : ingestor_.mosaics().domains()) {
+        if (!domain.takes(station) || !grid::site_window(domain.spec, site)) continue;
+        for (const level2::Moment moment : domain.moments)
+            all.push_back({domain.name + "." + station, moment});
+    }
+    return all;
+}
+
+Result<std::vector<CacheMender::Standing>> CacheMender::standing_of(const std::string& station,
+                                                                    UtcTime oldest) {
+    std::vector<Standing> all;
+    for (Series& series : series_of(station)) {
+        const auto grids = store_.list(series.domain, series.moment, std::nullopt, std::nullopt);
+        if (!grids) return pass_on(grids);
+        Standing standing{std::move(series), {}, oldest};
+        for (const auto& grid : *grids)
+            standing.times.insert(grid.time);
+        if (!standing.times.empty()) {
+            standing.from = std::max(standing.from, *standing.times.begin());
+        }
+        all.push_back(std::move(standing));
+    }
+    return all;
 }
 
 Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& station,
@@ -112,13 +210,8 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
     auto entries = catalog_.list(station, {{}, now_utc() + most_ahead, false});
     if (!entries) return pass_on(entries);
     if (entries->empty()) return missing;
-    const auto grids = store_.list(station, moment_, std::nullopt, std::nullopt);
-    if (!grids) return pass_on(grids);
-    std::set<UtcTime> standing;
-    for (const auto& grid : *grids)
-        standing.insert(grid.time);
-    UtcTime from = *entries->back().volume.start_time - newest;
-    if (!standing.empty()) from = std::max(from, *standing.begin());
+    const auto standing = standing_of(station, *entries->back().volume.start_time - newest);
+    if (!standing) return pass_on(standing);
 
     const std::span<const CatalogEntry> all = *entries;
     for (std::size_t first = 0; first < all.size();) {
@@ -126,9 +219,17 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
         std::size_t end = first;
         while (end < all.size() && all[end].volume.start_time == time)
             ++end;
-        if (*time >= from && !standing.contains(*time)) {
-            const auto raw = best_of(catalog_, all.subspan(first, end - first));
-            if (raw) missing.push_back({station, *time, *raw});
+        MissingGrid grid{station, *time, {}, {}};
+        for (const Standing& one : *standing) {
+            const cache::GridName name{one.series.domain, one.series.moment, *time};
+            const bool lacks = *time >= one.from && !one.times.contains(*time);
+            if (lacks && !failed_.contains(name)) grid.names.push_back(name);
+        }
+        const auto raw =
+            grid.names.empty() ? std::nullopt : best_of(catalog_, all.subspan(first, end - first));
+        if (raw) {
+            grid.raw = *raw;
+            missing.push_back(std::move(grid));
         }
         first = end;
     }
@@ -151,7 +252,32 @@ Result<std::vector<MissingGrid>> CacheMender::missing(std::chrono::milliseconds 
 }
 
 Result<IngestOutcome> CacheMender::make(const MissingGrid& grid) {
-    return ingestor_.ingest_again(grid.raw);
+    auto outcome = ingestor_.ingest_again(grid.raw);
+    if (!outcome) return outcome;
+    for (const cache::GridName& name : grid.names) {
+        const auto path = store_.path_of(name.domain, name.moment, name.time);
+        const bool made = path && (holds(outcome->grids, *path) || holds(outcome->partials, *path));
+        if (!made) failed_.insert(name);
+    }
+    return outcome;
+}
+
+Result<std::vector<cache::GridName>> CacheMender::missing_frames(std::chrono::milliseconds newest) {
+    auto missing = ingestor_.mosaics().missing_frames(newest);
+    if (!missing) return missing;
+    std::erase_if(*missing, [&](const cache::GridName& name) { return failed_.contains(name); });
+    return missing;
+}
+
+Result<std::optional<std::string>> CacheMender::make(const cache::GridName& frame) {
+    std::vector<std::string> problems;
+    const auto made = ingestor_.mosaics().make_again(frame, 1, problems);
+    if (!made && made.error().code != ErrorCode::not_found) return pass_on(made);
+    if (!made || made->path.empty()) {
+        failed_.insert(frame);
+        return std::optional<std::string>{};
+    }
+    return fmt::format("the partials of {}", joined(made->stations));
 }
 
 }  // namespace stormcellar::pipeline

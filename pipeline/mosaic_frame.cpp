@@ -10,6 +10,7 @@
 #include "grid/audit.h"
 #include "grid/column_geometry.h"
 #include "grid/position_error.h"
+#include "pipeline/frame_parts.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -22,68 +23,82 @@ grid::TimedView timed(const PartialView& partial) {
     return {partial.view, partial.middle(), partial.description->provenance.sweeps};
 }
 
-// One site's grid for the instant: bricks of its own, or a partial as it stands.
-struct SiteGrid {
-    const PartialView* partial = nullptr;  // one of its bracket, for its site
+// What one site gives to a frame: a partial as it stands, or a grid made of two for the instant.
+struct SiteShare {
+    const PartialView* nearest = nullptr;
+    const PartialView* before = nullptr;  // both, or none
+    const PartialView* after = nullptr;
     std::optional<grid::BrickGrid> made;
 
-    [[nodiscard]] grid::BrickView view() const { return made ? made->view() : partial->view; }
+    [[nodiscard]] grid::BrickView view() const { return made ? made->view() : nearest->view; }
+    [[nodiscard]] std::vector<const PartialView*> used() const {
+        if (before == nullptr) return {nearest};
+        return {before, after};
+    }
 };
 
-// Whether a bracket's site is as it stands: the method takes the nearer one untouched.
-const PartialView* nearest_of(const PartialView* before, const PartialView* after,
-                              UtcTime instant) {
-    if (before == nullptr || after == nullptr) return before != nullptr ? before : after;
-    return after->middle() - instant < instant - before->middle() ? after : before;
+// Two windows of one site differ where it moved, codes where the configuration was changed.
+bool is_pair(const PartialView& before, const PartialView& after) {
+    return *before.view.spec == *after.view.spec &&
+           before.view.quantization == after.view.quantization;
 }
 
-// Two windows of one site differ where it moved, codes where the configuration was changed.
-bool is_pair(const PartialView* before, const PartialView* after) {
-    return before != nullptr && after != nullptr && *before->view.spec == *after->view.spec &&
-           before->view.quantization == after->view.quantization;
+// Where the method takes the nearer one untouched, or only one can be had, that stands.
+SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
+                   grid::TimeMethod method) {
+    SiteShare share;
+    if (before == nullptr || after == nullptr) {
+        share.nearest = before != nullptr ? before : after;
+        return share;
+    }
+    const bool later = after->middle() - instant < instant - before->middle();
+    share.nearest = later ? after : before;
+    if (method == grid::TimeMethod::nearest || !is_pair(*before, *after)) return share;
+    share.before = before;
+    share.after = after;
+    return share;
 }
 
 Result<std::optional<grid::MotionField>> motion_between(const PartialView& before,
-                                                        const PartialView& after) {
+                                                        const PartialView& after, int threads) {
+    grid::MotionOptions by;
+    by.threads = threads;
     return grid::estimate_motion(before.view, after.view,
-                                 seconds_between(before.middle(), after.middle()));
+                                 seconds_between(before.middle(), after.middle()), by);
 }
 
-Result<std::optional<grid::MotionField>> motion_of(const PartialView& before,
-                                                   const PartialView& after, level2::Moment moment,
-                                                   const FrameOptions& options) {
-    if (options.time != grid::TimeMethod::advected || moment != level2::Moment::ref) {
-        return std::optional<grid::MotionField>{};
-    }
-    if (options.motions == nullptr) return motion_between(before, after);
-    const auto known = options.motions->find(before.site().icao);
+Result<std::optional<grid::MotionField>> motion_of(const SiteShare& share,
+                                                   const FrameOptions& options, int threads) {
+    const bool moves =
+        options.time == grid::TimeMethod::advected && options.overlap.moment == level2::Moment::ref;
+    if (!moves) return std::optional<grid::MotionField>{};
+    if (options.motions == nullptr) return motion_between(*share.before, *share.after, threads);
+    const auto known = options.motions->find(share.nearest->site().icao);
     return known != options.motions->end() ? known->second : std::nullopt;
 }
 
-Result<SiteGrid> site_grid(const PartialView* before, const PartialView* after, UtcTime instant,
-                           level2::Moment moment, const FrameOptions& options,
-                           GeometryCache& geometries) {
-    SiteGrid site;
-    site.partial = nearest_of(before, after, instant);
-    // The nearer one stands where the two do not fit each other.
-    if (options.time == grid::TimeMethod::nearest || !is_pair(before, after)) {
-        return site;
+Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options, int threads,
+                  GeometryCache& geometries) {
+    for (const PartialView* partial : share.used()) {
+        if (partial->file == nullptr) continue;
+        if (Status good = partial->file->verify(); !good) return good;
     }
-
-    const auto geometry = geometries.get(site.partial->site(), *site.partial->view.spec);
+    if (share.before == nullptr) return {};
+    const auto geometry = geometries.get(share.nearest->site(), *share.nearest->view.spec);
     if (!geometry) return pass_on(geometry);
     grid::InstantOptions at;
     at.instant = instant;
-    at.moment = moment;
+    at.moment = options.overlap.moment;
     at.method = options.time;
     at.sweep_times = options.sweep_times;
-    const auto motion = motion_of(*before, *after, moment, options);
+    at.threads = threads;
+    const auto motion = motion_of(share, options, threads);
     if (!motion) return pass_on(motion);
     if (*motion) at.motion = &**motion;
-    auto made = grid::grid_at(timed(*before), timed(*after), **geometry, at);
+    auto made = grid::grid_at(timed(*share.before), timed(*share.after), **geometry, at);
     if (!made) return pass_on(made);
-    site.made = std::move(*made);
-    return site;
+    share.made = std::move(*made);
+    return {};
 }
 
 template <class T>
@@ -128,6 +143,73 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     }
     add(fmt::format("overlap: {}", grid::overlap_name(options.overlap.overlap)));
     return text;
+}
+
+// On which columns the new frame differs from the previous one; none where that is of no use.
+std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
+                                                           const cache::GridDescription& now,
+                                                           const FrameOptions& options,
+                                                           const grid::Quantization& quantization) {
+    if (previous == nullptr || options.overlap.counts || options.overlap.weights) {
+        return std::nullopt;
+    }
+    const cache::GridDescription& was = *previous->description;
+    const bool usable = was.spec == now.spec && was.time == now.time && was.moment == now.moment &&
+                        was.provenance.recipe == now.provenance.recipe &&
+                        was.provenance.software_version == now.provenance.software_version &&
+                        !was.provenance.parts.empty() &&
+                        previous->cells.quantization == quantization;
+    if (!usable) return std::nullopt;
+    return changed_windows(was.provenance.parts, now.provenance.parts);
+}
+
+// Sites of which no brick that changed asks anything.
+void drop_untouched(const grid::GridSpec& domain, const std::vector<grid::GridWindow>& changed,
+                    std::vector<SiteShare>& shares) {
+    std::erase_if(shares, [&](const SiteShare& share) {
+        const auto window = grid::window_of(domain, *share.nearest->view.spec);
+        return std::none_of(changed.begin(), changed.end(), [&](const grid::GridWindow& one) {
+            return share_bricks(*window, one);
+        });
+    });
+}
+
+Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameOptions& options,
+                   GeometryCache& geometries) {
+    std::vector<Status> made(shares.size());
+    const int count = static_cast<int>(shares.size());
+    const int threads_each = count == 0 ? 1 : std::max(1, options.threads / count);
+    for_each_piece(count, options.threads, [&](int piece) {
+        const auto at = static_cast<std::size_t>(piece);
+        made[at] = make_share(shares[at], instant, options, threads_each, geometries);
+    });
+    for (Status& one : made) {
+        if (!one) return std::move(one);
+    }
+    return {};
+}
+
+// All but its cells.
+Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
+                                              const std::vector<SiteShare>& shares, UtcTime instant,
+                                              const FrameOptions& options) {
+    cache::GridDescription frame;
+    std::vector<const PartialView*> used;
+    for (const SiteShare& share : shares) {
+        for (const PartialView* partial : share.used()) {
+            describe(*partial, frame);
+            used.push_back(partial);
+        }
+    }
+    auto parts = parts_of(domain, used);
+    if (!parts) return pass_on(parts);
+    frame.spec = domain;
+    frame.time = instant;
+    frame.provenance.parts = std::move(*parts);
+    frame.provenance.recipe = recipe_of(options);
+    frame.provenance.software_version = software_version;
+    frame.provenance.effects = frame_effects(frame.provenance.effects, options);
+    return frame;
 }
 
 }  // namespace
@@ -178,8 +260,8 @@ Result<Motions> estimate_motions(std::span<const PartialView> partials, UtcTime 
         if (!bracket.before || !bracket.after) continue;
         const PartialView& before = partials[*bracket.before];
         const PartialView& after = partials[*bracket.after];
-        if (!is_pair(&before, &after)) continue;
-        auto motion = motion_between(before, after);
+        if (!is_pair(before, after)) continue;
+        auto motion = motion_between(before, after, options.threads);
         if (!motion) return pass_on(motion);
         motions[before.site().icao] = std::move(*motion);
     }
@@ -188,46 +270,42 @@ Result<Motions> estimate_motions(std::span<const PartialView> partials, UtcTime 
 
 Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const PartialView> partials,
                                UtcTime instant, const FrameOptions& options,
-                               GeometryCache& geometries) {
+                               GeometryCache& geometries, const PreviousFrame* previous) {
     const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
     if (brackets.empty()) {
         const auto minutes = std::chrono::duration<double, std::ratio<60>>(options.greatest_gap);
         return fail(ErrorCode::not_found, "no site has a volume within {:g} minutes of {}",
                     minutes.count(), format_utc(instant));
     }
-    cache::GridDescription description;
-    bool provisional = false;
-    std::vector<std::optional<Result<SiteGrid>>> sites(brackets.size());
     const auto partial_at = [&](const std::optional<std::size_t>& index) {
         return index ? &partials[*index] : nullptr;
     };
-    for_each_piece(static_cast<int>(brackets.size()), options.threads, [&](int piece) {
-        const Bracket& bracket = brackets[static_cast<std::size_t>(piece)];
-        sites[static_cast<std::size_t>(piece)] =
-            site_grid(partial_at(bracket.before), partial_at(bracket.after), instant,
-                      options.overlap.moment, options, geometries);
-    });
-    std::vector<grid::Partial> to_merge;
-    for (std::size_t at = 0; at < brackets.size(); ++at) {
-        const Result<SiteGrid>& site = *sites[at];
-        if (!site) return pass_on(site);
-        to_merge.push_back({site->view(), site->partial->site()});
-        for (const auto& index : {brackets[at].before, brackets[at].after}) {
-            const bool used = index && (site->made || &partials[*index] == site->partial);
-            if (used) describe(partials[*index], description);
-        }
-        provisional = provisional || !brackets[at].after;
+    std::vector<SiteShare> shares;
+    for (const Bracket& bracket : brackets) {
+        shares.push_back(
+            share_of(partial_at(bracket.before), partial_at(bracket.after), instant, options.time));
     }
+    auto description = describe_frame(domain, shares, instant, options);
+    if (!description) return pass_on(description);
+    description->provenance.provisional = std::any_of(
+        brackets.begin(), brackets.end(), [](const Bracket& bracket) { return !bracket.after; });
+
+    auto changed =
+        changes_since(previous, *description, options, shares.front().nearest->view.quantization);
+    if (changed) drop_untouched(domain, *changed, shares);
+    if (Status made = make_shares(shares, instant, options, geometries); !made) {
+        return pass_on(made);
+    }
+    std::vector<grid::Partial> to_merge;
+    for (const SiteShare& share : shares)
+        to_merge.push_back({share.view(), share.nearest->site()});
     grid::MosaicOptions overlap = options.overlap;
     overlap.threads = options.threads;
-    auto mosaic = grid::merge(domain, to_merge, overlap);
+    auto mosaic = changed ? grid::update({previous->cells, std::nullopt, std::nullopt}, to_merge,
+                                         *changed, overlap)
+                          : grid::merge(domain, to_merge, overlap);
     if (!mosaic) return pass_on(mosaic);
-    description.spec = domain;
-    description.time = instant;
-    description.provenance.software_version = software_version;
-    description.provenance.provisional = provisional;
-    description.provenance.effects = frame_effects(description.provenance.effects, options);
-    return MosaicFrame{std::move(description), std::move(*mosaic)};
+    return MosaicFrame{std::move(*description), std::move(*mosaic), std::move(changed)};
 }
 
 }  // namespace stormcellar::pipeline

@@ -5,6 +5,8 @@
 // before and after the instant, makes one of them for the instant (grid/time_interpolation.h), and
 // merges those of all sites (grid/mosaic.h). The same partials and options give the same bytes,
 // wherever they come from.
+// Where a frame for the same instant was made before, of partials of which some are the same, only
+// the bricks that the others touch are merged, and the rest is copied: the same bytes for less.
 // A frame is provisional while a site has nothing after the instant: a later volume will change it.
 // Threads: pure functions but for the caches of geometries, which many threads may share.
 #pragma once
@@ -53,6 +55,8 @@ struct MadePartial {
 struct PartialView {
     const cache::GridDescription* description = nullptr;
     grid::BrickView view;
+    // The file that the view is of: it is verified before its cells are used. None: memory.
+    const cache::GridFile* file = nullptr;
 
     [[nodiscard]] const grid::SitePosition& site() const { return description->sites.front(); }
     [[nodiscard]] UtcTime middle() const {
@@ -94,12 +98,22 @@ struct Bracket {
 struct MosaicFrame {
     cache::GridDescription description;
     grid::Mosaic mosaic;
+    // The windows whose bricks were merged, where the rest was copied; none: all were merged.
+    std::optional<std::vector<grid::GridWindow>> merged;
 };
 
-// Errors: not_found when no site has a partial near the instant; those of grid_at() and merge().
+// A frame made before; its codes must have been verified.
+struct PreviousFrame {
+    const cache::GridDescription* description = nullptr;
+    grid::BrickView cells;
+};
+
+// `previous` may be any frame: what of it can be used is, by its parts (pipeline/frame_parts.h).
+// Errors: not_found when no site has a partial near the instant; a partial's file that does not
+// verify (its path begins the message); those of grid_at() and merge().
 [[nodiscard]] Result<MosaicFrame> make_frame(const grid::GridSpec& domain,
                                              std::span<const PartialView> partials, UtcTime instant,
-                                             const FrameOptions& options,
-                                             GeometryCache& geometries);
+                                             const FrameOptions& options, GeometryCache& geometries,
+                                             const PreviousFrame* previous = nullptr);
 
 }  // namespace stormcellar::pipeline

@@ -8,6 +8,7 @@
 #include "grid/brick_grid.h"
 #include "grid/effects.h"
 #include "pipeline/keep_rule.h"
+#include "pipeline/open_partials.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 // Windows of a large domain take some 15 MiB each.
 constexpr std::size_t kept_geometries = 16;
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// No volume takes longer from its start, by which the store names it, to its middle.
-constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minutes{10};
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
@@ -54,52 +53,6 @@ FrameOptions frame_options(const Domain& domain, level2::Moment moment, int thre
     return options;
 }
 
-// The partials of a domain whose volumes may matter between two times.
-class OpenPartials {
-  public:
-    static Result<OpenPartials> open(const cache::Store& store, const Domain& domain,
-                                     level2::Moment moment, UtcTime from, UtcTime to,
-                                     std::vector<std::string>& problems) {
-        OpenPartials all;
-        const auto domains = store.domains();
-        if (!domains) return pass_on(domains);
-        for (const std::string& name : *domains) {
-            if (!name.starts_with(domain.name + ".")) continue;
-            const auto entries = store.list(name, moment, from - greatest_gap - longest_to_middle,
-                                            to + greatest_gap);
-            if (!entries) return pass_on(entries);
-            for (const cache::StoreEntry& entry : *entries) {
-                auto file = cache::GridFile::open(entry.path);
-                if (!file) {
-                    problems.push_back(file.error().message);
-                    continue;
-                }
-                // Of a configuration that has changed since.
-                if (!grid::window_of(domain.spec, file->description().spec)) continue;
-                all.files_.push_back(std::move(*file));
-            }
-        }
-        return all;
-    }
-
-    [[nodiscard]] std::vector<PartialView> views() const {
-        std::vector<PartialView> views;
-        for (const cache::GridFile& file : files_)
-            views.push_back({&file.description(), file.view()});
-        return views;
-    }
-    // What was read was what the files held.
-    [[nodiscard]] Status check_whole() const {
-        for (const cache::GridFile& file : files_) {
-            if (Status whole = file.check_whole(); !whole) return whole;
-        }
-        return {};
-    }
-
-  private:
-    std::vector<cache::GridFile> files_;
-};
-
 // From the site's volume before to the one after, as far as volumes count and there are any.
 struct Span {
     UtcTime from, to;
@@ -121,12 +74,19 @@ Span span_changed_by(const cache::GridDescription& changed,
     return span;
 }
 
-std::vector<UtcTime> instants_in(const Span& span, std::chrono::seconds interval) {
-    const auto day = std::chrono::floor<std::chrono::days>(span.from);
+bool is_damage(const Error& error) {
+    return error.code == ErrorCode::corrupt || error.code == ErrorCode::truncated ||
+           error.code == ErrorCode::io;
+}
+
+}  // namespace
+
+std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::seconds interval) {
+    const auto day = std::chrono::floor<std::chrono::days>(from);
     std::vector<UtcTime> instants;
-    const auto since = span.from - UtcTime{day};
+    const auto since = from - UtcTime{day};
     const auto steps = (since + interval - std::chrono::milliseconds{1}) / interval;
-    for (UtcTime at = UtcTime{day} + steps * interval; at <= span.to; at += interval) {
+    for (UtcTime at = UtcTime{day} + steps * interval; at <= to; at += interval) {
         instants.push_back(at);
         // Frames are counted from midnight, whatever the interval.
         const auto next_day = std::chrono::floor<std::chrono::days>(at) + std::chrono::days{1};
@@ -134,8 +94,6 @@ std::vector<UtcTime> instants_in(const Span& span, std::chrono::seconds interval
     }
     return instants;
 }
-
-}  // namespace
 
 MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domains)
     : store_(store), domains_(std::move(domains)), geometries_(kept_geometries) {}
@@ -154,6 +112,11 @@ Result<Kept> MosaicKeeper::take_in(const VolumeSource& source, int threads) {
     return kept;
 }
 
+std::mutex& MosaicKeeper::frames_of(const std::string& domain, level2::Moment moment) {
+    const std::scoped_lock lock(mutex_);
+    return frames_[{domain, moment}];
+}
+
 Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
                           int threads, Kept& kept) {
     auto made = make_partial(source.volume, source.site, domain.spec,
@@ -166,12 +129,7 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     description.provenance.partial = source.partial;
     description.provenance.notes.insert(description.provenance.notes.begin(), source.notes.begin(),
                                         source.notes.end());
-    std::mutex* one_at_a_time = nullptr;
-    {
-        const std::scoped_lock lock(mutex_);
-        one_at_a_time = &frames_[{domain.name, moment}];
-    }
-    const std::scoped_lock lock(*one_at_a_time);
+    const std::scoped_lock lock(frames_of(domain.name, moment));
     const std::string name = site_domain(domain.name, source.site.icao);
     const auto path = store_->path_of(name, moment, description.time);
     if (!path) return pass_on(path);
@@ -186,27 +144,53 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
 Status MosaicKeeper::refresh(const Domain& domain, level2::Moment moment,
                              const cache::GridDescription& changed, int threads, Kept& kept) {
     const UtcTime middle = middle_of(changed);
-    const auto partials = OpenPartials::open(*store_, domain, moment, middle - greatest_gap,
-                                             middle + greatest_gap, kept.problems);
+    auto partials = OpenPartials::open(*store_, domain, moment, middle - greatest_gap,
+                                       middle + greatest_gap, kept.problems);
     if (!partials) return pass_on(partials);
-    const std::vector<PartialView> views = partials->views();
-    const FrameOptions options = frame_options(domain, moment, threads);
-    for (const UtcTime instant : instants_in(span_changed_by(changed, views), domain.interval)) {
-        auto frame = make_frame(domain.spec, views, instant, options, geometries_);
-        if (!frame) return pass_on(frame);
-        if (Status whole = partials->check_whole(); !whole) return whole;
-        frame->description.provenance.revision = 1;
-        const auto path = store_->path_of(domain.name, moment, instant);
-        if (!path) return pass_on(path);
-        if (const auto stands = cache::GridFile::open(*path)) {
-            frame->description.provenance.revision = stands->description().provenance.revision + 1;
-        }
-        const auto committed =
-            store_->commit(domain.name, frame->description, frame->mosaic.cells.view());
-        if (!committed) return pass_on(committed);
-        if (!committed->empty()) kept.frames.push_back(*committed);
+    const Span span = span_changed_by(changed, partials->views());
+    for (const UtcTime instant : instants_between(span.from, span.to, domain.interval)) {
+        const auto made = make({domain, moment, instant, threads}, *partials, kept.problems);
+        if (!made) return pass_on(made);
+        if (made->path.empty()) continue;
+        kept.frames.push_back(made->path);
+        if (made->merged) ++kept.updated;
     }
     return {};
+}
+
+// A partial that turns out to be damaged is left out: it is mended by others.
+Result<MosaicFrame> MosaicKeeper::frame_of_sound(const FrameJob& job, OpenPartials& partials,
+                                                 const PreviousFrame* previous,
+                                                 std::vector<std::string>& problems) {
+    const FrameOptions options = frame_options(job.domain, job.moment, job.threads);
+    while (true) {
+        auto frame = make_frame(job.domain.spec, partials.views(), job.instant, options,
+                                geometries_, previous);
+        if (frame || !is_damage(frame.error()) || !partials.drop_damaged(problems)) return frame;
+    }
+}
+
+Result<FrameMade> MosaicKeeper::make(const FrameJob& job, OpenPartials& partials,
+                                     std::vector<std::string>& problems) {
+    const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
+    if (!path) return pass_on(path);
+    const auto stands = cache::GridFile::open(*path);
+    // What is damaged is not copied from: its bricks would have new checksums.
+    const bool sound = stands && stands->verify();
+    const PreviousFrame previous =
+        sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};
+    auto frame = frame_of_sound(job, partials, sound ? &previous : nullptr, problems);
+    if (!frame) return pass_on(frame);
+    if (Status whole = partials.check_whole(); !whole) return pass_on(whole);
+    if (sound) {
+        if (Status whole = stands->check_whole(); !whole) return pass_on(whole);
+    }
+    grid::Provenance& provenance = frame->description.provenance;
+    provenance.revision = 1 + (stands ? stands->description().provenance.revision : 0);
+    auto committed =
+        store_->commit(job.domain.name, frame->description, frame->mosaic.cells.view());
+    if (!committed) return pass_on(committed);
+    return FrameMade{std::move(*committed), provenance.stations, std::move(frame->merged)};
 }
 
 }  // namespace stormcellar::pipeline

@@ -2,13 +2,16 @@
 //
 // A volume of a site that a domain takes is gridded on the domain's columns and kept in the store
 // as the domain "NAME.ICAO"; then the frames of "NAME" that it changes are made again: those
-// between the site's volume before and the one after. Frames stand at whole multiples of the
+// between the site's volume before and the one after. Of a frame that stands, only the bricks are
+// merged that the sites touch whose partials have changed since (pipeline/frame_parts.h); to the
+// byte it is as if it were made whole. Frames stand at whole multiples of the
 // interval since midnight UTC, none before the oldest volume thereabouts or after the newest. A
 // frame is provisional until each of its sites has a volume after it (or for 15 minutes had none),
 // and has a revision that counts how often it was replaced.
 //
-// Errors: those of gridding, merging and the store. A partial that cannot be read is left out of
-// frames, and named.
+// What a frame is made of is verified first, and so is the frame that is copied from. A partial
+// that cannot be read, or is damaged, is left out of frames, and named. Errors: those of gridding,
+// merging and the store.
 //
 // Thread contract: may be used by many threads; those of one domain and moment wait for each other.
 #pragma once
@@ -39,8 +42,22 @@ struct VolumeSource {
 
 struct Kept {
     std::vector<std::filesystem::path> partials, frames;
+    std::size_t updated = 0;            // frames of which bricks that had not changed were copied
     std::vector<std::string> problems;  // what was left out, and why
 };
+
+// A frame that was made and stands now.
+struct FrameMade {
+    std::filesystem::path path;                           // empty: older than what the budgets keep
+    std::vector<std::string> stations;                    // whose partials it is made of
+    std::optional<std::vector<grid::GridWindow>> merged;  // as MosaicFrame has it
+};
+
+// From the first to the last, both included: whole multiples of the interval since midnight UTC.
+[[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
+                                                    std::chrono::seconds interval);
+
+class OpenPartials;
 
 class MosaicKeeper {
   public:
@@ -50,8 +67,38 @@ class MosaicKeeper {
     // Does nothing for volumes that no domain takes. `threads` work on it.
     Result<Kept> take_in(const VolumeSource& source, int threads);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
+    [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }
+    // The domain of this name (not of a partial) if frames or partials of the moment are its.
+    [[nodiscard]] const Domain* find(std::string_view name, level2::Moment moment) const;
+
+    // Makes a frame from the partials that stand, and puts it in the place of what stands there.
+    // `problems` names partials that are left out. Errors: not_found when the domain is not
+    // configured, or no site has a volume near the instant; bad_argument for an instant at which
+    // the domain has no frames.
+    Result<FrameMade> make_again(const cache::GridName& frame, int threads,
+                                 std::vector<std::string>& problems);
+    // Frames that do not stand and should, newest first: those between the partials of the newest
+    // volumes (`newest` before the last) that are newer than the oldest frame which stands.
+    // Errors: the cache cannot be read.
+    [[nodiscard]] Result<std::vector<cache::GridName>> missing_frames(
+        std::chrono::milliseconds newest) const;
 
   private:
+    struct FrameJob {
+        const Domain& domain;
+        level2::Moment moment;
+        UtcTime instant;
+        int threads;
+    };
+    std::mutex& frames_of(const std::string& domain, level2::Moment moment);
+    Result<MosaicFrame> frame_of_sound(const FrameJob& job, OpenPartials& partials,
+                                       const PreviousFrame* previous,
+                                       std::vector<std::string>& problems);
+    // The mutex of the domain's frames must be held.
+    Result<FrameMade> make(const FrameJob& job, OpenPartials& partials,
+                           std::vector<std::string>& problems);
+    Status add_missing(const Domain& domain, level2::Moment moment,
+                       std::chrono::milliseconds newest, std::vector<cache::GridName>& all) const;
     Status keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
                 int threads, Kept& kept);
     Status refresh(const Domain& domain, level2::Moment moment,

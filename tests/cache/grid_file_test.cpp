@@ -73,6 +73,8 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_EQ(about.provenance.sweeps, grid.provenance.sweeps);
     EXPECT_TRUE(about.provenance.provisional);
     EXPECT_EQ(about.provenance.revision, 3);
+    EXPECT_EQ(about.provenance.parts, grid.provenance.parts);
+    EXPECT_EQ(about.provenance.recipe, grid.provenance.recipe);
     EXPECT_EQ(about.provenance.vcp, 21);
     EXPECT_TRUE(about.provenance.partial);
     EXPECT_EQ(about.provenance.audit, grid.provenance.audit);
@@ -198,6 +200,22 @@ TEST_F(GridFileTest, AnImpossibleAuditIsCorrupt) {
     EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.rms = NAN; }), ErrorCode::corrupt);
     EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.count = 951; }), ErrorCode::corrupt);
     EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.range_to_m = 0; }), ErrorCode::corrupt);
+}
+
+TEST_F(GridFileTest, APartOnImpossibleColumnsIsCorrupt) {
+    const auto opened_with = [&](grid::GridWindow window) {
+        grid::Grid grid = testing::small_grid();
+        grid.provenance.parts.front().window = window;
+        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
+        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
+        const auto file = GridFile::open(path_);
+        return file ? ErrorCode::empty : file.error().code;
+    };
+    EXPECT_EQ(opened_with({16383, 0, 1, 16384}), ErrorCode::empty);
+    EXPECT_EQ(opened_with({16383, 0, 2, 1}), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with({-1, 0, 2, 1}), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with({0, 0, 2, 0}), ErrorCode::corrupt);
+    EXPECT_EQ(opened_with({0, 1, 1, 2147483647}), ErrorCode::corrupt);
 }
 
 TEST_F(GridFileTest, SmallGridHoldsEveryKindOfBrick) {

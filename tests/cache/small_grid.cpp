@@ -30,6 +30,9 @@ grid::Grid small_grid() {
     made.provenance.notes = {"a note"};
     made.provenance.provisional = true;
     made.provenance.revision = 3;
+    made.provenance.parts = {{"KBGM", made.time, 0x123456789ABCDEF0, {0, 16, 40, 8}},
+                             {"KOKX", made.time + std::chrono::minutes{5}, 7, {16, 0, 24, 24}}};
+    made.provenance.recipe = 0xFEDCBA9876543210;
     made.provenance.sweeps = {{0.5, made.start_time, 12.25, 18.5},
                               {1.5, made.start_time + std::chrono::seconds{25}, 300, 0}};
     made.provenance.audit = {

@@ -47,7 +47,11 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "b", "--overlap", "min"}, "--overlap takes one of");
     expect_usage({"a", "b", "--time-method", "now"}, "--time-method takes one of");
     expect_usage({"a", "b", "--overlap-km", "0"}, "--overlap-km");
-    expect_usage({"a", "b", "--fields", "age"}, "--fields is for one FILE");
+    expect_usage({"a", "b", "--fields", "age"},
+                 "--fields age: what tells of single gates is for one FILE; of several there are "
+                 "counts and weights");
+    expect_usage({"a", "b", "--fields", "counts,weight"}, "for one FILE");
+    expect_usage({"a", "--fields", "counts"}, "counts and weights are for several FILEs");
     expect_usage({"a", "--center", "35"}, "--center");
     expect_usage({"a", "--center", "95,0"}, "not on the earth");
     expect_usage({"a", "--center", "35,x"}, "--center");
@@ -94,7 +98,8 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage_of(cone, {"--parallels", "30,-30"}, "opposite");
     expect_usage_of(cone, {"--parallels", "30,90"}, "not at 90");
     expect_usage({"a", "--fields", "age,hight"},
-                 "--fields takes any of age, height_offset, distance, weight or all, not 'hight'");
+                 "--fields takes any of age, height_offset, distance, weight or all, of several "
+                 "FILEs counts, weights or all, not 'hight'");
     expect_usage({"a", "--fields", "age,"}, "not ''");
     expect_usage({"a", "--time", "yesterday"}, "--time");
     expect_usage({"a", "--no-such-option"}, "--no-such-option");

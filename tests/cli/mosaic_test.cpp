@@ -56,6 +56,15 @@ TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
     EXPECT_LT(both["cells"]["not_seen"], alone["cells"]["not_seen"]);
 }
 
+TEST_F(Mosaic, CountsAndWeightsAreWrittenOnDemand) {
+    EXPECT_EQ(grid({real(bgm), real(enx)}, {})["fields"].size(), 0U);
+    EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "counts,weights"})["fields"],
+              (std::vector<std::string>{"counts", "weights"}));
+    EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "all"})["fields"].size(), 2U);
+    EXPECT_EQ(grid({real(bgm), real(enx)}, {"--fields", "weights"})["fields"],
+              std::vector<std::string>{"weights"});
+}
+
 TEST_F(Mosaic, OfASiteWithNoVolumeNearTheTimeSaysSo) {
     const auto made = grid({real(bgm), real(enx)}, {"--time", "2010-09-11T01:37:00Z"});
     EXPECT_EQ(made["stations"], (std::vector<std::string>{"KBGM"}));

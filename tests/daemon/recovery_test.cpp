@@ -114,6 +114,76 @@ TEST_F(Recovery, AWipedCacheAndADamagedGridAreMadeAgainAtTheStart) {
     }
 }
 
+// A mosaic of one site: damage to a partial and to a frame, then both lost.
+TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
+    const std::string domain =
+        "[ingest]\nspacing_km = 4\n[[domain]]\nname = \"north\"\ncenter = [42.2, -75.9]\n"
+        "spacing_km = 4\nextent_km = [400, 400]\nlevels_km = [1, 3, 6]\n";
+    const auto list = [&](const std::string& name) {
+        const auto store = cache::Store::open_for_reading(daemon_.cache());
+        return *store->list(name, level2::Moment::ref, std::nullopt, std::nullopt);
+    };
+    put(first);
+    put(second);
+    daemon_.start(domain);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 2; }));
+    EXPECT_EQ(daemon_.terminate(), 0);
+    ASSERT_EQ(list("north").size(), 1U);
+    ASSERT_EQ(list("north.KBGM").size(), 2U);
+
+    fs::resize_file(list("north").at(0).path, 5000);
+    fs::resize_file(list("north.KBGM").at(1).path, 5000);
+    daemon_.start(domain);
+    EXPECT_TRUE(daemon_.wait_for_log("dropped, and made again from the partials of KBGM"))
+        << daemon_.log();
+    EXPECT_TRUE(daemon_.wait_for_log(std::string{"dropped, and made again from "} +
+                                     (daemon_.drop() / second).native()))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+
+    fs::remove_all(daemon_.cache() / "north");
+    daemon_.start(domain);
+    EXPECT_TRUE(daemon_.wait_for_log("missing frame north 2005-08-22T02:50:00Z: made again"))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    fs::remove_all(daemon_.cache() / "north");
+    fs::remove_all(daemon_.cache() / "north.KBGM");
+    fs::remove(daemon_.drop() / first);
+    daemon_.start(domain);
+    EXPECT_TRUE(daemon_.wait_for_log("missing grid north.KBGM 2005-08-22T02:50:01"))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    for (const char* name : {"north", "north.KBGM"}) {
+        for (const auto& entry : list(name)) {
+            const auto file = cache::GridFile::open(entry.path);
+            ASSERT_TRUE(file) << file.error().message;
+            EXPECT_TRUE(file->verify());
+        }
+    }
+    EXPECT_EQ(list("north.KBGM").size(), 1U) << "the first volume's raw file is gone";
+}
+
+// What nothing is left of to make it from: dropped, and the reason is in the log.
+TEST_F(Recovery, AMosaicThatNobodyConfiguresAnyMoreIsDroppedWithTheReason) {
+    put(first);
+    put(second);
+    daemon_.start(
+        "[ingest]\nspacing_km = 4\n[[domain]]\nname = \"north\"\ncenter = [42.2, -75.9]\n"
+        "spacing_km = 8\nextent_km = [400, 400]\nlevels_km = [1, 3, 6]\n");
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 2; }));
+    EXPECT_EQ(daemon_.terminate(), 0);
+    const auto store = cache::Store::open_for_reading(daemon_.cache());
+    const auto frames = *store->list("north", level2::Moment::ref, std::nullopt, std::nullopt);
+    ASSERT_EQ(frames.size(), 1U);
+    fs::resize_file(frames[0].path, 5000);
+    daemon_.start("[ingest]\nspacing_km = 4\n");
+    EXPECT_TRUE(
+        daemon_.wait_for_log("it cannot be made again: no REF of north is configured any more"))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_FALSE(fs::exists(frames[0].path));
+}
+
 TEST_F(Recovery, WithoutRefillAWipedCacheStaysEmpty) {
     put(first);
     run_until_ingested(1);

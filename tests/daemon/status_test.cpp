@@ -107,6 +107,35 @@ TEST(StatusBook, StaysBounded) {
     EXPECT_EQ(status["volumes"].back()["file"], "/d/9999");
 }
 
+TEST(StatusBook, PairsOfSitesStandAsTheyWereComparedLast) {
+    StatusBook book("/d", "/c");
+    pipeline::PairReport report;
+    report.domain = "plains";
+    report.instant = *parse_utc("2024-06-01T22:05:00Z", UtcTime{});
+    report.found.a = "KAAA";
+    report.found.b = "KBBB";
+    report.found.bias_db = {-2.25, 0.125, ""};
+    report.found.time_s.untold = "the motion is not known";
+    report.found.cells = 1234;
+    report.faults = {"KBBB against KAAA: too weak by 2.25 +- 0.12 dB"};
+    book.add(report);
+    report.found.b = "KCCC";
+    report.faults.clear();
+    book.add(report);
+    report.found.bias_db.value = 1;
+    book.add(report);
+    const auto sites = nlohmann::json::parse(book.json({}, now_utc()))["sites"];
+    ASSERT_EQ(sites.size(), 2U);
+    EXPECT_EQ(sites[0]["b"], "KBBB");
+    EXPECT_EQ(sites[0]["time"], "2024-06-01T22:05:00Z");
+    EXPECT_EQ(sites[0]["bias_db"], (nlohmann::json{{"value", -2.25}, {"standard_error", 0.125}}));
+    EXPECT_EQ(sites[0]["time_s"], (nlohmann::json{{"untold", "the motion is not known"}}));
+    EXPECT_EQ(sites[0]["cells"], 1234);
+    EXPECT_EQ(sites[0]["faults"].size(), 1U);
+    EXPECT_EQ(sites[1]["bias_db"]["value"], 1) << "the last one";
+    EXPECT_TRUE(sites[1]["faults"].empty());
+}
+
 TEST(StatusBook, TheLineNamesTheLatestVolume) {
     StatusBook book("/d", "/c");
     EXPECT_EQ(book.line({}), "ingested 0, rejected 0, waiting 0, running 0, growing 0");

@@ -74,6 +74,36 @@ TEST_F(GridNetcdf, EveryCellIsWhereItsCoordinatesSay) {
     EXPECT_NEAR(reader.values("time", 1)[0], 19068 * 86400 + 522.596, 1e-6);
 }
 
+TEST_F(GridNetcdf, CountsAndWeightsOfAMosaicAreThereWhenAskedFor) {
+    Grid grid = small_grid();
+    ASSERT_TRUE(write_grid(real_file_system(), path_, grid));
+    EXPECT_EQ(Reader(path_).text("REF", "ancillary_variables"), "status");
+    for (std::size_t cell = 0; cell < grid.spec.cell_count(); ++cell) {
+        grid.site_counts.push_back(static_cast<std::uint16_t>(cell % 7));
+        grid.site_weights.push_back(static_cast<float>(cell) / 64);
+    }
+    ASSERT_TRUE(write_grid(real_file_system(), path_, grid));
+    Reader reader(path_);
+    EXPECT_EQ(reader.text("REF", "ancillary_variables"), "status site_count site_weight");
+    EXPECT_EQ(reader.text("site_count", "standard_name"), "number_of_observations");
+    EXPECT_EQ(reader.text("site_count", "units"), "1");
+    EXPECT_EQ(reader.text("site_weight", "units"), "1");
+    const auto counts = reader.values("site_count", grid.spec.cell_count());
+    const auto weights = reader.values("site_weight", grid.spec.cell_count());
+    std::size_t at = 0;
+    for (int iz = 0; iz < 3; ++iz) {
+        for (int iy = 0; iy < 4; ++iy) {
+            for (int ix = 0; ix < 5; ++ix, ++at) {
+                const std::size_t cell = grid.spec.index(ix, iy, iz);
+                ASSERT_EQ(counts[at], static_cast<double>(grid.site_counts[cell]));
+                ASSERT_EQ(weights[at], static_cast<double>(grid.site_weights[cell]));
+            }
+        }
+    }
+    grid.site_counts.pop_back();
+    EXPECT_EQ(write_grid(real_file_system(), path_, grid).error().code, ErrorCode::bad_argument);
+}
+
 TEST_F(GridNetcdf, SaysWhereItComesFrom) {
     ASSERT_TRUE(write_grid(real_file_system(), path_, small_grid()));
     Reader reader(path_);

@@ -11,7 +11,7 @@
 #include "grid/gridder.h"
 #include "level2/decode.h"
 #include "synth/observe.h"
-#include "tests/testing/data.h"
+#include "tests/testing/two_radars.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -20,48 +20,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr UniformMotion motion{24, 9};
+constexpr UniformMotion motion{testing::storms_east_mps, testing::storms_north_mps};
 constexpr int seconds_of_fault = 30;
-
-// Nine storms between the two and around them, all going one way at 26 m/s.
-std::string scene_text(const char* station, double longitude_deg, unsigned seed) {
-    std::string text = fmt::format(R"([radar]
-station = "{}"
-latitude_deg = 35
-longitude_deg = {}
-altitude_m = 380
-[weather]
-latitude_deg = 35
-longitude_deg = -97
-[volumes]
-count = 1
-start = "2024-06-01T22:00:00Z"
-[instrument]
-seed = {}
-noise_db = 1
-)",
-                                   station, longitude_deg, seed);
-    for (const double elevation_deg : {0.5, 1.3, 2.2, 3.1, 4.2, 5.6, 7.4, 9.8}) {
-        text += fmt::format(
-            "[[cut]]\nelevation_deg = {}\nazimuth_rate_deg_s = 18\nwaveform = \"surveillance\"\n",
-            elevation_deg);
-    }
-    struct Place {
-        double x_km, y_km, size_km, top_km;
-    };
-    for (const Place& place :
-         {Place{-95, 60, 16, 13}, Place{-60, -75, 18, 14}, Place{-8, 70, 15, 12},
-          Place{2, -10, 14, 13}, Place{50, -80, 17, 14}, Place{85, 50, 16, 12},
-          Place{5, -130, 15, 13}, Place{10, 125, 17, 14}, Place{-40, 20, 13, 11}}) {
-        text += fmt::format(
-            "[[storm]]\nposition_km = [{}, {}]\nvelocity_mps = [{}, {}]\nradii_km = [{}, {}]\n"
-            "orientation_deg = 40\ncore_km = 3\ntop_km = {}\npeak_dbz = 55\ntilt = [0.4, 0.3]\n"
-            "ripple_db = 5\nripple_length_km = 9\n",
-            place.x_km, place.y_km, motion.east_mps, motion.north_mps, place.size_km,
-            0.75 * place.size_km, place.top_km);
-    }
-    return text;
-}
 
 struct Radar {
     level2::Volume volume;
@@ -69,7 +29,8 @@ struct Radar {
 };
 
 Radar radar_at(const char* station, double longitude_deg, unsigned seed) {
-    const auto scene = synth::parse_scene(scene_text(station, longitude_deg, seed), station);
+    const auto scene =
+        synth::parse_scene(testing::scene_of_nine_storms(station, longitude_deg, seed), station);
     EXPECT_TRUE(scene) << scene.error().message;
     return {synth::observe(*scene, 0), {station, 35, longitude_deg, 380}};
 }

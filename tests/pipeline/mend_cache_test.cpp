@@ -2,7 +2,9 @@
 #include "pipeline/mend_cache.h"
 
 #include <fstream>
+#include <map>
 
+#include <fmt/chrono.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -74,7 +76,7 @@ TEST_F(MendCache, AGridThatWasCutIsMadeAgainFromItsFile) {
     ASSERT_TRUE(mended) << mended.error().message;
     EXPECT_EQ(mended->condition, GridCondition::made_again);
     EXPECT_TRUE(mended->reason.starts_with(grid.path.native())) << mended->reason;
-    EXPECT_EQ(mended->raw, directory_ / "KBGM20050822_024414.gz");
+    EXPECT_EQ(mended->from, directory_ / "KBGM20050822_024414.gz");
     EXPECT_EQ(*read_file(grid.path), good) << "to the byte";
     EXPECT_EQ(catalog_.list("KBGM", {})->at(0).state, catalog::FileState::complete);
 }
@@ -159,6 +161,178 @@ TEST_F(MendCache, FilesThatWentOrChangedAreNotTried) {
     fs::remove(directory_ / "KBGM20050822_024414.gz");
     std::ofstream(directory_ / "KBGM20050822_025001.gz", std::ios::app) << "more";
     EXPECT_TRUE(mender_.missing(hours{6})->empty());
+}
+
+// The same with a mosaic of one site: its partials and its frames.
+class MendMosaic : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        for (const char* name :
+             {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz", "KBGM20050822_025549.gz"}) {
+            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, directory_ / name);
+            ASSERT_TRUE(ingestor_.ingest(directory_ / name, false));
+        }
+        ASSERT_EQ(partials().size(), 3U);
+        ASSERT_EQ(frames().size(), 2U);
+        for (const auto& entry : all())
+            good_[entry.path] = codes_of(entry.path);
+    }
+    std::vector<cache::StoreEntry> list(const std::string& domain) {
+        return *store_.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
+    }
+    std::vector<cache::StoreEntry> partials() { return list("north.KBGM"); }
+    std::vector<cache::StoreEntry> frames() { return list("north"); }
+    std::vector<cache::StoreEntry> all() {
+        std::vector<cache::StoreEntry> entries = partials();
+        for (const auto& frame : frames())
+            entries.push_back(frame);
+        return entries;
+    }
+    static std::vector<std::byte> codes_of(const fs::path& path) {
+        const auto file = cache::GridFile::open(path);
+        EXPECT_TRUE(file && file->verify()) << path;
+        if (!file) return {};
+        const auto codes = file->view().codes;
+        return {codes.begin(), codes.end()};
+    }
+    void expect_all_as_before() {
+        EXPECT_EQ(all().size(), good_.size());
+        for (const auto& [path, codes] : good_)
+            EXPECT_EQ(codes_of(path), codes) << path;
+    }
+    static void alter_last_byte_of(const fs::path& path) {
+        std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+        file.seekg(-1, std::ios::end);
+        const char last = static_cast<char>(file.get() ^ 1);
+        file.seekp(-1, std::ios::end);
+        file.put(last);
+    }
+    static IngestOptions with_domain() {
+        IngestOptions options;
+        options.spacing_m = 8000;
+        options.nx = options.ny = 60;
+        Domain domain;
+        domain.name = "north";
+        domain.spec = grid::default_spec(42.2, -75.9);
+        domain.spec.nx = domain.spec.ny = 100;
+        domain.spec.spacing_m = 4000;
+        domain.spec.levels_m = {1000, 3000, 6000};
+        options.domains = {domain};
+        return options;
+    }
+
+    testing::TemporaryDirectory directory_;
+    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    Ingestor ingestor_{catalog_, store_, with_domain()};
+    CacheMender mender_{catalog_, store_, ingestor_, level2::Moment::ref};
+    std::map<fs::path, std::vector<std::byte>> good_;
+};
+
+// Every partial and every frame, one after the other, with a bit flipped and cut.
+TEST_F(MendMosaic, DamagedPartialsComeFromRawFilesAndFramesFromPartials) {
+    for (const auto& entry : all()) {
+        const bool is_frame = entry.domain == "north";
+        const std::string from =
+            is_frame
+                ? "the partials of KBGM"
+                : (directory_ / fmt::format("KBGM{:%Y%m%d_%H%M%S}.gz",
+                                            std::chrono::floor<std::chrono::seconds>(entry.time)))
+                      .native();
+        for (const MendDepth depth : {MendDepth::all, MendDepth::header}) {
+            if (depth == MendDepth::all) {
+                alter_last_byte_of(entry.path);
+            } else {
+                fs::resize_file(entry.path, 5000);
+            }
+            const auto mended = mender_.mend(entry, depth);
+            ASSERT_TRUE(mended) << mended.error().message;
+            EXPECT_EQ(mended->condition, GridCondition::made_again) << mended->why_not;
+            EXPECT_TRUE(mended->reason.starts_with(entry.path.native())) << mended->reason;
+            EXPECT_EQ(mended->from, from);
+            expect_all_as_before();
+        }
+    }
+}
+
+TEST_F(MendMosaic, AFrameMadeOfWhatIsDamagedTooSaysSoAndIsPutRightWithIt) {
+    const auto frame = frames().at(1);  // of the second and the third volume
+    const auto partial = partials().at(2);
+    alter_last_byte_of(frame.path);
+    alter_last_byte_of(partial.path);
+    const auto first = mender_.mend(frame, MendDepth::all);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->condition, GridCondition::made_again);
+    EXPECT_NE(first->from.find("left out: " + partial.path.native()), std::string::npos)
+        << first->from;
+    EXPECT_NE(codes_of(frame.path), good_[frame.path]);
+    EXPECT_EQ(mender_.mend(partial, MendDepth::all)->condition, GridCondition::made_again);
+    expect_all_as_before();
+}
+
+TEST_F(MendMosaic, DeletedPartialsAndFramesAreMissing) {
+    fs::remove(partials().at(1).path);
+    fs::remove(frames().at(1).path);
+    auto missing = mender_.missing(hours{6});
+    ASSERT_TRUE(missing);
+    ASSERT_EQ(missing->size(), 1U);
+    EXPECT_EQ(missing->at(0).raw, directory_ / "KBGM20050822_025001.gz");
+    ASSERT_EQ(missing->at(0).names.size(), 1U) << "the site's own grid stands";
+    EXPECT_EQ(missing->at(0).names[0].domain, "north.KBGM");
+    ASSERT_TRUE(mender_.make(missing->at(0)));
+    expect_all_as_before();  // a partial brings its frames with it
+
+    fs::remove(frames().at(1).path);
+    const auto lost = mender_.missing_frames(hours{6});
+    ASSERT_EQ(lost->size(), 1U);
+    EXPECT_EQ(*mender_.make(lost->at(0)), "the partials of KBGM");
+    expect_all_as_before();
+    EXPECT_TRUE(mender_.missing(hours{6})->empty());
+    EXPECT_TRUE(mender_.missing_frames(hours{6})->empty());
+}
+
+TEST_F(MendMosaic, AWipedCacheHasItsMosaicsAgain) {
+    fs::remove_all(directory_ / "cache/north");
+    fs::remove_all(directory_ / "cache/north.KBGM");
+    fs::remove_all(directory_ / "cache/KBGM");
+    const auto missing = mender_.missing(hours{6});
+    ASSERT_TRUE(missing);
+    EXPECT_EQ(missing->size(), 3U);
+    for (const MissingGrid& grid : *missing) {
+        EXPECT_EQ(grid.names.size(), 2U);
+        const auto made = mender_.make(grid);
+        ASSERT_TRUE(made) << made.error().message;
+    }
+    expect_all_as_before();
+}
+
+TEST_F(MendMosaic, WhatCannotBeMadeAgainIsDroppedWithTheReason) {
+    const auto dropped = [&](const cache::StoreEntry& entry) {
+        fs::resize_file(entry.path, 5000);
+        const auto mended = mender_.mend(entry, MendDepth::header);
+        EXPECT_TRUE(mended);
+        if (!mended) return std::string{};
+        EXPECT_EQ(mended->condition, GridCondition::dropped);
+        EXPECT_FALSE(fs::exists(entry.path));
+        return mended->why_not;
+    };
+    const auto frame = frames().at(1);
+    for (const auto& partial : partials()) {
+        fs::remove(directory_ /
+                   fmt::format("KBGM{:%Y%m%d_%H%M%S}.gz",
+                               std::chrono::floor<std::chrono::seconds>(partial.time)));
+        EXPECT_EQ(dropped(partial), "no raw file of it is left");
+    }
+    EXPECT_EQ(dropped(frame), "no site has a volume within 15 minutes of 2005-08-22T02:55:00Z");
+    Ingestor without(catalog_, store_, {});
+    CacheMender other(catalog_, store_, without, level2::Moment::ref);
+    const auto stray = frames().at(0);
+    fs::resize_file(stray.path, 5000);
+    EXPECT_EQ(other.mend(stray, MendDepth::header)->why_not,
+              "no REF of north is configured any more");
+    EXPECT_TRUE(all().empty());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Mosaics that are kept as volumes come, and the same made at once.
 #include "pipeline/mosaic_keeper.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "grid/effects.h"
@@ -51,6 +53,17 @@ class MosaicKeeperTest : public ::testing::Test {
     }
     [[nodiscard]] std::vector<cache::StoreEntry> frames() const {
         return *store_.list("north", level2::Moment::ref, std::nullopt, std::nullopt);
+    }
+    static void alter_last_byte_of(const std::filesystem::path& path) {
+        std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+        file.seekg(-1, std::ios::end);
+        const char last = static_cast<char>(file.get() ^ 1);
+        file.seekp(-1, std::ios::end);
+        file.put(last);
+    }
+    [[nodiscard]] static std::vector<std::byte> codes_of(const cache::GridFile& file) {
+        const auto codes = file.view().codes;
+        return {codes.begin(), codes.end()};
     }
     [[nodiscard]] static cache::GridFile open(const std::filesystem::path& path) {
         return std::move(*cache::GridFile::open(path));
@@ -131,6 +144,88 @@ TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
     const grid::Grid b = grid::to_dense(kept.view());
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.values, b.values);
+}
+
+// Of one site alone all bricks are its own, so all are merged; that it was an update is counted.
+TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
+    take(load(sequence[0]));
+    EXPECT_EQ(take(load(sequence[2])).updated, 0U) << "no frame stood";
+    EXPECT_EQ(take(load(sequence[1])).updated, 2U);
+    const auto updated = open(frames()[0].path);
+    std::filesystem::remove(frames()[0].path);
+    std::vector<std::string> problems;
+    const auto whole =
+        keeper_.make_again({"north", level2::Moment::ref, updated.description().time}, 1, problems);
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_FALSE(whole->merged);
+    EXPECT_EQ(whole->stations, std::vector<std::string>{"KBGM"});
+    const auto made = open(whole->path);
+    EXPECT_EQ(made.description().provenance.parts, updated.description().provenance.parts);
+    EXPECT_EQ(made.description().provenance.revision, 1);
+    EXPECT_EQ(codes_of(made), codes_of(updated));
+}
+
+// A code that was altered would be copied with a new checksum, and never be found again.
+TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
+    take(load(sequence[0]));
+    const auto path = take(load(sequence[1])).frames.at(0);
+    const auto good = codes_of(open(path));
+    alter_last_byte_of(path);
+    std::vector<std::string> problems;
+    const auto again = keeper_.make_again(
+        {"north", level2::Moment::ref, open(path).description().time}, 1, problems);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_FALSE(again->merged);
+    EXPECT_EQ(codes_of(open(path)), good);
+    EXPECT_EQ(open(path).description().provenance.revision, 2);
+}
+
+TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
+    take(load(sequence[0]));
+    const auto damaged = take(load(sequence[1])).partials.at(0);
+    alter_last_byte_of(damaged);
+    const Kept third = take(load(sequence[2]));
+    ASSERT_EQ(third.problems.size(), 1U);
+    EXPECT_TRUE(third.problems[0].starts_with(damaged.native())) << third.problems[0];
+    ASSERT_EQ(third.frames.size(), 1U);
+    const auto& files = open(third.frames[0]).description().provenance.source_files;
+    EXPECT_EQ(files, (std::vector{sequence[0], sequence[2]}));
+}
+
+TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {
+    for (const std::string& name : sequence)
+        take(load(name));
+    const auto all = frames();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_TRUE(keeper_.missing_frames(std::chrono::hours{6})->empty());
+    std::filesystem::remove(all[1].path);
+    const auto one = keeper_.missing_frames(std::chrono::hours{6});
+    ASSERT_EQ(one->size(), 1U);
+    EXPECT_EQ(one->at(0), (cache::GridName{"north", level2::Moment::ref, all[1].time}));
+    std::filesystem::remove(all[0].path);
+    const auto both = keeper_.missing_frames(std::chrono::hours{6});
+    ASSERT_EQ(both->size(), 2U);
+    EXPECT_EQ(both->at(1).time, all[0].time) << "newest first";
+    EXPECT_EQ(keeper_.missing_frames(std::chrono::minutes{1})->size(), 1U);
+    std::vector<std::string> problems;
+    ASSERT_TRUE(keeper_.make_again(both->at(0), 1, problems));
+    EXPECT_TRUE(keeper_.missing_frames(std::chrono::hours{6})->empty())
+        << "older than the oldest that stands: evicted";
+}
+
+TEST_F(MosaicKeeperTest, WhatCannotBeMadeAgainSaysWhy) {
+    take(load(sequence[0]));
+    std::vector<std::string> problems;
+    const auto again = [&](const std::string& domain, const char* time) {
+        const auto made = keeper_.make_again(
+            {domain, level2::Moment::ref, *parse_utc(time, UtcTime{})}, 1, problems);
+        return made ? std::string{} : made.error().message;
+    };
+    EXPECT_EQ(again("south", "2005-08-22T02:50:00Z"), "no domain south of REF is configured");
+    EXPECT_EQ(again("north", "2005-08-22T02:51:00Z"),
+              "north has frames every 300 s, and none at 2005-08-22T02:51:00Z");
+    EXPECT_EQ(again("north", "2005-08-22T04:00:00Z"),
+              "no site has a volume within 15 minutes of 2005-08-22T04:00:00Z");
 }
 
 TEST_F(MosaicKeeperTest, ADomainThatTakesNotTheStationKeepsNothing) {

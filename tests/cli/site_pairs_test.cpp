@@ -1,0 +1,107 @@
+// stormcellar accuracy --compare-sites, run as a user runs it, on files of two simulated radars.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+#include "tests/testing/two_radar_files.h"
+
+namespace stormcellar {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class SitePairs : public ::testing::Test {
+  protected:
+    static testing::ProgramResult compare(const std::vector<std::filesystem::path>& files,
+                                          const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"accuracy", "--compare-sites", "--spacing-km", "2"};
+        for (const auto& file : files)
+            arguments.push_back(file.native());
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    }
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(SitePairs, AFaultIsMeasuredAndNamed) {
+    const auto files = testing::write_two_radars(directory_.path(), 2);
+    const auto ran = compare(files, {"--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto document = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(document["stations"], (std::vector<std::string>{"XSYA", "XSYB"}));
+    ASSERT_EQ(document["pairs"].size(), 1U);
+    const auto& pair = document["pairs"][0];
+    EXPECT_EQ(pair["a"], "XSYA");
+    EXPECT_EQ(pair["b"], "XSYB");
+    EXPECT_NEAR(pair["bias_db"]["value"].get<double>(), -2, 0.4);
+    EXPECT_GT(pair["bias_db"]["standard_error"].get<double>(), 0);
+    EXPECT_NEAR(pair["azimuth_deg"]["value"].get<double>(), 0, 0.12);
+    EXPECT_NEAR(pair["elevation_deg"]["value"].get<double>(), 0, 0.15);
+    EXPECT_NEAR(pair["time_s"]["value"].get<double>(), 0, 12);
+    EXPECT_GT(pair["cells"], 1000);
+    ASSERT_EQ(pair["faults"].size(), 1U) << pair["faults"];
+    EXPECT_THAT(pair["faults"][0], HasSubstr("XSYB against XSYA: too weak by"));
+
+    const auto printed = compare(files, {});
+    ASSERT_EQ(printed.status, 0) << printed.err;
+    EXPECT_THAT(printed.out, HasSubstr("XSYB against XSYA"));
+    EXPECT_THAT(printed.out, HasSubstr("Named faults:\n\n  XSYB against XSYA: too weak by"));
+    EXPECT_THAT(printed.out, Not(HasSubstr("Not told")));
+}
+
+// One volume of each site: no motion, so no clock.
+TEST_F(SitePairs, WhatCannotBeToldSaysWhy) {
+    auto files = testing::write_two_radars(directory_.path(), 0);
+    files.resize(2);
+    const auto ran = compare(files, {"--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto document = nlohmann::json::parse(ran.out);
+    const auto& pair = document["pairs"][0];
+    EXPECT_EQ(pair["time_s"]["untold"], "the motion is not known");
+    EXPECT_NEAR(pair["bias_db"]["value"].get<double>(), 0, 0.4);
+    EXPECT_TRUE(pair["faults"].empty());
+    const auto printed = compare(files, {});
+    EXPECT_THAT(printed.out, HasSubstr("No fault is named."));
+    EXPECT_THAT(printed.out, HasSubstr("time not told: the motion is not known"));
+    EXPECT_THAT(compare(files, {"--markdown"}).out, HasSubstr("| XSYB against XSYA | "));
+}
+
+TEST_F(SitePairs, BadUsageIsSaid) {
+    const auto files = testing::write_two_radars(directory_.path(), 0);
+    EXPECT_EQ(compare({files[0]}, {}).status, 2);
+    EXPECT_EQ(compare(files, {"--held-out"}).status, 2);
+    EXPECT_EQ(compare(files, {"--json", "--markdown"}).status, 2);
+    const auto one_site = compare({files[0], files[2]}, {});
+    EXPECT_EQ(one_site.status, 2);
+    EXPECT_THAT(one_site.err, HasSubstr("files of two sites or more"));
+    const auto velocity = compare(files, {"--moment", "ZDR"});
+    EXPECT_EQ(velocity.status, 2);
+    EXPECT_THAT(velocity.err, HasSubstr("compared by REF"));
+}
+
+// Seven sites of one night: too little echo in common for most, and no program that fails.
+TEST_F(SitePairs, OfRealSitesEachPairHasARow) {
+    STORMCELLAR_NEED_DATA();
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(*testing::data_directory() / "mosaic-northeast"))
+        files.push_back(entry.path());
+    const auto ran = compare(files, {"--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto document = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(document["stations"].size(), 7U);
+    EXPECT_GE(document["pairs"].size(), 10U);
+    EXPECT_THAT(compare(files, {}).out,
+                HasSubstr("\n  KDOX against KBGM: nothing told: no echo where both sites look\n"));
+    for (const auto& pair : document["pairs"]) {
+        for (const char* what : {"bias_db", "azimuth_deg", "elevation_deg", "time_s"})
+            EXPECT_TRUE(pair[what].contains("value") != pair[what].contains("untold")) << pair;
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar
