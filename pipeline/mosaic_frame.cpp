@@ -114,6 +114,14 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
+// Four gates to a cell are enough where cells are wide.
+grid::AuditOptions audit_options(const grid::GridSpec& domain) {
+    grid::AuditOptions options;
+    const double cell_m = std::min(domain.cell_width_m(), domain.cell_height_m());
+    options.range_step_m = std::max(options.range_step_m, cell_m / 4);
+    return options;
+}
+
 }  // namespace
 
 Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
@@ -130,7 +138,8 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
     made->provenance.predicted_error = grid::unplanned_error(
         volume, site, (*geometry)->spec(), (*geometry)->frame_kind(), options.gridder);
     MadePartial partial{cache::describe(*made), grid::BrickGrid::from(*made, options.quantization)};
-    const auto audited = grid::audit(partial.bricks.view(), volume, site, options.gridder);
+    const auto audited =
+        grid::audit(partial.bricks.view(), volume, site, options.gridder, audit_options(domain));
     if (audited) partial.description.provenance.audit = audited->rows;
     return std::optional<MadePartial>{std::move(partial)};
 }
