@@ -22,7 +22,9 @@ std::uint16_t nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    const double code = std::nearbyint(steps) + first_value_code;
+    // To the nearest whole number, of halves to the even one: what lies above 2^52 has no fraction.
+    constexpr double no_fraction = 0x1.8p52;
+    const double code = steps + no_fraction - no_fraction + first_value_code;
     return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
                                                  static_cast<double>(quantization.largest_code())));
 }
@@ -41,8 +43,8 @@ InstantMaker::End InstantMaker::end_of(const TimedView& timed, const ColumnGeome
     End end{timed, seconds_between(options.instant, timed.middle), std::nullopt};
     if (options.sweep_times && !timed.sweeps.empty()) {
         const SitePosition& site = geometry.site();
-        end.clock.emplace(std::vector<SweepTime>(timed.sweeps.begin(), timed.sweeps.end()),
-                          BeamGeometry(site.latitude_deg, site.altitude_m), options.instant);
+        end.clock.emplace(timed.sweeps, BeamGeometry(site.latitude_deg, site.altitude_m),
+                          options.instant);
     }
     return end;
 }

@@ -146,7 +146,7 @@ class Slab {
             -std::numbers::log2e / (work_.options.length_m * work_.options.length_m));
         for (std::size_t i = 0; i < layers_.size(); ++i) {
             const std::size_t at = layer_sites_[i];
-            SiteColumns& columns = columns_[at];
+            LayerColumns& columns = columns_[at];
             layers_[i].columns = &columns;
             if (is_measured_[at]) continue;
             is_measured_[at] = true;
@@ -169,7 +169,7 @@ class Slab {
     std::optional<BricksWriter> counts_, weights_;
     BrickMerger<Code> merger_;
     std::vector<const PlacedSite*> here_;
-    std::vector<SiteColumns> columns_;  // of those here
+    std::vector<LayerColumns> columns_;  // of those here
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
     std::vector<std::size_t> layer_sites_;  // among those here

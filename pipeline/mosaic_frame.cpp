@@ -114,6 +114,15 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
+grid::Partial placed(const grid::GridSpec& domain, const SiteGrid& site,
+                     GeometryCache& geometries) {
+    grid::Partial partial{site.view(), site.partial->site()};
+    // Of a grid that is no window of the domain merge() says what is wrong.
+    const auto window = grid::window_of(domain, *partial.view.spec);
+    if (window) partial.distance = geometries.distance(domain, *window, partial.site);
+    return partial;
+}
+
 // Four gates to a cell are enough where cells are wide.
 grid::AuditOptions audit_options(const grid::GridSpec& domain) {
     grid::AuditOptions options;
@@ -129,7 +138,7 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
                                                 const grid::GridSpec& domain,
                                                 const PartialOptions& options,
                                                 GeometryCache& geometries) {
-    const auto window = grid::site_window(domain, site, options.reach_m);
+    const auto window = geometries.window(domain, site, options.reach_m);
     if (!window) return std::optional<MadePartial>{};
     const auto geometry = geometries.get(site, grid::window_spec(domain, *window));
     if (!geometry) return pass_on(geometry);
@@ -138,8 +147,11 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
     made->provenance.predicted_error = grid::unplanned_error(
         volume, site, (*geometry)->spec(), (*geometry)->frame_kind(), options.gridder);
     MadePartial partial{cache::describe(*made), grid::BrickGrid::from(*made, options.quantization)};
+    grid::AuditOptions audit = audit_options(domain);
+    const auto places = geometries.places(site, (*geometry)->spec());
+    audit.columns = places.get();
     const auto audited =
-        grid::audit(partial.bricks.view(), volume, site, options.gridder, audit_options(domain));
+        grid::audit(partial.bricks.view(), volume, site, options.gridder, audit);
     if (audited) partial.description.provenance.audit = audited->rows;
     return std::optional<MadePartial>{std::move(partial)};
 }
@@ -188,7 +200,7 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
     for (std::size_t at = 0; at < brackets.size(); ++at) {
         const Result<SiteGrid>& site = *sites[at];
         if (!site) return pass_on(site);
-        to_merge.push_back({site->view(), site->partial->site()});
+        to_merge.push_back(placed(domain, *site, geometries));
         for (const auto& index : {brackets[at].before, brackets[at].after}) {
             const bool used = index && (site->made || &partials[*index] == site->partial);
             if (used) describe(partials[*index], description);
