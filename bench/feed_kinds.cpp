@@ -104,20 +104,20 @@ std::string FeedKind::volume_at(int slot) const {
 }
 
 std::span<const FeedKind> feed_kinds() {
-    static const FeedKind migrating_birds = real({"mosaic-northeast/KCCX20100911_013442_V03.gz"}, 10);
+    static const FeedKind migrating_birds =
+        real({"mosaic-northeast/KCCX20100911_013442_V03.gz"}, 10);
     static const FeedKind drizzle = real({"mosaic-northeast/KOKX20100911_011047_V03.gz"}, 10);
     static const FeedKind coast = real({"mosaic-northeast/KDIX20100911_011759_V03.gz"}, 10);
     static const FeedKind recombined = real({"mosaic-northeast/KDOX20100911_012056_V04.gz"}, 10);
     static const FeedKind clear_air = real({"volumes/KABR20050101_000745.gz"}, 10);
-    static const FeedKind sequence = real({"sequence-kbgm/KBGM20050822_024414.gz",
-                                           "sequence-kbgm/KBGM20050822_025001.gz",
-                                           "sequence-kbgm/KBGM20050822_025549.gz",
-                                           "sequence-kbgm/KBGM20050822_030243.gz",
-                                           "sequence-kbgm/KBGM20050822_030830.gz"},
-                                          6);
+    static const FeedKind sequence =
+        real({"sequence-kbgm/KBGM20050822_024414.gz", "sequence-kbgm/KBGM20050822_025001.gz",
+              "sequence-kbgm/KBGM20050822_025549.gz", "sequence-kbgm/KBGM20050822_030243.gz",
+              "sequence-kbgm/KBGM20050822_030830.gz"},
+             6);
     static const FeedKind storms{{}, std::chrono::minutes{5}};
-    static const std::vector<FeedKind> kinds = {migrating_birds, storms,     recombined, drizzle,
-                                                sequence,        storms,     coast,      recombined,
+    static const std::vector<FeedKind> kinds = {migrating_birds, storms,   recombined, drizzle,
+                                                sequence,        storms,   coast,      recombined,
                                                 storms,          clear_air};
     return kinds;
 }

@@ -47,7 +47,8 @@ struct FeedVolume {
 // What files hold, counted by their records.
 struct FeedSize {
     std::uint64_t compressed = 0, uncompressed = 0;
-    std::uint64_t dense = 0;  // of the uncompressed bytes, those of files that expand 8 times at most
+    std::uint64_t dense =
+        0;  // of the uncompressed bytes, those of files that expand 8 times at most
 
     [[nodiscard]] double expansion() const {
         return static_cast<double>(uncompressed) / static_cast<double>(compressed);

@@ -31,8 +31,7 @@ const std::string domain_name = "bench";
 
 pipeline::PartialOptions partial_options(const grid::GridSpec& domain, const std::string& icao) {
     const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
-    const accuracy::Choice rungs =
-        grid::default_choice(chain, domain, grid::beam_width_of(icao));
+    const accuracy::Choice rungs = grid::default_choice(chain, domain, grid::beam_width_of(icao));
     pipeline::PartialOptions options;
     options.gridder.method = grid::scene_choice(chain, rungs).method;
     options.quantization = grid::default_quantization(level2::Moment::ref);
@@ -122,8 +121,7 @@ Status Runner::make_frames(UtcTime from, UtcTime until) {
     pipeline::FrameOptions options;
     options.threads = threads_;
     for (UtcTime instant = from; instant < until; instant += frame_interval) {
-        const auto frame =
-            pipeline::make_frame(domain_, views, instant, options, geometries_);
+        const auto frame = pipeline::make_frame(domain_, views, instant, options, geometries_);
         if (!frame) return pass_on(frame);
         const auto committed =
             store_.commit(domain_name, frame->description, frame->mosaic.cells.view());

@@ -40,7 +40,8 @@ struct AuditOptions {
     double azimuth_step_deg = 5;  // between sampled radials; at least each one
     double range_step_m = 1500;   // between sampled gates; at least each one
     int threads = 1;
-    // Made before for the site and the grid's spec, with audit_reach_m; else it is made in the call.
+    // Made before for the site and the grid's spec, with audit_reach_m; else it is made in the
+    // call.
     const SiteColumns* columns = nullptr;
 };
 

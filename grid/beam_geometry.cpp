@@ -77,8 +77,7 @@ double BeamGeometry::height_over(Angle half_arc, Angle elevation) const noexcept
     const double arc_cosine = 1 - 2 * half_arc.sine * half_arc.sine;
     const double cosine = elevation.cosine * arc_cosine - elevation.sine * arc_sine;
     if (!std::isgreater(cosine, 0.0)) return std::numeric_limits<double>::quiet_NaN();
-    const double middle_sine =
-        elevation.sine * half_arc.cosine + elevation.cosine * half_arc.sine;
+    const double middle_sine = elevation.sine * half_arc.cosine + elevation.cosine * half_arc.sine;
     return altitude_m_ + 2 * antenna_m_ * middle_sine * half_arc.sine / cosine;
 }
 

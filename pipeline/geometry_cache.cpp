@@ -26,16 +26,15 @@ std::shared_ptr<const grid::SiteDistance> GeometryCache::distance(const grid::Gr
                                                                   const grid::SitePosition& site) {
     const Windowed place{{site, domain}, window};
     if (auto found = distances_.find(place)) return *found;
-    return distances_.keep(place,
-                           std::make_shared<const grid::SiteDistance>(domain, window, site));
+    return distances_.keep(place, std::make_shared<const grid::SiteDistance>(domain, window, site));
 }
 
 std::shared_ptr<const grid::SiteColumns> GeometryCache::places(const grid::SitePosition& site,
                                                                const grid::GridSpec& spec) {
     const Place place{site, spec};
     if (auto found = places_.find(place)) return *found;
-    return places_.keep(
-        place, std::make_shared<const grid::SiteColumns>(site, spec, grid::audit_reach_m));
+    return places_.keep(place,
+                        std::make_shared<const grid::SiteColumns>(site, spec, grid::audit_reach_m));
 }
 
 }  // namespace stormcellar::pipeline

@@ -22,7 +22,10 @@ class GeometryCache {
   public:
     // Of column geometries, which are large; of the rest some 0.1 MiB each, so many more.
     explicit GeometryCache(std::size_t capacity)
-        : geometries_(capacity), windows_(small_ones), distances_(small_ones), places_(small_ones) {}
+        : geometries_(capacity),
+          windows_(small_ones),
+          distances_(small_ones),
+          places_(small_ones) {}
 
     Result<std::shared_ptr<const grid::ColumnGeometry>> get(const grid::SitePosition& site,
                                                             const grid::GridSpec& spec);

@@ -150,8 +150,7 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
     grid::AuditOptions audit = audit_options(domain);
     const auto places = geometries.places(site, (*geometry)->spec());
     audit.columns = places.get();
-    const auto audited =
-        grid::audit(partial.bricks.view(), volume, site, options.gridder, audit);
+    const auto audited = grid::audit(partial.bricks.view(), volume, site, options.gridder, audit);
     if (audited) partial.description.provenance.audit = audited->rows;
     return std::optional<MadePartial>{std::move(partial)};
 }

@@ -39,7 +39,7 @@ class RecentlyUsed {
 
   private:
     std::size_t capacity_;
-    std::mutex mutex_;                         // guards entries_
+    std::mutex mutex_;                          // guards entries_
     std::list<std::pair<Key, Value>> entries_;  // most recently used first
 };
 
