@@ -9,7 +9,7 @@
 //   threads     for all phases
 //   decode_cpu, grid_cpu, bricks_cpu   the new volume: decoded (REF alone), gridded on its window
 //               with the geometry kept, turned into bricks
-//   update_cpu  its partial merged into the mosaic: touched bricks merged, the others copied
+//   update_cpu  its partial merged into the mosaic, in place: the bricks of its window
 //   sum_cpu     all of that: seconds of CPU time by all threads, least of the runs
 //   merge_cpu   the mosaic merged anew from all partials
 //   update_s, merge_s   wall-clock seconds of both
@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "base/memory.h"
@@ -59,12 +60,19 @@ void measure_northeast(const fs::path& data, const Request& request, Table& tabl
         partials.push_back({grids.back().view(), newcomers.back().site, newcomers.back().distance});
         if (partials.size() < 2) continue;
         const bool last = file == files.back();
+        double stored = 0;
+        for (const grid::Partial& partial : partials)
+            stored += stored_part(partial.view);
+        MergeCase merged{"northeast", domain, static_cast<int>(partials.size()),
+                         [&](const grid::GridWindow&) { return partials; }, newcomers.front()};
+        merged.others_stored = stored / static_cast<double>(partials.size());
         for (const grid::Overlap overlap : {grid::Overlap::distance_weighted, grid::Overlap::mean,
                                             grid::Overlap::maximum, grid::Overlap::nearest}) {
             if (!last && overlap != grid::Overlap::distance_weighted) continue;
+            merged.overlap = overlap;
             for (const int threads : request.threads) {
-                table.add(measure_merge({"northeast", domain, partials, newcomers.front(), overlap},
-                                        threads, request.runs));
+                auto row = measure_merge(merged, threads, request.runs);
+                if (row) table.add(std::move(*row));
             }
         }
     }

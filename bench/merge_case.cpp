@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using grid::GridSpec;
+using grid::GridWindow;
 using grid::SitePosition;
 
 double cpu_s() {
@@ -71,11 +72,38 @@ double memory_mib(const grid::BrickView& view) {
     return static_cast<double>(bytes) / mebibyte;
 }
 
-double stored_part(const grid::BrickView& view) {
-    const auto stored = std::count_if(
-        view.bricks.begin(), view.bricks.end(),
-        [](const grid::BrickEntry& entry) { return entry.kind == grid::BrickKind::stored; });
-    return static_cast<double>(stored) / static_cast<double>(view.bricks.size());
+// In stripes of whole bricks.
+Result<grid::Mosaic> build(const MergeCase& merged, const grid::MosaicOptions& options) {
+    const GridSpec& domain = merged.domain;
+    if (merged.stripes == 1) {
+        const auto partials = merged.partials_in({0, 0, domain.nx, domain.ny});
+        if (!partials) return pass_on(partials);
+        return grid::merge(domain, *partials, options);
+    }
+    auto mosaic = grid::merge(domain, {}, options);
+    if (!mosaic) return mosaic;
+    const int bricks = (grid::bricks_along(domain.nx) + merged.stripes - 1) / merged.stripes;
+    const int width = bricks * grid::brick_edge;
+    for (int x = 0; x < domain.nx; x += width) {
+        const GridWindow stripe{x, 0, std::min(width, domain.nx - x), domain.ny};
+        const auto partials = merged.partials_in(stripe);
+        if (!partials) return pass_on(partials);
+        const Status done = grid::update_in_place(*mosaic, *partials, {&stripe, 1}, options);
+        if (!done) return pass_on(done);
+    }
+    return mosaic;
+}
+
+// The newcomer's volume in place of what its site had.
+Status update(const MergeCase& merged, const grid::BrickView& bricks,
+              const grid::MosaicOptions& options, grid::Mosaic& mosaic) {
+    const Newcomer& newcomer = merged.newcomer;
+    auto partials = merged.partials_in(newcomer.window);
+    if (!partials) return pass_on(partials);
+    for (grid::Partial& partial : *partials) {
+        if (partial.site.icao == newcomer.site.icao) partial.view = bricks;
+    }
+    return grid::update_in_place(mosaic, *partials, {&newcomer.window, 1}, options);
 }
 
 struct Found {
@@ -83,14 +111,11 @@ struct Found {
 };
 
 Row row_of(const MergeCase& merged, int threads, const Least& least, const Found& found) {
-    double others = 0;
-    for (const grid::Partial& partial : merged.partials)
-        others += stored_part(partial.view);
     const int touched = grid::bricks_along(merged.newcomer.window.nx) *
                         grid::bricks_along(merged.newcomer.window.ny);
     const int columns = grid::bricks_along(merged.domain.nx) * grid::bricks_along(merged.domain.ny);
     return {{"case", merged.name},
-            {"sites", static_cast<int>(merged.partials.size())},
+            {"sites", merged.sites},
             {"overlap", grid::overlap_name(merged.overlap)},
             {"threads", threads},
             {"decode_cpu", {least.decode, 3}},
@@ -104,7 +129,7 @@ Row row_of(const MergeCase& merged, int threads, const Least& least, const Found
             {"once_cpu", {merged.newcomer.once_cpu, 3}},
             {"touched", fmt::format("{}/{}", touched, columns)},
             {"stored", {found.stored, 3}},
-            {"others_stored", {others / static_cast<double>(merged.partials.size()), 3}},
+            {"others_stored", {merged.others_stored, 3}},
             {"mosaic_mib", {found.mosaic_mib, 0}},
             {"peak_mib", {static_cast<double>(high_water_kib()) / 1024, 0}}};
 }
@@ -128,46 +153,42 @@ Newcomer prepare(const GridSpec& domain, const fs::path& file, std::string_view 
     return newcomer;
 }
 
+double stored_part(const grid::BrickView& view) {
+    const auto stored = std::count_if(
+        view.bricks.begin(), view.bricks.end(),
+        [](const grid::BrickEntry& entry) { return entry.kind == grid::BrickKind::stored; });
+    return static_cast<double>(stored) / static_cast<double>(view.bricks.size());
+}
+
 grid::BrickGrid bricks_of(const Newcomer& from, int threads) {
     Least none;
     return bricks_of(from, threads, none);
 }
 
-Row measure_merge(const MergeCase& merged, int threads, int runs) {
-    const GridSpec& domain = merged.domain;
-    const std::vector<grid::Partial>& partials = merged.partials;
-    const Newcomer& newcomer = merged.newcomer;
+Result<Row> measure_merge(const MergeCase& merged, int threads, int runs) {
     grid::MosaicOptions options;
     options.overlap = merged.overlap;
     options.threads = threads;
     Least least;
-    double mosaic_mib = 0;
-    double stored = 0;
+    Found found;
     for (int run = 0; run < runs; ++run) {
         Result<grid::Mosaic> mosaic = fail(ErrorCode::empty, "");
-        least.merge_s = std::min(least.merge_s, seconds_of([&] {
-                                     keep_least_cpu(least.merge, [&] {
-                                         mosaic = grid::merge(domain, partials, options);
-                                     });
-                                 }));
+        least.merge_s =
+            std::min(least.merge_s, seconds_of([&] {
+                         keep_least_cpu(least.merge, [&] { mosaic = build(merged, options); });
+                     }));
+        if (!mosaic) return pass_on(mosaic);
         const double start_s = cpu_s();
-        const grid::BrickGrid bricks = bricks_of(newcomer, threads, least);
-        std::vector<grid::Partial> all = partials;
-        for (grid::Partial& partial : all) {
-            if (partial.site.icao == newcomer.site.icao) partial.view = bricks.view();
-        }
-        Result<grid::Mosaic> updated = fail(ErrorCode::empty, "");
-        least.update_s = std::min(
-            least.update_s, seconds_of([&] {
-                keep_least_cpu(least.update, [&] {
-                    updated = grid::update(mosaic->view(), all, {&newcomer.window, 1}, options);
-                });
-            }));
+        const grid::BrickGrid bricks = bricks_of(merged.newcomer, threads, least);
+        Status updated;
+        const auto work = [&] { updated = update(merged, bricks.view(), options, *mosaic); };
+        least.update_s =
+            std::min(least.update_s, seconds_of([&] { keep_least_cpu(least.update, work); }));
+        if (!updated) return pass_on(updated);
         least.sum = std::min(least.sum, cpu_s() - start_s);
-        mosaic_mib = memory_mib(updated.value().cells.view());
-        stored = stored_part(bricks.view());
+        found = {memory_mib(mosaic->cells.view()), stored_part(bricks.view())};
     }
-    return row_of(merged, threads, least, {mosaic_mib, stored});
+    return row_of(merged, threads, least, found);
 }
 
 }  // namespace stormcellar::bench

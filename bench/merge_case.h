@@ -4,11 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/result.h"
 #include "base/station_table.h"
 #include "bench/measure.h"
 #include "bench/table.h"
@@ -36,14 +38,22 @@ struct Newcomer {
 // The volume's partial, from bytes to bricks.
 [[nodiscard]] grid::BrickGrid bricks_of(const Newcomer& from, int threads);
 
+// The part of a partial's bricks that hold values.
+[[nodiscard]] double stored_part(const grid::BrickView& view);
+
 struct MergeCase {
     std::string name;
     const grid::GridSpec& domain;
-    std::vector<grid::Partial> partials;  // the newcomer's site has one of its own
+    int sites = 0;
+    // Those whose windows touch this one, the newcomer's site's among them; valid until the next
+    // call.
+    std::function<Result<std::vector<grid::Partial>>(const grid::GridWindow&)> partials_in;
     const Newcomer& newcomer;
     grid::Overlap overlap = grid::Overlap::distance_weighted;
+    int stripes = 1;           // in which the whole mosaic is made, west to east
+    double others_stored = 0;  // mean of stored_part() of all partials
 };
-// A row: the columns of bench_merge.
-[[nodiscard]] Row measure_merge(const MergeCase& merged, int threads, int runs);
+// A row: the columns of bench_merge. Errors: those of partials_in and merging.
+[[nodiscard]] Result<Row> measure_merge(const MergeCase& merged, int threads, int runs);
 
 }  // namespace stormcellar::bench

@@ -39,7 +39,7 @@ const PartialView* nearest_of(const PartialView* before, const PartialView* afte
 }
 
 Result<SiteGrid> site_grid(const PartialView* before, const PartialView* after, UtcTime instant,
-                           level2::Moment moment, const FrameOptions& options,
+                           level2::Moment moment, const FrameOptions& options, int threads,
                            GeometryCache& geometries) {
     SiteGrid site;
     site.partial = nearest_of(before, after, instant);
@@ -56,6 +56,7 @@ Result<SiteGrid> site_grid(const PartialView* before, const PartialView* after, 
     at.moment = moment;
     at.method = options.time;
     at.sweep_times = options.sweep_times;
+    at.threads = threads;
     std::optional<grid::MotionField> motion;
     if (at.method == grid::TimeMethod::advected && moment == level2::Moment::ref) {
         auto found = grid::estimate_motion(before->view, after->view,
@@ -189,11 +190,13 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
     const auto partial_at = [&](const std::optional<std::size_t>& index) {
         return index ? &partials[*index] : nullptr;
     };
-    for_each_piece(static_cast<int>(brackets.size()), options.threads, [&](int piece) {
+    const int count = static_cast<int>(brackets.size());
+    const int threads_a_site = std::max(1, options.threads / count);
+    for_each_piece(count, options.threads, [&](int piece) {
         const Bracket& bracket = brackets[static_cast<std::size_t>(piece)];
         sites[static_cast<std::size_t>(piece)] =
             site_grid(partial_at(bracket.before), partial_at(bracket.after), instant,
-                      options.overlap.moment, options, geometries);
+                      options.overlap.moment, options, threads_a_site, geometries);
     });
     std::vector<grid::Partial> to_merge;
     for (std::size_t at = 0; at < brackets.size(); ++at) {
