@@ -241,29 +241,20 @@ class Measurement {
     volatile unsigned sum_ = 0;
 };
 
+void measure(const fs::path& file, const Request& request, Table& table) {
+    const auto grid = grid_of(file);
+    if (!grid) return;
+    Measurement measurement(file, *grid, request.runs);
+    measurement.plain(table);
+    for (const Codec& codec : all_codecs())
+        measurement.packed(codec, table);
+}
+
 int run(int argc, char** argv) {
     keep_freed_memory();
-    const auto [request, status] =
-        read_request({"bench_compression", "[FILE ...]",
-                      "what compressing the bricks of a grid saves and costs"},
-                     std::span(argv, static_cast<std::size_t>(argc)));
-    if (!request) return status;
-    const std::vector<fs::path> files = request->volumes();
-    if (files.empty()) {
-        fmt::print(stderr, "bench_compression: no files: name some, or say --data DIR\n");
-        return 3;
-    }
-    Table table(request->json);
-    for (const fs::path& file : files) {
-        const auto grid = grid_of(file);
-        if (!grid) continue;
-        Measurement measurement(file, *grid, request->runs);
-        measurement.plain(table);
-        for (const Codec& codec : all_codecs())
-            measurement.packed(codec, table);
-    }
-    table.finish();
-    return 0;
+    return run_over_files({"bench_compression", "[FILE ...]",
+                           "what compressing the bricks of a grid saves and costs"},
+                          std::span(argv, static_cast<std::size_t>(argc)), measure);
 }
 
 }  // namespace

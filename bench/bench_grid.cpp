@@ -224,20 +224,9 @@ int run(int argc, char** argv) {
     if (argc == 5 && std::string(argv[1]) == "--grid-once") {
         return grid_once(argv[2], argv[3], argv[4]);
     }
-    const auto [request, status] = read_request(
+    return run_over_files(
         {"bench_grid", "[FILE ...]", "what gridding costs beside libbz2 over the same LDM records"},
-        std::span(argv, static_cast<std::size_t>(argc)));
-    if (!request) return status;
-    const std::vector<fs::path> files = request->volumes();
-    if (files.empty()) {
-        fmt::print(stderr, "bench_grid: no files: name some, or say --data DIR\n");
-        return 3;
-    }
-    Table table(request->json);
-    for (const fs::path& file : files)
-        measure(file, *request, table);
-    table.finish();
-    return 0;
+        std::span(argv, static_cast<std::size_t>(argc)), measure);
 }
 
 }  // namespace

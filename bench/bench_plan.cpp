@@ -153,27 +153,18 @@ void measure(const fs::path& file, level2::Moment moment, int threads, int runs,
     }
 }
 
+void measure_all(const fs::path& file, const Request& request, Table& table) {
+    for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::vel}) {
+        for (const int threads : request.threads)
+            measure(file, moment, threads, request.runs, table);
+    }
+}
+
 int run(int argc, char** argv) {
     keep_freed_memory();
-    const auto [request, status] =
-        read_request({"bench_plan", "[FILE ...]",
-                      "what the planner says that gridding takes, and what it takes"},
-                     std::span(argv, static_cast<std::size_t>(argc)));
-    if (!request) return status;
-    const std::vector<fs::path> files = request->volumes();
-    if (files.empty()) {
-        fmt::print(stderr, "bench_plan: no files: name some, or say --data DIR\n");
-        return 3;
-    }
-    Table table(request->json);
-    for (const fs::path& file : files) {
-        for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::vel}) {
-            for (const int threads : request->threads)
-                measure(file, moment, threads, request->runs, table);
-        }
-    }
-    table.finish();
-    return 0;
+    return run_over_files({"bench_plan", "[FILE ...]",
+                           "what the planner says that gridding takes, and what it takes"},
+                          std::span(argv, static_cast<std::size_t>(argc)), measure_all);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <bzlib.h>
 #include <fcntl.h>
@@ -82,7 +83,7 @@ long high_water_kib() {
     return -1;
 }
 
-std::optional<double> peak_mib(std::vector<std::string> arguments) {
+std::optional<std::string> run_self(std::vector<std::string> arguments) {
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0) return {};
     posix_spawn_file_actions_t actions;
@@ -98,14 +99,21 @@ std::optional<double> peak_mib(std::vector<std::string> arguments) {
     const int failed = ::posix_spawn(&child, own.c_str(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
-    std::array<char, 32> text{};
-    const ssize_t length = failed == 0 ? ::read(ends[0], text.data(), text.size() - 1) : 0;
+    std::string said(std::size_t{1} << 16, '\0');
+    const ssize_t length = failed == 0 ? ::read(ends[0], said.data(), said.size()) : 0;
     ::close(ends[0]);
     if (failed != 0) return {};
     int status = 0;
     ::waitpid(child, &status, 0);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || length <= 0) return {};
-    return static_cast<double>(number_in(text.data())) / 1024;
+    said.resize(static_cast<std::size_t>(length));
+    return said;
+}
+
+std::optional<double> peak_mib(std::vector<std::string> arguments) {
+    const auto said = run_self(std::move(arguments));
+    if (!said) return {};
+    return static_cast<double>(number_in(*said)) / 1024;
 }
 
 std::optional<ProgramRun> run_stormcellar(std::vector<std::string> arguments) {

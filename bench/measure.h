@@ -34,8 +34,10 @@ void keep_least_seconds(double& least, Work work) {
 // libbz2 alone over all records, one stream each, into pieces of one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);
 
-// Runs this program with these arguments in a process of its own. It prints high_water_kib().
-// None where it failed.
+// Runs this program with these arguments in a process of its own and gives what it prints, up to 64
+// KiB. None where it failed.
+[[nodiscard]] std::optional<std::string> run_self(std::vector<std::string> arguments);
+// The same where what it prints is high_water_kib().
 [[nodiscard]] std::optional<double> peak_mib(std::vector<std::string> arguments);
 // What this process held at most, in KiB; the kernel's own count (proc(5)).
 [[nodiscard]] long high_water_kib();

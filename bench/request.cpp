@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/result.h"
+#include "bench/table.h"
 
 namespace stormcellar::bench {
 namespace {
@@ -18,6 +19,8 @@ std::string usage_of(const Program& program) {
     std::string flags;
     for (const std::string_view flag : program.flags)
         flags += fmt::format(" [{}]", flag);
+    for (const std::string_view option : program.values)
+        flags += fmt::format(" [{} VALUE]", option);
     return fmt::format(
         "{}: {}\n"
         "usage: {} [--data DIR] [--threads N] [--runs N] [--json]{} {}\n"
@@ -60,16 +63,24 @@ Result<Request> parse(const Program& program, std::span<char* const> words) {
     Request request;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string_view word = words[i];
-        const bool is_own =
-            std::find(program.flags.begin(), program.flags.end(), word) != program.flags.end();
+        const auto is_among = [&](const std::vector<std::string_view>& options) {
+            return std::find(options.begin(), options.end(), word) != options.end();
+        };
+        const bool is_own = is_among(program.flags);
+        const bool takes_value = is_among(program.values);
         if (word == "--json") {
             request.json = true;
         } else if (is_own) {
             request.flags.emplace_back(word);
-        } else if (word == "--data" || word == "--threads" || word == "--runs") {
+        } else if (takes_value || word == "--data" || word == "--threads" || word == "--runs") {
             if (i + 1 == words.size())
                 return fail(ErrorCode::bad_argument, "{} takes a value", word);
-            if (auto good = read_option(word, words[++i], request); !good) return pass_on(good);
+            const std::string_view value = words[++i];
+            if (takes_value) {
+                request.values.insert_or_assign(std::string(word), value);
+            } else if (auto good = read_option(word, value, request); !good) {
+                return pass_on(good);
+            }
         } else if (word.starts_with("-")) {
             return fail(ErrorCode::bad_argument, "unknown option {}", word);
         } else {
@@ -85,14 +96,23 @@ bool Request::has(std::string_view flag) const {
     return std::find(flags.begin(), flags.end(), flag) != flags.end();
 }
 
+std::optional<std::string> Request::value(std::string_view option) const {
+    const auto found = values.find(option);
+    if (found == values.end()) return std::nullopt;
+    return found->second;
+}
+
+fs::path Request::data_directory() const {
+    const char* configured = std::getenv("STORMCELLAR_DATA");
+    return data.value_or(configured != nullptr ? configured : "../shared/data");
+}
+
 std::vector<fs::path> Request::volumes() const {
     if (!files.empty()) return files;
-    const char* configured = std::getenv("STORMCELLAR_DATA");
-    const fs::path otherwise = configured != nullptr ? configured : "../shared/data";
     std::vector<fs::path> found;
     for (const char* folder : {"volumes", "sequence-kbgm", "mosaic-northeast"}) {
         std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(data.value_or(otherwise) / folder, ignored))
+        for (const auto& entry : fs::directory_iterator(data_directory() / folder, ignored))
             found.push_back(entry.path());
     }
     std::sort(found.begin(), found.end());
@@ -114,6 +134,23 @@ ReadRequest read_request(const Program& program, std::span<char* const> argument
         return {std::nullopt, 2};
     }
     return {std::move(*request), 0};
+}
+
+int run_over_files(
+    const Program& program, std::span<char* const> arguments,
+    const std::function<void(const std::filesystem::path&, const Request&, Table&)>& measure) {
+    const auto [request, status] = read_request(program, arguments);
+    if (!request) return status;
+    const std::vector<fs::path> files = request->volumes();
+    if (files.empty()) {
+        fmt::print(stderr, "{}: no files: name some, or say --data DIR\n", program.name);
+        return 3;
+    }
+    Table table(request->json);
+    for (const fs::path& file : files)
+        measure(file, *request, table);
+    table.finish();
+    return 0;
 }
 
 }  // namespace stormcellar::bench

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,9 +17,10 @@ namespace stormcellar::bench {
 
 struct Program {
     std::string_view name;
-    std::string_view files;                    // what its positional words are, as "[FILE ...]"
-    std::string_view purpose;                  // one line
-    std::vector<std::string_view> flags = {};  // of its own
+    std::string_view files;                     // what its positional words are, as "[FILE ...]"
+    std::string_view purpose;                   // one line
+    std::vector<std::string_view> flags = {};   // of its own
+    std::vector<std::string_view> values = {};  // options of its own that take a value
 };
 
 struct Request {
@@ -27,10 +30,13 @@ struct Request {
     std::optional<std::filesystem::path> data;  // --data, a directory
     std::vector<std::filesystem::path> files;
     std::vector<std::string> flags;
+    std::map<std::string, std::string, std::less<>> values;
 
     [[nodiscard]] bool has(std::string_view flag) const;
-    // Those named, else every volume of the data directory, sorted by path: that of --data, or
-    // $STORMCELLAR_DATA, or ../shared/data.
+    [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
+    // --data, or $STORMCELLAR_DATA, or ../shared/data.
+    [[nodiscard]] std::filesystem::path data_directory() const;
+    // Those named, else every volume of the data directory, sorted by path.
     [[nodiscard]] std::vector<std::filesystem::path> volumes() const;
 };
 
@@ -41,5 +47,13 @@ struct ReadRequest {
     int status = 0;
 };
 [[nodiscard]] ReadRequest read_request(const Program& program, std::span<char* const> arguments);
+
+class Table;
+
+// The body of a benchmark over files: reads the request, has each file measured into a table, and
+// prints it. What main() is to return: 2 after bad usage, 3 where there are no files.
+[[nodiscard]] int run_over_files(
+    const Program& program, std::span<char* const> arguments,
+    const std::function<void(const std::filesystem::path&, const Request&, Table&)>& measure);
 
 }  // namespace stormcellar::bench

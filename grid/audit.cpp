@@ -18,7 +18,6 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double farthest_gate_m = 500e3;
 constexpr std::size_t classes = audit_range_borders_m.size() + 1;
 
 // No data: the gate says nothing.
@@ -138,11 +137,11 @@ class KindScan {
         for (std::int32_t number = 0; number < moment_.gate_counts[radial]; number += gate_step_) {
             const double range_m = moment_.range_m(number);
             if (range_m < 0) continue;
-            if (range_m > farthest_gate_m) break;
+            if (range_m > audit_reach_m) break;
             const auto status = status_of(moment_.status(radial, number));
             if (!status) continue;
             const auto place = places_.at(number / gate_step_, offset_deg);
-            if (!place || place->arc_m > farthest_gate_m) continue;
+            if (!place || place->arc_m > audit_reach_m) continue;
             const double level = scan_.sampler.level_at(place->height_m);
             if (!scan_.sampler.find(scan_.columns.at(sine, cosine, place->arc_m), level, corners)) {
                 continue;
@@ -250,7 +249,9 @@ Result<Audit> audit(const BrickView& grid, const level2::Volume& volume, const S
     const double beam_width_deg =
         gridded.beam_width_deg > 0 ? gridded.beam_width_deg : beam_width_of(site.icao);
     const GridSampler sampler(grid);
-    const SiteColumns columns(site, *grid.spec, farthest_gate_m);
+    std::optional<SiteColumns> made_here;
+    if (options.columns == nullptr) made_here.emplace(site, *grid.spec, audit_reach_m);
+    const SiteColumns& columns = made_here ? *made_here : *options.columns;
     const BeamModel beam = beam_model_of(site, gridded.method.beam, gridded.profile);
     const Scan scan{volume,
                     sampler,

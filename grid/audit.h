@@ -28,14 +28,21 @@
 #include "grid/audit_row.h"
 #include "grid/brick_view.h"
 #include "grid/gridder.h"
+#include "grid/site_columns.h"
 #include "level2/volume.h"
 
 namespace stormcellar::grid {
+
+// No gate beyond this is looked at.
+inline constexpr double audit_reach_m = 500e3;
 
 struct AuditOptions {
     double azimuth_step_deg = 5;  // between sampled radials; at least each one
     double range_step_m = 1500;   // between sampled gates; at least each one
     int threads = 1;
+    // Made before for the site and the grid's spec, with audit_reach_m; else it is made in the
+    // call.
+    const SiteColumns* columns = nullptr;
 };
 
 // Slant ranges where a class ends and the next begins; the last one has no end.

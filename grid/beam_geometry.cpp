@@ -62,4 +62,23 @@ BeamGeometry::BeamPoint BeamGeometry::over(double arc_m, double elevation_deg) c
     return {antenna_m_ * std::sin(angle) / cosine, altitude_m_ + above_antenna_m};
 }
 
+BeamGeometry::Angle BeamGeometry::elevation_angle(double elevation_deg) noexcept {
+    const double elevation = elevation_deg * radians_per_degree;
+    return {std::sin(elevation), std::cos(elevation)};
+}
+
+BeamGeometry::Angle BeamGeometry::half_arc_angle(double arc_m) const noexcept {
+    const double half = arc_m / radius_m_ / 2;
+    return {std::sin(half), std::cos(half)};
+}
+
+double BeamGeometry::height_over(Angle half_arc, Angle elevation) const noexcept {
+    const double arc_sine = 2 * half_arc.sine * half_arc.cosine;
+    const double arc_cosine = 1 - 2 * half_arc.sine * half_arc.sine;
+    const double cosine = elevation.cosine * arc_cosine - elevation.sine * arc_sine;
+    if (!std::isgreater(cosine, 0.0)) return std::numeric_limits<double>::quiet_NaN();
+    const double middle_sine = elevation.sine * half_arc.cosine + elevation.cosine * half_arc.sine;
+    return altitude_m_ + 2 * antenna_m_ * middle_sine * half_arc.sine / cosine;
+}
+
 }  // namespace stormcellar::grid

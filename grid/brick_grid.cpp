@@ -224,6 +224,51 @@ BrickView BrickGrid::view() const {
     return view;
 }
 
+void BrickGrid::clear(std::size_t brick) {
+    BrickEntry& entry = bricks_[brick];
+    if (entry.kind == BrickKind::stored) {
+        const std::size_t size = brick_cells * static_cast<std::size_t>(quantization_.code_bytes);
+        std::memset(codes_.data() + brick * size, 0, size);
+    }
+    entry = {};
+}
+
+void BrickGrid::finish_again(std::span<BricksWriter> writers) {
+    const std::vector<std::byte> before = std::move(states_);
+    states_.clear();
+    std::vector<const std::byte*> blocks;  // of the bricks that were written now
+    std::size_t count = 0;
+    for (const BricksWriter& writer : writers)
+        count += writer.bricks_with_states_.size();
+    blocks.reserve(count);
+    for (const BricksWriter& writer : writers) {
+        for (std::size_t i = 0; i < writer.bricks_with_states_.size(); ++i) {
+            // Numbers from the end on stand for them until all are put in order.
+            bricks_[writer.bricks_with_states_[i]].status_index =
+                static_cast<std::uint32_t>(before.size() / state_block_bytes + blocks.size());
+            blocks.push_back(writer.states_.data() + i * state_block_bytes);
+        }
+        clamped_count_ += writer.clamped_count_;
+    }
+    const std::size_t old_blocks = before.size() / state_block_bytes;
+    const auto has_states = [](const BrickEntry& entry) {
+        return entry.kind == BrickKind::status_only;
+    };
+    const auto all = std::count_if(bricks_.begin(), bricks_.end(), has_states);
+    states_.reserve(static_cast<std::size_t>(all) * state_block_bytes);
+    std::uint32_t next = 0;
+    for (BrickEntry& entry : bricks_) {
+        if (!has_states(entry)) continue;
+        const std::byte* block = entry.status_index < old_blocks
+                                     ? before.data() + entry.status_index * state_block_bytes
+                                     : blocks[entry.status_index - old_blocks];
+        states_.insert(states_.end(), block, block + state_block_bytes);
+        entry.status_index = next++;
+    }
+    for (BricksWriter& writer : writers)
+        writer = BricksWriter(*this);
+}
+
 void BricksWriter::put_uniform(std::size_t brick, CellStatus status) {
     grid_->bricks_[brick].uniform_status = status;
 }

@@ -38,6 +38,12 @@ class BrickGrid {
     // the one before it, in rising order; so states stand in the order of their bricks.
     void finish(std::span<BricksWriter> writers);
 
+    // Bricks become not seen, to be written anew: then finish_again(), whose writers may have
+    // written in any order. States stand in the order of their bricks again, as if the grid had
+    // been written at once, but for what clamped_count() counts: all that was ever clamped.
+    void clear(std::size_t brick);
+    void finish_again(std::span<BricksWriter> writers);
+
   private:
     friend class BricksWriter;
 

@@ -16,7 +16,7 @@
 namespace stormcellar::grid {
 
 // What a rule weighs a site by in the columns of one brick.
-struct SiteColumns {
+struct LayerColumns {
     ColumnValues weights{};
     ColumnValues squared_arcs_m2{};
 };
@@ -25,7 +25,7 @@ struct SiteColumns {
 struct BrickLayer {
     const BrickView* view = nullptr;
     std::size_t brick = 0;  // in that view
-    const SiteColumns* columns = nullptr;
+    const LayerColumns* columns = nullptr;
     DetectionLimit limit;
     double site_altitude_m = 0;
 };

@@ -22,7 +22,9 @@ std::uint16_t nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    const double code = std::nearbyint(steps) + first_value_code;
+    // To the nearest whole number, of halves to the even one: what lies above 2^52 has no fraction.
+    constexpr double no_fraction = 0x1.8p52;
+    const double code = steps + no_fraction - no_fraction + first_value_code;
     return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
                                                  static_cast<double>(quantization.largest_code())));
 }
@@ -41,8 +43,8 @@ InstantMaker::End InstantMaker::end_of(const TimedView& timed, const ColumnGeome
     End end{timed, seconds_between(options.instant, timed.middle), std::nullopt};
     if (options.sweep_times && !timed.sweeps.empty()) {
         const SitePosition& site = geometry.site();
-        end.clock.emplace(std::vector<SweepTime>(timed.sweeps.begin(), timed.sweeps.end()),
-                          BeamGeometry(site.latitude_deg, site.altitude_m), options.instant);
+        end.clock.emplace(timed.sweeps, BeamGeometry(site.latitude_deg, site.altitude_m),
+                          options.instant);
     }
     return end;
 }
@@ -76,30 +78,40 @@ InstantBrick::InstantBrick(const InstantMaker& maker, int bx, int by)
             }
         }
     }
+    for (std::size_t end = 0; end < maker.ends_.size(); ++end)
+        read_times(end);
 }
 
-void InstantBrick::read_times(std::size_t end, int bz) {
+void InstantBrick::read_times(std::size_t end) {
     const InstantMaker::End& from = maker_.ends_[end];
-    Source& source = sources_[end];
-    if (!from.clock) {
-        source.seconds.fill(static_cast<float>(from.middle_s));
-        return;
-    }
+    if (!from.clock) return;
     const GridSpec& spec = maker_.geometry_->spec();
-    const auto first = static_cast<std::size_t>(bz) * brick_edge;
-    const auto levels =
-        std::span(spec.levels_m)
-            .subspan(first, std::min<std::size_t>(brick_edge, spec.levels_m.size() - first));
-    source.seconds.fill(static_cast<float>(from.middle_s));
+    const std::size_t height = spec.levels_m.size();
+    std::vector<float>& seconds = sources_[end].column_seconds;
+    seconds.assign(columns * height, static_cast<float>(from.middle_s));
     for (int y = 0; y < brick_edge && by_ * brick_edge + y < spec.ny; ++y) {
         const auto row = maker_.geometry_->row(by_ * brick_edge + y);
         for (int x = 0; x < brick_edge && bx_ * brick_edge + x < spec.nx; ++x) {
             const ColumnPlace& place = row[static_cast<std::size_t>(bx_ * brick_edge + x)];
-            const auto cell = static_cast<std::size_t>((x * brick_edge + y) * brick_edge);
+            const auto column = static_cast<std::size_t>(x * brick_edge + y);
             from.clock->read(static_cast<double>(place.azimuth_deg),
-                             static_cast<double>(place.arc_m), levels,
-                             std::span(source.seconds).subspan(cell, levels.size()));
+                             static_cast<double>(place.arc_m), spec.levels_m,
+                             std::span(seconds).subspan(column * height, height));
         }
+    }
+}
+
+// Of the brick at this height.
+void InstantBrick::take_times(std::size_t end, int bz) {
+    Source& source = sources_[end];
+    source.seconds.fill(static_cast<float>(maker_.ends_[end].middle_s));
+    if (source.column_seconds.empty()) return;
+    const std::size_t height = maker_.geometry_->spec().levels_m.size();
+    const auto first = static_cast<std::size_t>(bz) * brick_edge;
+    const std::size_t count = std::min<std::size_t>(brick_edge, height - first);
+    for (std::size_t column = 0; column < columns; ++column) {
+        std::copy_n(source.column_seconds.data() + column * height + first, count,
+                    source.seconds.data() + column * brick_edge);
     }
 }
 
@@ -226,7 +238,7 @@ std::optional<CellStatus> InstantBrick::make(int bz) {
     const std::size_t ends = maker_.ends_.size();
     std::optional<CellStatus> uniform;
     for (std::size_t end = 0; end < ends; ++end) {
-        read_times(end, bz);
+        take_times(end, bz);
         find_box(end);
         const auto status =
             CodeBlock::uniform_status(maker_.ends_[end].timed.view, sources_[end].box, bz);

@@ -53,14 +53,18 @@ class InstantBrick {
     // Of one end, for the bricks of a height.
     struct Source {
         CodeBlock codes;
-        std::array<float, brick_cells> seconds;  // each cell's own time, from the instant
+        // Each cell's own time, from the instant; of the columns at all heights, where their volume
+        // has a clock.
+        std::vector<float> column_seconds;
+        std::array<float, brick_cells> seconds;
         ColumnBox box;
         bool is_still = true;  // no column has moved
     };
 
     // The state of all cells, where that is known without looking at any; else codes_ holds them.
     std::optional<CellStatus> make(int bz);
-    void read_times(std::size_t end, int bz);
+    void read_times(std::size_t end);
+    void take_times(std::size_t end, int bz);
     void find_box(std::size_t end);
     void fill();
     [[nodiscard]] Sample sample(std::size_t end, std::size_t cell);

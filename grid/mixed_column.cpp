@@ -168,6 +168,34 @@ Mixture MixedColumn::at(float height_m) {
     return is_between_adjacent() ? between(height_m) : outside(height_m);
 }
 
+// No beam passes between two heights, and no edge of one reaches between them; find(lowest_m).
+bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
+    if (is_between_adjacent()) return false;
+    const bool clear_below = above_ == 0 || lowest_m > beams_[above_ - 1].upper_edge_m;
+    const bool clear_above = above_ == beams_.size() || (highest_m < beams_[above_].lower_edge_m &&
+                                                         highest_m < beams_[above_].height_m);
+    return clear_below && clear_above;
+}
+
+// Between two beams shares are linear in height, so the mean of several heights is what their
+// middle has.
+CellResult MixedColumn::mean_at(std::span<const float> heights_m) {
+    const float lowest_m = heights_m.front();
+    const float highest_m = heights_m.back();
+    find(lowest_m);
+    if (are_outside(lowest_m, highest_m)) return {CellStatus::not_seen, 0};
+    const bool linear = interpolation_ != Interpolation::nearest &&
+                        interpolation_ != Interpolation::beam_weighted && !is_circular(blending_);
+    if (linear && is_between_adjacent() && highest_m < beams_[above_].height_m) {
+        if (is_quiet_around(lowest_m)) return {CellStatus::no_echo, 0};
+        return between((lowest_m + highest_m) / 2).result(blending_);
+    }
+    Mixture mean;
+    for (const float height_m : heights_m)
+        mean.add(at(height_m), 1 / static_cast<float>(heights_m.size()), blending_);
+    return mean.result(blending_);
+}
+
 CellResult MixedColumn::cell_at(float height_m) {
     find(height_m);
     if (!is_between_adjacent()) return outside(height_m).result(blending_);

@@ -47,6 +47,8 @@ class MixedColumn {
     [[nodiscard]] Mixture at(float height_m);
     // The same as a cell.
     [[nodiscard]] CellResult cell_at(float height_m);
+    // The mean of several heights that rise by even steps, as a cell.
+    [[nodiscard]] CellResult mean_at(std::span<const float> heights_m);
 
   private:
     [[nodiscard]] bool is_between_adjacent() const {
@@ -57,6 +59,7 @@ class MixedColumn {
         return 1.001F * width_deg * steepest_m_per_deg_;
     }
     [[nodiscard]] float width_between_deg() const;
+    [[nodiscard]] bool are_outside(float lowest_m, float highest_m) const;
     [[nodiscard]] bool is_quiet_around(float height_m) const;
     void find(float height_m);
     [[nodiscard]] Mixture between(float height_m);

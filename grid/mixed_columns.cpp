@@ -109,10 +109,7 @@ Mixture MixedColumns::mixture_of(const PolarSweep& sweep, const PlannedSweep& pl
 
 CellResult MixedColumns::cell_at(std::size_t first, std::size_t count) {
     if (count == 1) return mixed_.cell_at(work_.heights_m[first]);
-    Mixture cell;
-    for (std::size_t i = first; i < first + count; ++i)
-        cell.add(mixed_.at(work_.heights_m[i]), 1 / static_cast<float>(count), work_.blending);
-    return cell.result(work_.blending);
+    return mixed_.mean_at(std::span(work_.heights_m).subspan(first, count));
 }
 
 }  // namespace stormcellar::grid

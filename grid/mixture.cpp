@@ -62,6 +62,15 @@ void Mixture::add_as(const Sample& sample, float weight, Blending blending) {
 template void Mixture::add_as<false>(const Sample&, float, Blending);
 template void Mixture::add_as<true>(const Sample&, float, Blending);
 
+void Mixture::add_counted(CellStatus status, int count, float sum, Blending blending) {
+    const auto weight = static_cast<float>(count);
+    add_as<false>({status, 0, 0, 0}, weight, blending);
+    const bool has_sum =
+        status == CellStatus::value ||
+        (status == CellStatus::no_echo && blending == Blending::with_detection_limit);
+    if (has_sum) sum_ += sum;
+}
+
 void Mixture::add(const Mixture& other, float weight, Blending blending) {
     valued_ += weight * other.valued_;
     quiet_ += weight * other.quiet_;

@@ -72,6 +72,9 @@ class Mixture {
     // The same where is_circular(blending) is known.
     template <bool circular>
     void add_as(const Sample& sample, float weight, Blending blending);
+    // As if so many samples of a status were added, each with weight 1, whose values (or, of no
+    // echo, limits) add up to `sum`. Not for moments that wrap.
+    void add_counted(CellStatus status, int count, float sum, Blending blending);
     // As if all of its samples were added, each with `weight` times its own.
     void add(const Mixture& other, float weight, Blending blending);
     void add_unseen(float weight) { unseen_ += weight; }

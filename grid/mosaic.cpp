@@ -161,4 +161,19 @@ Result<Mosaic> update(const MosaicView& previous, std::span<const Partial> parti
     return made;
 }
 
+Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
+                       std::span<const GridWindow> changed, const MosaicOptions& options) {
+    if (Status good = check_options(options); !good) return good;
+    const MosaicView view = mosaic.view();
+    if (Status good = check_previous(view, options); !good) return good;
+    const GridSpec& domain = *view.cells.spec;
+    auto sites = place_sites(domain, partials, view.cells.quantization);
+    if (!sites) return pass_on(sites);
+    std::vector<bool> columns = changed_columns(view.cells, changed);
+    drop_untouched(view.cells, columns, *sites);
+    measure_distances(domain, options.threads, *sites);
+    refill_mosaic({domain, options, *sites, nullptr, std::move(columns), mosaic});
+    return {};
+}
+
 }  // namespace stormcellar::grid

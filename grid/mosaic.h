@@ -99,4 +99,13 @@ struct Mosaic {
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
 
+// The same bits again, but in `mosaic` itself: nothing is copied, so it costs the changed bricks
+// and one pass over the table and states. Of `partials` only those are needed whose windows hold
+// something changed; a mosaic too large for all of them at once is made of an empty one (merge() of
+// no partials) stripe by stripe.
+// Errors: those of update(), before anything was changed. No view of the mosaic may be in use.
+[[nodiscard]] Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
+                                     std::span<const GridWindow> changed,
+                                     const MosaicOptions& options);
+
 }  // namespace stormcellar::grid

@@ -34,10 +34,11 @@ class Slab {
         for (int by = 0; by < shape_.bricks_y; ++by) {
             const std::size_t column =
                 shape_.brick_index(bx_, by, 0) / static_cast<std::size_t>(shape_.bricks_z);
-            if (work_.previous != nullptr && !work_.changed[column]) {
-                copy_column(by);
-            } else {
+            const bool is_changed = work_.changed.empty() || work_.changed[column];
+            if (is_changed) {
                 merge_column(by);
+            } else if (work_.previous != nullptr) {
+                copy_column(by);
             }
         }
         cells_.count_clamped(merger_.clamped_count());
@@ -146,7 +147,7 @@ class Slab {
             -std::numbers::log2e / (work_.options.length_m * work_.options.length_m));
         for (std::size_t i = 0; i < layers_.size(); ++i) {
             const std::size_t at = layer_sites_[i];
-            SiteColumns& columns = columns_[at];
+            LayerColumns& columns = columns_[at];
             layers_[i].columns = &columns;
             if (is_measured_[at]) continue;
             is_measured_[at] = true;
@@ -169,23 +170,24 @@ class Slab {
     std::optional<BricksWriter> counts_, weights_;
     BrickMerger<Code> merger_;
     std::vector<const PlacedSite*> here_;
-    std::vector<SiteColumns> columns_;  // of those here
+    std::vector<LayerColumns> columns_;  // of those here
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
     std::vector<std::size_t> layer_sites_;  // among those here
 };
 
-// What the writers of all slabs hold goes to the grid, in the order of its bricks.
+// What the writers of all slabs hold, in the order of its bricks.
 template <class Code, class Pick>
-void finish(std::vector<std::optional<Slab<Code>>>& slabs, BrickGrid& grid, Pick pick) {
+std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
     for (std::optional<Slab<Code>>& slab : slabs)
         writers.push_back(std::move(pick(*slab)));
-    grid.finish(writers);
+    return writers;
 }
 
-template <class Code>
-void fill(const MosaicWork& work) {
+// Each grid of the mosaic takes over what the writers hold by finish(grid, writers).
+template <class Code, class Finish>
+void fill(const MosaicWork& work, Finish finish) {
     const int count = work.made.cells.view().bricks_x;
     std::vector<std::optional<Slab<Code>>> slabs(static_cast<std::size_t>(count));
     for_each_piece(count, work.options.threads, [&](int bx) {
@@ -193,26 +195,51 @@ void fill(const MosaicWork& work) {
         slab.emplace(work, bx);
         slab->fill();
     });
-    finish<Code>(
-        slabs, work.made.cells, [](auto& slab) -> auto& { return slab.cells(); });
+    finish(work.made.cells, writers_of<Code>(
+                                slabs, [](auto& slab) -> auto& { return slab.cells(); }));
     if (work.made.counts) {
-        finish<Code>(
-            slabs, *work.made.counts, [](auto& slab) -> auto& { return *slab.counts(); });
+        finish(*work.made.counts, writers_of<Code>(
+                                      slabs, [](auto& slab) -> auto& { return *slab.counts(); }));
     }
     if (work.made.weights) {
-        finish<Code>(
-            slabs, *work.made.weights, [](auto& slab) -> auto& { return *slab.weights(); });
+        finish(*work.made.weights, writers_of<Code>(
+                                       slabs, [](auto& slab) -> auto& { return *slab.weights(); }));
+    }
+}
+
+template <class Finish>
+void fill_any(const MosaicWork& work, Finish finish) {
+    if (work.made.cells.view().quantization.code_bytes == 1) {
+        fill<std::uint8_t>(work, finish);
+    } else {
+        fill<std::uint16_t>(work, finish);
+    }
+}
+
+void clear_changed(const std::vector<bool>& changed, BrickGrid& grid) {
+    const auto height = static_cast<std::size_t>(grid.view().bricks_z);
+    for (std::size_t column = 0; column < changed.size(); ++column) {
+        if (!changed[column]) continue;
+        for (std::size_t bz = 0; bz < height; ++bz)
+            grid.clear(column * height + bz);
     }
 }
 
 }  // namespace
 
 void fill_mosaic(const MosaicWork& work) {
-    if (work.made.cells.view().quantization.code_bytes == 1) {
-        fill<std::uint8_t>(work);
-    } else {
-        fill<std::uint16_t>(work);
+    fill_any(work,
+             [](BrickGrid& grid, std::vector<BricksWriter> writers) { grid.finish(writers); });
+}
+
+void refill_mosaic(const MosaicWork& work) {
+    for (auto* grid : {&work.made.counts, &work.made.weights}) {
+        if (*grid) clear_changed(work.changed, **grid);
     }
+    clear_changed(work.changed, work.made.cells);
+    fill_any(work, [](BrickGrid& grid, std::vector<BricksWriter> writers) {
+        grid.finish_again(writers);
+    });
 }
 
 }  // namespace stormcellar::grid

@@ -17,11 +17,13 @@ struct MosaicWork {
     const MosaicOptions& options;
     std::span<const PlacedSite> sites;
     const MosaicView* previous = nullptr;  // bricks not changed are copied from it
-    std::vector<bool> changed = {};        // of each column of bricks, where there is a previous
+    std::vector<bool> changed = {};        // of each column of bricks; empty: all
     Mosaic& made;
 };
 
 // Fills a mosaic in which nothing was seen so far.
 void fill_mosaic(const MosaicWork& work);
+// Fills the changed columns of a mosaic anew; the rest of it stays. There is no previous.
+void refill_mosaic(const MosaicWork& work);
 
 }  // namespace stormcellar::grid

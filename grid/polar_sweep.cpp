@@ -96,6 +96,7 @@ PolarSweep::PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen, co
                     ? blending_of(options.moment)
                     : Blending::values_only),
       averaging_(options.averaging),
+      cell_(options.cell),
       halves_per_deg_(static_cast<float>(1 / options.half_beam_deg)),
       azimuths_(azimuth_table(sweep, chosen)) {
     for (const level2::SweepMoment& moment : sweep.moments) {
@@ -163,6 +164,14 @@ void PolarSweep::add_losses(float attenuation_db_per_m, Kind& kind) const {
         const double range_m = kind.moment->range_m(gate);
         const float attenuation_db = attenuation_db_per_m * static_cast<float>(range_m);
         kind.losses.push_back({static_cast<float>(at_zero_dbz.at(range_m)), attenuation_db});
+    }
+    if (averaging_ == Averaging::in_db && cell_ == CellExtent::area) {
+        double sum = 0;
+        kind.loss_sums.push_back(sum);
+        for (const Kind::Loss& loss : kind.losses) {
+            sum += static_cast<double>(loss.spreading) + static_cast<double>(loss.attenuation);
+            kind.loss_sums.push_back(sum);
+        }
     }
     if (averaging_ == Averaging::in_db) return;
     for (Kind::Loss& loss : kind.losses)
@@ -289,6 +298,56 @@ float PolarSweep::gates_per_m_of_arc(ArcPlace place) const {
 Sample PolarSweep::gate(int position, std::int32_t gate) const {
     const Row& row = rows_[static_cast<std::size_t>(position)];
     return gate_of(row, kinds_[row.kind], gate);
+}
+
+// Most stretches hold no echo: their limits add up to a difference of two sums.
+void PolarSweep::add_gates(int position, std::int32_t first, std::int32_t end,
+                           Mixture& mixture) const {
+    const Row& row = rows_[static_cast<std::size_t>(position)];
+    const Kind& kind = kinds_[row.kind];
+    const bool has_limits = blending_ == Blending::with_detection_limit;
+    const bool plain = row.codes8 != nullptr && kind.first_valid_code == 2 &&
+                       !is_circular(blending_) &&
+                       (!has_limits || (row.has_simple_limit && !kind.loss_sums.empty()));
+    if (!plain) {
+        for (std::int32_t gate = first; gate < end; ++gate)
+            mixture.add(gate_of(row, kind, gate), 1, blending_);
+        return;
+    }
+    unsigned any = 0;
+    for (std::int32_t gate = first; gate < end; ++gate)
+        any |= row.codes8[gate];
+    if (any != 0) return add_mixed_gates(row, kind, first, end, mixture);
+    const auto count = static_cast<double>(end - first);
+    double limits = 0;
+    if (has_limits) {
+        limits = count * static_cast<double>(row.limit_at_1km) +
+                 kind.loss_sums[static_cast<std::size_t>(end)] -
+                 kind.loss_sums[static_cast<std::size_t>(first)];
+    }
+    mixture.add_counted(CellStatus::no_echo, end - first, static_cast<float>(limits), blending_);
+}
+
+void PolarSweep::add_mixed_gates(const Row& row, const Kind& kind, std::int32_t first,
+                                 std::int32_t end, Mixture& mixture) const {
+    const bool has_limits = blending_ == Blending::with_detection_limit;
+    int valued = 0, quiet = 0;
+    float values = 0, limits = 0;
+    for (std::int32_t gate = first; gate < end; ++gate) {
+        const std::uint8_t code = row.codes8[gate];
+        if (code >= kind.first_valid_code) {
+            ++valued;
+            values += kind.values[code];
+        } else if (code == 0) {
+            ++quiet;
+            if (!has_limits) continue;
+            const Kind::Loss& loss = kind.losses[static_cast<std::size_t>(gate)];
+            limits += row.limit_at_1km + loss.spreading + loss.attenuation;
+        }
+    }
+    mixture.add_counted(CellStatus::value, valued, values, blending_);
+    mixture.add_counted(CellStatus::no_echo, quiet, limits, blending_);
+    mixture.add_counted(CellStatus::range_folded, end - first - valued - quiet, 0, blending_);
 }
 
 void PolarSweep::add_along_radial(int position, ArcPlace place, float weight,

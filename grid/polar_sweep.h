@@ -40,6 +40,7 @@ struct PolarSweepOptions {
     std::size_t table_size = 2;  // arcs from 0 to (table_size - 1) * ArcTable::step_m
     ChosenAveraging averaging = {};
     ChosenCircle on_circle = {};
+    ChosenExtent cell = {};
 };
 
 // A beam whose center never passes over an arc is said to be higher than this there.
@@ -118,6 +119,8 @@ class PolarSweep {
     [[nodiscard]] float gates_per_m_of_arc(ArcPlace place) const;
     // A gate of GatePlace's range.
     [[nodiscard]] Sample gate(int position, std::int32_t gate) const;
+    // All gates from `first` to before `end`, in that range, each with weight 1.
+    void add_gates(int position, std::int32_t first, std::int32_t end, Mixture& mixture) const;
 
     // How much higher the radial was measured than the sweep's elevation.
     [[nodiscard]] float elevation_offset_deg(int position) const {
@@ -159,6 +162,7 @@ class PolarSweep {
             float attenuation;  // of radials whose attenuation_db_per_m is the kind's
         };
         std::vector<Loss> losses;
+        std::vector<double> loss_sums;  // of both, of all gates before; only for cells of an extent
         float attenuation_db_per_m = 0;
     };
     struct Row {
@@ -184,11 +188,14 @@ class PolarSweep {
     [[nodiscard]] Sample wide_gate_of(const Row& row, const Kind& kind, std::int32_t gate) const;
     [[nodiscard]] Sample without_value(const Row& row, const Kind& kind, std::int32_t gate,
                                        std::uint16_t code) const;
+    void add_mixed_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
+                         Mixture& mixture) const;
     [[nodiscard]] float detection_limit_of(const Row& row, const Kind& kind,
                                            std::int32_t gate) const;
 
     Blending blending_;
     ChosenAveraging averaging_;
+    ChosenExtent cell_;
     float halves_per_deg_;                  // half beam widths a degree
     std::vector<Lanes> beam_;               // by arc, as an ArcTable
     std::vector<std::uint8_t> lost_edges_;  // by arc; empty where no edge is lost

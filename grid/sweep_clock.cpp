@@ -13,7 +13,8 @@ double seconds_between(UtcTime from, UtcTime to) {
 
 // Clockwise, [0, 360).
 double turn(double from_deg, double to_deg) {
-    const double apart = std::fmod(to_deg - from_deg, 360.0);
+    double apart = to_deg - from_deg;
+    if (std::abs(apart) >= 360) apart = std::fmod(apart, 360.0);
     return apart < 0 ? apart + 360 : apart;
 }
 
@@ -54,33 +55,35 @@ std::vector<SweepTime> sweep_times(const level2::Volume& volume,
     return times;
 }
 
-SweepClock::SweepClock(std::vector<SweepTime> sweeps, BeamGeometry beam, UtcTime origin)
-    : sweeps_(std::move(sweeps)), beam_(beam), origin_(origin) {
-    earliest_s_ = seconds_between(origin_, sweeps_.front().start);
+SweepClock::SweepClock(std::span<const SweepTime> sweeps, BeamGeometry beam, UtcTime origin)
+    : beam_(beam) {
+    earliest_s_ = seconds_between(origin, sweeps.front().start);
     latest_s_ = earliest_s_;
-    for (const SweepTime& sweep : sweeps_) {
-        const double start = seconds_between(origin_, sweep.start);
+    for (const SweepTime& sweep : sweeps) {
+        const double start = seconds_between(origin, sweep.start);
         const double end = sweep.degrees_per_s > 0 ? start + 360 / sweep.degrees_per_s : start;
         earliest_s_ = std::min(earliest_s_, start);
         latest_s_ = std::max(latest_s_, end);
+        sweeps_.push_back({BeamGeometry::elevation_angle(sweep.elevation_deg), start,
+                           sweep.first_azimuth_deg, sweep.degrees_per_s});
     }
 }
 
-double SweepClock::seconds_of(const SweepTime& sweep, double azimuth_deg) const {
-    const double start = seconds_between(origin_, sweep.start);
-    if (!(sweep.degrees_per_s > 0)) return start;
-    return start + turn(sweep.first_azimuth_deg, azimuth_deg) / sweep.degrees_per_s;
+double SweepClock::seconds_of(const Turn& sweep, double azimuth_deg) {
+    if (!(sweep.degrees_per_s > 0)) return sweep.start_s;
+    return sweep.start_s + turn(sweep.first_azimuth_deg, azimuth_deg) / sweep.degrees_per_s;
 }
 
 void SweepClock::read(double azimuth_deg, double arc_m, std::span<const double> levels_m,
                       std::span<float> seconds) const {
+    const BeamGeometry::Angle half_arc = beam_.half_arc_angle(arc_m);
     std::size_t next = 0;  // the lowest sweep above the level
     double below_m = 0, below_s = 0, above_m = 0, above_s = 0;
     const auto take_next = [&] {
         below_m = above_m;
         below_s = above_s;
         if (next < sweeps_.size()) {
-            above_m = beam_.over(arc_m, sweeps_[next].elevation_deg).height_m;
+            above_m = beam_.height_over(half_arc, sweeps_[next].elevation);
             above_s = seconds_of(sweeps_[next], azimuth_deg);
         }
     };

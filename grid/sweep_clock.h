@@ -33,7 +33,7 @@ inline constexpr double fastest_turn_deg_per_s = 360;
 class SweepClock {
   public:
     // Times are given in seconds since `origin`. `sweeps` in rising elevation, at least one.
-    SweepClock(std::vector<SweepTime> sweeps, BeamGeometry beam, UtcTime origin);
+    SweepClock(std::span<const SweepTime> sweeps, BeamGeometry beam, UtcTime origin);
 
     // For each level of a column.
     void read(double azimuth_deg, double arc_m, std::span<const double> levels_m,
@@ -43,11 +43,15 @@ class SweepClock {
     [[nodiscard]] double latest_s() const { return latest_s_; }
 
   private:
-    [[nodiscard]] double seconds_of(const SweepTime& sweep, double azimuth_deg) const;
+    struct Turn {
+        BeamGeometry::Angle elevation;
+        double start_s = 0;
+        double first_azimuth_deg = 0, degrees_per_s = 0;
+    };
+    [[nodiscard]] static double seconds_of(const Turn& sweep, double azimuth_deg);
 
-    std::vector<SweepTime> sweeps_;
+    std::vector<Turn> sweeps_;
     BeamGeometry beam_;
-    UtcTime origin_;
     double earliest_s_ = 0, latest_s_ = 0;
 };
 

@@ -108,8 +108,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         const float high = center + (to_m - footprint.arc_m) * gates_a_m_of_arc;
         const auto first = std::max(at.first, static_cast<std::int32_t>(std::ceil(low)));
         const auto last = static_cast<std::int32_t>(std::floor(high));
-        for (std::int32_t gate = first; gate <= last && gate < at.end; ++gate)
-            gates.add(sweep.gate(position, gate), 1, blending);
+        sweep.add_gates(position, first, std::max(first, std::min(last + 1, at.end)), gates);
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });

@@ -83,9 +83,9 @@ SweepStack make_stack(const level2::Volume& volume, const SitePosition& site,
     stack.beam_width_deg = static_cast<float>(options.beam_width_deg);
     stack.table_size =
         3 + static_cast<std::size_t>(std::min(farthest_m, farthest_arc_m) / ArcTable::step_m);
-    const PolarSweepOptions sweep_options{options.moment,           options.beam_width_deg / 2,
-                                          is_tdwr(site.icao),       stack.table_size,
-                                          options.method.averaging, options.method.on_circle};
+    const PolarSweepOptions sweep_options{
+        options.moment,           options.beam_width_deg / 2, is_tdwr(site.icao), stack.table_size,
+        options.method.averaging, options.method.on_circle,   options.method.cell};
     for (const ChosenSweep& sweep : chosen) {
         const level2::Sweep& source = volume.sweeps[sweep.sweep_index];
         stack.sweeps.emplace_back(source, sweep, beam, sweep_options);

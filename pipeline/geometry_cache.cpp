@@ -1,39 +1,40 @@
 #include "pipeline/geometry_cache.h"
 
+#include "grid/audit.h"
+
 namespace stormcellar::pipeline {
-namespace {
-
-bool same_site(const grid::SitePosition& a, const grid::SitePosition& b) {
-    return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg &&
-           a.altitude_m == b.altitude_m;
-}
-
-}  // namespace
-
-std::shared_ptr<const grid::ColumnGeometry> GeometryCache::find(const grid::SitePosition& site,
-                                                                const grid::GridSpec& spec,
-                                                                grid::FrameKind frame) {
-    const std::scoped_lock lock(mutex_);
-    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        if (same_site(entry->site, site) && entry->spec == spec && entry->frame == frame) {
-            entries_.splice(entries_.begin(), entries_, entry);
-            return entry->geometry;
-        }
-    }
-    return nullptr;
-}
 
 Result<std::shared_ptr<const grid::ColumnGeometry>> GeometryCache::get(
     const grid::SitePosition& site, const grid::GridSpec& spec, grid::FrameKind frame) {
-    if (auto found = find(site, spec, frame)) return found;
+    const Framed place{{site, spec}, frame};
+    if (auto found = geometries_.find(place)) return *found;
     auto made = grid::make_column_geometry(site, spec, frame);
     if (!made) return made;
-    // Another thread may have made the same meanwhile.
-    if (auto found = find(site, spec, frame)) return found;
-    const std::scoped_lock lock(mutex_);
-    entries_.push_front({site, spec, frame, *made});
-    if (entries_.size() > capacity_) entries_.pop_back();
-    return made;
+    return geometries_.keep(place, *std::move(made));
+}
+
+std::optional<grid::GridWindow> GeometryCache::window(const grid::GridSpec& domain,
+                                                      const grid::SitePosition& site,
+                                                      double reach_m) {
+    const Reach reach{{site, domain}, reach_m};
+    if (const auto found = windows_.find(reach)) return *found;
+    return windows_.keep(reach, grid::site_window(domain, site, reach_m));
+}
+
+std::shared_ptr<const grid::SiteDistance> GeometryCache::distance(const grid::GridSpec& domain,
+                                                                  const grid::GridWindow& window,
+                                                                  const grid::SitePosition& site) {
+    const Windowed place{{site, domain}, window};
+    if (auto found = distances_.find(place)) return *found;
+    return distances_.keep(place, std::make_shared<const grid::SiteDistance>(domain, window, site));
+}
+
+std::shared_ptr<const grid::SiteColumns> GeometryCache::places(const grid::SitePosition& site,
+                                                               const grid::GridSpec& spec) {
+    const Place place{site, spec};
+    if (auto found = places_.find(place)) return *found;
+    return places_.keep(place,
+                        std::make_shared<const grid::SiteColumns>(site, spec, grid::audit_reach_m));
 }
 
 }  // namespace stormcellar::pipeline

@@ -1,42 +1,79 @@
-// pipeline/geometry_cache.h -- column geometries that were made before, by site, spec and frame.
+// pipeline/geometry_cache.h -- what volumes of one site on one grid share, made once and kept.
 //
-// Making one takes longer than using it, and a site's volumes all share it. The least recently
-// used go first. Thread contract: may be used by many threads; a geometry that two threads want at
-// once may be made twice, and one of the two is kept.
+// Making it takes longer than using it. The least recently used go first.
+// Thread contract: may be used by many threads; what two threads want at once may be made twice,
+// and one of the two is kept.
 #pragma once
 
 #include <cstddef>
-#include <list>
 #include <memory>
-#include <mutex>
+#include <optional>
 
 #include "base/result.h"
+#include "grid/grid_window.h"
 #include "grid/gridder.h"
+#include "grid/site_columns.h"
+#include "grid/site_distance.h"
+#include "pipeline/recently_used.h"
 
 namespace stormcellar::pipeline {
 
 class GeometryCache {
   public:
-    explicit GeometryCache(std::size_t capacity) : capacity_(capacity) {}
+    // Of column geometries, which are large; of the rest some 0.1 MiB each, so many more.
+    explicit GeometryCache(std::size_t capacity)
+        : geometries_(capacity),
+          windows_(small_ones),
+          distances_(small_ones),
+          places_(small_ones) {}
 
     Result<std::shared_ptr<const grid::ColumnGeometry>> get(
         const grid::SitePosition& site, const grid::GridSpec& spec,
         grid::FrameKind frame = grid::FrameKind::table);
+    // grid::site_window().
+    std::optional<grid::GridWindow> window(const grid::GridSpec& domain,
+                                           const grid::SitePosition& site, double reach_m);
+    // For merging: of a window of the domain.
+    std::shared_ptr<const grid::SiteDistance> distance(const grid::GridSpec& domain,
+                                                       const grid::GridWindow& window,
+                                                       const grid::SitePosition& site);
+    // For audits (grid::audit_reach_m).
+    std::shared_ptr<const grid::SiteColumns> places(const grid::SitePosition& site,
+                                                    const grid::GridSpec& spec);
 
   private:
-    struct Entry {
+    static constexpr std::size_t small_ones = 512;
+
+    // A site's place on a grid, whatever the site is called.
+    struct Place {
         grid::SitePosition site;
         grid::GridSpec spec;
-        grid::FrameKind frame = grid::FrameKind::table;
-        std::shared_ptr<const grid::ColumnGeometry> geometry;
+        bool operator==(const Place& other) const {
+            return site.latitude_deg == other.site.latitude_deg &&
+                   site.longitude_deg == other.site.longitude_deg &&
+                   site.altitude_m == other.site.altitude_m && spec == other.spec;
+        }
     };
-    std::shared_ptr<const grid::ColumnGeometry> find(const grid::SitePosition& site,
-                                                     const grid::GridSpec& spec,
-                                                     grid::FrameKind frame);
+    struct Framed {
+        Place place;
+        grid::FrameKind frame = grid::FrameKind::table;
+        bool operator==(const Framed&) const = default;
+    };
+    struct Reach {
+        Place place;
+        double reach_m = 0;
+        bool operator==(const Reach&) const = default;
+    };
+    struct Windowed {
+        Place place;
+        grid::GridWindow window;
+        bool operator==(const Windowed&) const = default;
+    };
 
-    std::size_t capacity_;
-    std::mutex mutex_;          // guards entries_
-    std::list<Entry> entries_;  // most recently used first
+    RecentlyUsed<Framed, std::shared_ptr<const grid::ColumnGeometry>> geometries_;
+    RecentlyUsed<Reach, std::optional<grid::GridWindow>> windows_;
+    RecentlyUsed<Windowed, std::shared_ptr<const grid::SiteDistance>> distances_;
+    RecentlyUsed<Place, std::shared_ptr<const grid::SiteColumns>> places_;
 };
 
 }  // namespace stormcellar::pipeline

@@ -212,6 +212,23 @@ Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
     return frame;
 }
 
+grid::Partial placed(const grid::GridSpec& domain, const SiteShare& share,
+                     GeometryCache& geometries) {
+    grid::Partial partial{share.view(), share.nearest->site()};
+    // Of a grid that is no window of the domain merge() says what is wrong.
+    const auto window = grid::window_of(domain, *partial.view.spec);
+    if (window) partial.distance = geometries.distance(domain, *window, partial.site);
+    return partial;
+}
+
+// Four gates to a cell are enough where cells are wide.
+grid::AuditOptions audit_options(const grid::GridSpec& domain) {
+    grid::AuditOptions options;
+    const double cell_m = std::min(domain.cell_width_m(), domain.cell_height_m());
+    options.range_step_m = std::max(options.range_step_m, cell_m / 4);
+    return options;
+}
+
 }  // namespace
 
 Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
@@ -219,7 +236,7 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
                                                 const grid::GridSpec& domain,
                                                 const PartialOptions& options,
                                                 GeometryCache& geometries) {
-    const auto window = grid::site_window(domain, site, options.reach_m);
+    const auto window = geometries.window(domain, site, options.reach_m);
     if (!window) return std::optional<MadePartial>{};
     const auto geometry = geometries.get(site, grid::window_spec(domain, *window), options.frame);
     if (!geometry) return pass_on(geometry);
@@ -228,7 +245,10 @@ Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
     made->provenance.predicted_error = grid::unplanned_error(
         volume, site, (*geometry)->spec(), (*geometry)->frame_kind(), options.gridder);
     MadePartial partial{cache::describe(*made), grid::BrickGrid::from(*made, options.quantization)};
-    const auto audited = grid::audit(partial.bricks.view(), volume, site, options.gridder);
+    grid::AuditOptions audit = audit_options(domain);
+    const auto places = geometries.places(site, (*geometry)->spec());
+    audit.columns = places.get();
+    const auto audited = grid::audit(partial.bricks.view(), volume, site, options.gridder, audit);
     if (audited) partial.description.provenance.audit = audited->rows;
     return std::optional<MadePartial>{std::move(partial)};
 }
@@ -298,7 +318,7 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
     }
     std::vector<grid::Partial> to_merge;
     for (const SiteShare& share : shares)
-        to_merge.push_back({share.view(), share.nearest->site()});
+        to_merge.push_back(placed(domain, share, geometries));
     grid::MosaicOptions overlap = options.overlap;
     overlap.threads = options.threads;
     auto mosaic = changed ? grid::update({previous->cells, std::nullopt, std::nullopt}, to_merge,

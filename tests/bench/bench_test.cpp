@@ -61,7 +61,8 @@ TEST_P(EachBenchmark, SaysThatADirectoryIsMissing) {
 
 INSTANTIATE_TEST_SUITE_P(All, EachBenchmark,
                          ::testing::Values("bench_beam", "bench_decode", "bench_frame",
-                                           "bench_grid", "bench_merge", "bench_plan"));
+                                           "bench_grid", "bench_merge", "bench_mosaic",
+                                           "bench_plan"));
 
 TEST(Benchmark, WithoutVolumesThereIsNothingToMeasure) {
     const testing::TemporaryDirectory empty;
@@ -110,6 +111,29 @@ TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
         head += (head.empty() ? "" : "\t") + key;
     EXPECT_EQ(text.out.substr(0, text.out.find('\n')), head);
     EXPECT_EQ(rows[0]["threads"], 1);
+}
+
+// One site, one thread: the keys that the paper's table has.
+TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
+    STORMCELLAR_NEED_DATA();
+    EXPECT_EQ(run_program(bench("bench_mosaic"), {"--work"}).status, 2);
+    const testing::TemporaryDirectory work;
+    const auto said =
+        run_program(bench("bench_mosaic"),
+                    {"--json", "--threads", "2", "--only", "1", "--data",
+                     testing::data_directory()->string(), "--work", work.path().string()});
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto rows = nlohmann::json::parse(said.out)["rows"];
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(keys_of(rows[0]),
+              (std::set<std::string>{"sites", "threads", "total_s", "libbz2_s", "ratio",
+                                     "expansion", "peak_mib", "paper_min"}));
+    EXPECT_GT(rows[0]["total_s"], 0.0);
+    EXPECT_GT(rows[0]["expansion"], 1.0);
+    EXPECT_TRUE(rows[0]["paper_min"].is_null());
+    // Merged volumes are not left behind, raw ones are.
+    for (const auto& entry : fs::directory_iterator(work.path()))
+        EXPECT_EQ(entry.path().filename(), "feed");
 }
 
 TEST(BenchBeam, JsonHasBothKindsOfRows) {

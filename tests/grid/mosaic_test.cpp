@@ -381,13 +381,40 @@ TEST(Mosaic, AnUpdateIsAFullMerge) {
                 partials.add_random(sites[at], window, quantization, round + 1000);
             }
             options.threads = 1 + static_cast<int>(round % 2);
-            auto updated = update(mosaic->view(), all, changed, options);
+            const auto updated = update(mosaic->view(), all, changed, options);
             ASSERT_TRUE(updated);
             const auto whole = merge(domain, all, options);
             ASSERT_TRUE(whole);
             expect_same_bits(*updated, *whole);
-            mosaic = std::move(updated);
+            ASSERT_TRUE(update_in_place(*mosaic, all, changed, options));
+            expect_same_bits(*mosaic, *whole);
         }
+    }
+}
+
+// With the partials that touch it alone, each stripe is as all of them make it.
+TEST(Mosaic, GrowsInStripesToTheFullMerge) {
+    for (const Quantization& quantization : {one_byte, two_bytes}) {
+        Partials partials = random_partials(quantization, 10);
+        const GridSpec& domain = partials.domain();
+        const auto whole = merge(domain, partials.all(), {});
+        auto mosaic = merge(domain, {}, {});
+        ASSERT_TRUE(whole && mosaic);
+        if (quantization != mosaic->cells.view().quantization) {
+            EXPECT_FALSE(update_in_place(*mosaic, partials.all(), {}, {})) << "other steps";
+            continue;
+        }
+        for (int x = 0; x < domain.nx; x += brick_edge) {
+            const GridWindow stripe{x, 0, std::min(brick_edge, domain.nx - x), domain.ny};
+            std::vector<Partial> touching;
+            for (const Partial& partial : partials.all()) {
+                const GridWindow window = *window_of(domain, *partial.view.spec);
+                if (window.first_x < stripe.end_x() && x < window.end_x())
+                    touching.push_back(partial);
+            }
+            ASSERT_TRUE(update_in_place(*mosaic, touching, {&stripe, 1}, {}));
+        }
+        expect_same_bits(*mosaic, *whole);
     }
 }
 

@@ -1,0 +1,165 @@
+#include "bench/mosaic_feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/file_system.h"
+#include "base/parallel.h"
+#include "bench/feed_kinds.h"
+#include "bench/restamp.h"
+#include "grid/grid_window.h"
+#include "grid/projection.h"
+#include "level2/encode.h"
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int side = 256;
+constexpr int levels = 128;
+constexpr double level_step_m = 125;
+
+const FeedKind& kind_of(int site) {
+    const auto kinds = feed_kinds();
+    return kinds[static_cast<std::size_t>(site) % kinds.size()];
+}
+
+// Sites run at their own pace.
+UtcTime start_of(int site, int slot) {
+    const std::chrono::seconds interval = kind_of(site).interval;
+    const std::chrono::seconds late = std::chrono::seconds{37} * site % interval;
+    return feed_start() + late + slot * interval;
+}
+
+struct Stamp {
+    Station station;
+    UtcTime start;
+    fs::path file;
+};
+
+fs::path file_of(const fs::path& directory, const Station& station, UtcTime start) {
+    return directory / fmt::format("{}{}_V06", station.icao, format_compact(start));
+}
+
+// By the volume that they are made of.
+std::map<std::string, std::vector<Stamp>> missing_files(int sites, const fs::path& directory) {
+    std::map<std::string, std::vector<Stamp>> missing;
+    const std::vector<Station> stations = feed_sites(sites);
+    for (int site = 0; site < sites; ++site) {
+        const Station& station = stations[static_cast<std::size_t>(site)];
+        for (int slot = 0; slot < kind_of(site).volumes_an_hour(); ++slot) {
+            const UtcTime start = start_of(site, slot);
+            fs::path file = file_of(directory, station, start);
+            std::error_code ignored;
+            if (fs::exists(file, ignored)) continue;
+            missing[kind_of(site).volume_at(slot)].push_back({station, start, std::move(file)});
+        }
+    }
+    return missing;
+}
+
+Status write_stamped(const level2::Volume& volume, const Stamp& stamp) {
+    level2::Volume stamped = volume;
+    restamp(stamped, stamp.station, stamp.start);
+    const auto encoded = level2::encode(stamped);
+    if (!encoded) return pass_on(encoded);
+    return write_file_atomically(real_file_system(), stamp.file, encoded->joined());
+}
+
+}  // namespace
+
+UtcTime feed_start() {
+    return std::chrono::sys_days{std::chrono::year{2024} / 6 / 1} + std::chrono::hours{12};
+}
+
+std::vector<Station> feed_sites(int count) {
+    std::vector<Station> sites;
+    for (const Station& station : all_stations()) {
+        const bool inside = station.longitude_deg > -105 && station.longitude_deg < -67 &&
+                            station.latitude_deg > 24 && station.latitude_deg < 49.5;
+        if (inside && station.kind == RadarKind::nexrad) sites.push_back(station);
+    }
+    sites.resize(std::min(sites.size(), static_cast<std::size_t>(count)));
+    return sites;
+}
+
+std::vector<FeedVolume> feed_of(int sites, const fs::path& directory) {
+    std::vector<FeedVolume> volumes;
+    const std::vector<Station> stations = feed_sites(sites);
+    for (int site = 0; site < sites; ++site) {
+        const int an_hour = kind_of(site).volumes_an_hour();
+        for (int slot = 0; slot < an_hour * feed_length.count(); ++slot) {
+            volumes.push_back({site, start_of(site, slot),
+                               file_of(directory, stations[static_cast<std::size_t>(site)],
+                                       start_of(site, slot % an_hour)),
+                               std::chrono::hours{slot / an_hour}});
+        }
+    }
+    std::sort(volumes.begin(), volumes.end(), [](const FeedVolume& a, const FeedVolume& b) {
+        return std::pair(a.start, a.site) < std::pair(b.start, b.site);
+    });
+    return volumes;
+}
+
+grid::GridSpec feed_domain(int sites) {
+    const std::vector<Station> stations = feed_sites(sites);
+    const auto by_latitude = [](const Station& a, const Station& b) {
+        return a.latitude_deg < b.latitude_deg;
+    };
+    const auto by_longitude = [](const Station& a, const Station& b) {
+        return a.longitude_deg < b.longitude_deg;
+    };
+    const auto [south, north] = std::minmax_element(stations.begin(), stations.end(), by_latitude);
+    const auto [west, east] = std::minmax_element(stations.begin(), stations.end(), by_longitude);
+    grid::GridSpec spec = grid::default_spec((south->latitude_deg + north->latitude_deg) / 2,
+                                             (west->longitude_deg + east->longitude_deg) / 2);
+    const grid::GridProjection plane(spec);
+    double farthest_m = 0;
+    for (const Station& station : stations) {
+        const auto at = plane.to_column({station.latitude_deg, station.longitude_deg});
+        farthest_m = std::max({farthest_m, std::abs(at.x - spec.center_x()) * spec.spacing_m,
+                               std::abs(at.y - spec.center_y()) * spec.spacing_m});
+    }
+    spec.nx = spec.ny = side;
+    spec.spacing_m = std::ceil(2 * (farthest_m + grid::site_reach_m) / side);
+    spec.levels_m.clear();
+    for (int level = 1; level <= levels; ++level)
+        spec.levels_m.push_back(level * level_step_m);
+    return spec;
+}
+
+void FeedSize::add(std::uint64_t compressed_bytes, std::uint64_t uncompressed_bytes) {
+    constexpr std::uint64_t dense_expansion = 8;
+    compressed += compressed_bytes;
+    uncompressed += uncompressed_bytes;
+    if (uncompressed_bytes <= dense_expansion * compressed_bytes) dense += uncompressed_bytes;
+}
+
+Status make_feed(int sites, const fs::path& data, const fs::path& directory, int threads) {
+    std::error_code failed;
+    fs::create_directories(directory, failed);
+    if (failed) return fail(ErrorCode::io, "{}: {}", directory.string(), failed.message());
+    for (const auto& [name, stamps] : missing_files(sites, directory)) {
+        const auto volume = feed_volume(name, data);
+        if (!volume) return pass_on(volume);
+        std::vector<Status> written(stamps.size());
+        for_each_piece(static_cast<int>(stamps.size()), threads, [&](int piece) {
+            const auto at = static_cast<std::size_t>(piece);
+            written[at] = write_stamped(*volume, stamps[at]);
+        });
+        for (Status& status : written) {
+            if (!status) return std::move(status);
+        }
+    }
+    return {};
+}
+
+}  // namespace stormcellar::bench

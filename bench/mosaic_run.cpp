@@ -1,0 +1,184 @@
+#include "bench/mosaic_run.h"
+
+#include <algorithm>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/file_system.h"
+#include "base/parallel.h"
+#include "bench/measure.h"
+#include "bench/restamp.h"
+#include "cache/store.h"
+#include "grid/effects.h"
+#include "level2/decode.h"
+#include "pipeline/mosaic_frame.h"
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::minutes;
+
+constexpr minutes frame_interval{5};
+constexpr minutes stretch{30};
+// From one start to the middle of the volume that comes next at this site: no longer than this.
+constexpr minutes longest_wait{20};
+const std::string domain_name = "bench";
+
+pipeline::PartialOptions partial_options(const grid::GridSpec& domain, const std::string& icao) {
+    const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
+    const accuracy::Choice rungs = grid::default_choice(chain, domain, grid::beam_width_of(icao));
+    pipeline::PartialOptions options;
+    options.gridder.method = grid::scene_choice(chain, rungs).method;
+    options.quantization = grid::default_quantization(level2::Moment::ref);
+    return options;
+}
+
+class Runner {
+  public:
+    Runner(int sites, int threads, cache::Store store)
+        : domain_(feed_domain(sites)),
+          threads_(threads),
+          store_(std::move(store)),
+          geometries_(2 * static_cast<std::size_t>(sites)) {}
+
+    Status run(std::span<const FeedVolume> volumes, UtcTime until);
+    [[nodiscard]] const MosaicRun& done() const { return done_; }
+
+  private:
+    // Of one volume.
+    struct Made {
+        std::optional<pipeline::MadePartial> partial;
+        std::uint64_t compressed = 0, uncompressed = 0;
+    };
+
+    void decompress_alone(std::span<const FeedVolume> volumes) const;
+    Status make_partials(std::span<const FeedVolume> volumes);
+    Result<Made> make_partial(const FeedVolume& volume);
+    Status make_frames(UtcTime from, UtcTime until);
+    void drop_before(UtcTime time);
+
+    const grid::GridSpec domain_;
+    const int threads_;
+    const cache::Store store_;
+    pipeline::GeometryCache geometries_;
+    std::list<pipeline::MadePartial> partials_;
+    MosaicRun done_;
+};
+
+void Runner::decompress_alone(std::span<const FeedVolume> volumes) const {
+    for_each_piece(static_cast<int>(volumes.size()), threads_, [&](int piece) {
+        const auto bytes = read_file(volumes[static_cast<std::size_t>(piece)].file);
+        if (!bytes) return;  // the run itself says so
+        Bytes peeled;
+        decompress_all(ldm_records(*bytes, peeled));
+    });
+}
+
+Result<Runner::Made> Runner::make_partial(const FeedVolume& volume) {
+    const auto bytes = read_file(volume.file);
+    if (!bytes) return pass_on(bytes);
+    level2::DecodeOptions options;
+    options.selection.moments = {level2::Moment::ref};
+    auto decoded = level2::decode(*bytes, options);
+    if (!decoded) return pass_on(decoded);
+    move_times(decoded->volume, volume.moved);
+    const auto antenna = level2::antenna_position(decoded->volume);
+    if (!antenna) return fail(ErrorCode::not_found, "{}: no position", volume.file.string());
+    const grid::SitePosition site{decoded->volume.station, antenna->latitude_deg,
+                                  antenna->longitude_deg, antenna->altitude_m};
+    auto made = pipeline::make_partial(decoded->volume, site, domain_,
+                                       partial_options(domain_, site.icao), geometries_);
+    if (!made) return pass_on(made);
+    if (*made) (*made)->description.provenance.source_files = {volume.file.filename().string()};
+    return Made{std::move(*made), bytes->size(), decoded->report.message_bytes};
+}
+
+Status Runner::make_partials(std::span<const FeedVolume> volumes) {
+    std::vector<std::optional<Result<Made>>> made(volumes.size());
+    for_each_piece(static_cast<int>(volumes.size()), threads_, [&](int piece) {
+        const auto at = static_cast<std::size_t>(piece);
+        made[at].emplace(make_partial(volumes[at]));
+    });
+    for (auto& one : made) {
+        if (!*one) return pass_on(*one);
+        Made& good = **one;
+        done_.size.add(good.compressed, good.uncompressed);
+        ++done_.volumes;
+        if (good.partial) partials_.push_back(std::move(*good.partial));
+    }
+    return {};
+}
+
+Status Runner::make_frames(UtcTime from, UtcTime until) {
+    std::vector<pipeline::PartialView> views;
+    for (const pipeline::MadePartial& partial : partials_)
+        views.push_back({&partial.description, partial.bricks.view()});
+    pipeline::FrameOptions options;
+    options.threads = threads_;
+    for (UtcTime instant = from; instant < until; instant += frame_interval) {
+        const auto frame = pipeline::make_frame(domain_, views, instant, options, geometries_);
+        if (!frame) return pass_on(frame);
+        const auto committed =
+            store_.commit(domain_name, frame->description, frame->mosaic.cells.view());
+        if (!committed) return pass_on(committed);
+        ++done_.frames;
+    }
+    return {};
+}
+
+// What no frame from then on is made of.
+void Runner::drop_before(UtcTime time) {
+    const auto gap = pipeline::FrameOptions{}.greatest_gap;
+    partials_.remove_if([&](const pipeline::MadePartial& partial) {
+        const cache::GridDescription& description = partial.description;
+        return description.start_time + (description.end_time - description.start_time) / 2 <
+               time - gap;
+    });
+}
+
+Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
+    UtcTime next_frame = feed_start() + frame_interval;
+    std::size_t first = 0;
+    for (UtcTime end = feed_start() + stretch; end <= until; end += stretch) {
+        std::size_t last = first;
+        while (last < volumes.size() && volumes[last].start < end)
+            ++last;
+        const auto here = volumes.subspan(first, last - first);
+        first = last;
+        done_.libbz2_s += seconds_of([&] { decompress_alone(here); });
+        Status status;
+        const double volumes_s = seconds_of([&] { status = make_partials(here); });
+        if (!status) return status;
+        const bool is_last = end + stretch > until;
+        // All volumes are there that frames before this are made of.
+        const UtcTime ready = is_last ? until + minutes{1} : end - longest_wait;
+        const double frames_s = seconds_of([&] {
+            status = make_frames(next_frame, ready);
+            while (next_frame < ready)
+                next_frame += frame_interval;
+            drop_before(next_frame);
+        });
+        if (!status) return status;
+        done_.volumes_s += volumes_s;
+        done_.total_s += volumes_s + frames_s;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<MosaicRun> run_mosaic(int sites, int threads, const fs::path& feed, const fs::path& cache) {
+    auto store = cache::Store::open_for_writing(real_file_system(), cache, false);
+    if (!store) return pass_on(store);
+    Runner runner(sites, threads, std::move(*store));
+    const std::vector<FeedVolume> volumes = feed_of(sites, feed);
+    if (Status run = runner.run(volumes, feed_start() + feed_length); !run) return pass_on(run);
+    return runner.done();
+}
+
+}  // namespace stormcellar::bench

@@ -1,0 +1,21 @@
+// bench/us_storms.h -- the grid of the United States, and what 160 made-up radars see on it.
+//
+// Threads: pure functions.
+#pragma once
+
+#include "grid/brick_grid.h"
+#include "grid/grid_window.h"
+#include "grid/site_distance.h"
+
+namespace stormcellar::bench {
+
+// 7000 x 3500 columns at 0.01 degrees and the 33 levels of MRMS, 0.5 to 19 km.
+[[nodiscard]] grid::GridSpec us_grid();
+
+// Storms in some 7 % of a site's bricks, the same for all sites where they see the same place.
+[[nodiscard]] grid::BrickGrid us_storms(const grid::GridSpec& domain,
+                                        const grid::GridWindow& window,
+                                        const grid::SiteDistance& distance,
+                                        const grid::SitePosition& site);
+
+}  // namespace stormcellar::bench
