@@ -1,6 +1,7 @@
 // grid/fast_log.h -- a logarithm and an exponential that compilers run in vectors.
 //
-// Accuracy (enforced by tests/grid/mosaic_test.cpp): fast_log2 4e-7 + 1e-7 |log2 x| over all normal
+// Accuracy (enforced by tests/grid/fast_log_test.cpp): fast_log2 4e-7 + 1e-7 |log2 x| over all
+// normal
 //          floats, of doubles as std::log2; fast_exp2 3e-7 of itself from -126 to 127.
 // Threads: a pure function; the same bits on every machine.
 #pragma once

@@ -11,6 +11,7 @@
 #include "grid/column_geometry.h"
 #include "grid/position_error.h"
 #include "pipeline/frame_parts.h"
+#include "pipeline/instant_cache.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -28,7 +29,8 @@ struct SiteShare {
     const PartialView* nearest = nullptr;
     const PartialView* before = nullptr;  // both, or none
     const PartialView* after = nullptr;
-    std::optional<grid::BrickGrid> made;
+    InstantCache::Key key;  // of that grid
+    std::shared_ptr<const grid::BrickGrid> made;
 
     [[nodiscard]] grid::BrickView view() const { return made ? made->view() : nearest->view; }
     [[nodiscard]] std::vector<const PartialView*> used() const {
@@ -78,7 +80,9 @@ Result<std::optional<grid::MotionField>> motion_of(const SiteShare& share,
 }
 
 Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options, int threads,
-                  GeometryCache& geometries) {
+                  GeometryCache& geometries, InstantCache* instants) {
+    if (share.before != nullptr && instants != nullptr) share.made = instants->find(share.key);
+    if (share.made != nullptr) return {};
     for (const PartialView* partial : share.used()) {
         if (partial->file == nullptr) continue;
         if (Status good = partial->file->verify(); !good) return good;
@@ -97,7 +101,8 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
     if (*motion) at.motion = &**motion;
     auto made = grid::grid_at(timed(*share.before), timed(*share.after), **geometry, at);
     if (!made) return pass_on(made);
-    share.made = std::move(*made);
+    share.made = std::make_shared<const grid::BrickGrid>(std::move(*made));
+    if (instants != nullptr) instants->keep(share.key, share.made);
     return {};
 }
 
@@ -175,13 +180,13 @@ void drop_untouched(const grid::GridSpec& domain, const std::vector<grid::GridWi
 }
 
 Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameOptions& options,
-                   GeometryCache& geometries) {
+                   GeometryCache& geometries, InstantCache* instants) {
     std::vector<Status> made(shares.size());
     const int count = static_cast<int>(shares.size());
     const int threads_each = count == 0 ? 1 : std::max(1, options.threads / count);
     for_each_piece(count, options.threads, [&](int piece) {
         const auto at = static_cast<std::size_t>(piece);
-        made[at] = make_share(shares[at], instant, options, threads_each, geometries);
+        made[at] = make_share(shares[at], instant, options, threads_each, geometries, instants);
     });
     for (Status& one : made) {
         if (!one) return std::move(one);
@@ -189,9 +194,9 @@ Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameO
     return {};
 }
 
-// All but its cells.
+// All but its cells; also notes by what each share can be known again.
 Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
-                                              const std::vector<SiteShare>& shares, UtcTime instant,
+                                              std::vector<SiteShare>& shares, UtcTime instant,
                                               const FrameOptions& options) {
     cache::GridDescription frame;
     std::vector<const PartialView*> used;
@@ -203,10 +208,19 @@ Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
     }
     auto parts = parts_of(domain, used);
     if (!parts) return pass_on(parts);
+    frame.provenance.recipe = recipe_of(options);
+    auto part = parts->begin();
+    for (SiteShare& share : shares) {
+        if (share.before == nullptr) {
+            ++part;
+            continue;
+        }
+        share.key = {part[0].fingerprint, part[1].fingerprint, frame.provenance.recipe, instant};
+        part += 2;
+    }
     frame.spec = domain;
     frame.time = instant;
     frame.provenance.parts = std::move(*parts);
-    frame.provenance.recipe = recipe_of(options);
     frame.provenance.software_version = software_version;
     frame.provenance.effects = frame_effects(frame.provenance.effects, options);
     return frame;
@@ -290,7 +304,7 @@ Result<Motions> estimate_motions(std::span<const PartialView> partials, UtcTime 
 
 Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const PartialView> partials,
                                UtcTime instant, const FrameOptions& options,
-                               GeometryCache& geometries, const PreviousFrame* previous) {
+                               GeometryCache& geometries, const MadeBefore& before) {
     const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
     if (brackets.empty()) {
         const auto minutes = std::chrono::duration<double, std::ratio<60>>(options.greatest_gap);
@@ -310,10 +324,10 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
     description->provenance.provisional = std::any_of(
         brackets.begin(), brackets.end(), [](const Bracket& bracket) { return !bracket.after; });
 
-    auto changed =
-        changes_since(previous, *description, options, shares.front().nearest->view.quantization);
+    auto changed = changes_since(before.frame, *description, options,
+                                 shares.front().nearest->view.quantization);
     if (changed) drop_untouched(domain, *changed, shares);
-    if (Status made = make_shares(shares, instant, options, geometries); !made) {
+    if (Status made = make_shares(shares, instant, options, geometries, before.instants); !made) {
         return pass_on(made);
     }
     std::vector<grid::Partial> to_merge;
@@ -321,8 +335,8 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
         to_merge.push_back(placed(domain, share, geometries));
     grid::MosaicOptions overlap = options.overlap;
     overlap.threads = options.threads;
-    auto mosaic = changed ? grid::update({previous->cells, std::nullopt, std::nullopt}, to_merge,
-                                         *changed, overlap)
+    auto mosaic = changed ? grid::update({before.frame->cells, std::nullopt, std::nullopt},
+                                         to_merge, *changed, overlap)
                           : grid::merge(domain, to_merge, overlap);
     if (!mosaic) return pass_on(mosaic);
     return MosaicFrame{std::move(*description), std::move(*mosaic), std::move(changed)};

@@ -102,18 +102,26 @@ struct MosaicFrame {
     std::optional<std::vector<grid::GridWindow>> merged;
 };
 
+class InstantCache;
+
 // A frame made before; its codes must have been verified.
 struct PreviousFrame {
     const cache::GridDescription* description = nullptr;
     grid::BrickView cells;
 };
 
-// `previous` may be any frame: what of it can be used is, by its parts (pipeline/frame_parts.h).
+// What was made before and may be used again; the frame has the same bytes without.
+struct MadeBefore {
+    // Any frame: what of it can be used is, by its parts (pipeline/frame_parts.h).
+    const PreviousFrame* frame = nullptr;
+    InstantCache* instants = nullptr;  // sites' grids for instants (pipeline/instant_cache.h)
+};
+
 // Errors: not_found when no site has a partial near the instant; a partial's file that does not
 // verify (its path begins the message); those of grid_at() and merge().
 [[nodiscard]] Result<MosaicFrame> make_frame(const grid::GridSpec& domain,
                                              std::span<const PartialView> partials, UtcTime instant,
                                              const FrameOptions& options, GeometryCache& geometries,
-                                             const PreviousFrame* previous = nullptr);
+                                             const MadeBefore& before = {});
 
 }  // namespace stormcellar::pipeline

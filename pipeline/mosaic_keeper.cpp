@@ -15,6 +15,8 @@ namespace {
 
 // Windows of a large domain take some 15 MiB each.
 constexpr std::size_t kept_geometries = 16;
+// A site's grid of a domain of 1000 km at 1 km takes 3 to 10 MiB.
+constexpr std::size_t kept_instants_bytes = std::size_t{192} << 20U;
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
@@ -96,7 +98,10 @@ std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::sec
 }
 
 MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domains)
-    : store_(store), domains_(std::move(domains)), geometries_(kept_geometries) {}
+    : store_(store),
+      domains_(std::move(domains)),
+      geometries_(kept_geometries),
+      instants_(kept_instants_bytes) {}
 
 Result<Kept> MosaicKeeper::take_in(const VolumeSource& source, int threads) {
     Kept kept;
@@ -165,7 +170,7 @@ Result<MosaicFrame> MosaicKeeper::frame_of_sound(const FrameJob& job, OpenPartia
     const FrameOptions options = frame_options(job.domain, job.moment, job.threads);
     while (true) {
         auto frame = make_frame(job.domain.spec, partials.views(), job.instant, options,
-                                geometries_, previous);
+                                geometries_, {previous, &instants_});
         if (frame || !is_damage(frame.error()) || !partials.drop_damaged(problems)) return frame;
     }
 }

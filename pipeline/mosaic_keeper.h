@@ -26,6 +26,7 @@
 #include "cache/store.h"
 #include "pipeline/domain.h"
 #include "pipeline/geometry_cache.h"
+#include "pipeline/instant_cache.h"
 #include "pipeline/mosaic_frame.h"
 
 namespace stormcellar::pipeline {
@@ -107,6 +108,7 @@ class MosaicKeeper {
     const cache::Store* store_;
     std::vector<Domain> domains_;
     GeometryCache geometries_;
+    InstantCache instants_;
     std::mutex mutex_;                                                     // guards frames_
     std::map<std::pair<std::string, level2::Moment>, std::mutex> frames_;  // one at a time each
 };

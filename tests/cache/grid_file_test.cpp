@@ -40,6 +40,30 @@ class GridFileTest : public ::testing::TestWithParam<int> {
         const grid::BrickGrid made = bricks(code_bytes);
         return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view());
     }
+    // Why it is not opened; `empty` where it is.
+    [[nodiscard]] ErrorCode opened() const {
+        const auto file = GridFile::open(path_);
+        return file ? ErrorCode::empty : file.error().code;
+    }
+    [[nodiscard]] ErrorCode opened_as_written(const grid::Grid& grid) const {
+        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
+        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
+        return opened();
+    }
+    // A good file whose header is changed on purpose, sealed again.
+    template <class Change>
+    [[nodiscard]] ErrorCode opened_with_header(std::vector<std::byte> bytes, Change change) const {
+        format::FileHeader header;
+        std::memcpy(&header, bytes.data(), sizeof header);
+        change(header);
+        header.checksum = 0;
+        std::memcpy(bytes.data(), &header, sizeof header);
+        header.checksum = xxh3_64(std::span(bytes).first(header.codes_offset));
+        std::memcpy(bytes.data(), &header, sizeof header);
+        overwrite(path_, bytes);
+        return opened();
+    }
+
     testing::TemporaryDirectory directory_;
     fs::path path_ = directory_ / "a.scg";
 };
@@ -127,18 +151,10 @@ TEST_F(GridFileTest, AWindowThatContradictsItselfIsRefused) {
     ASSERT_TRUE(write(real_file_system()));
     const auto good = bytes_of(path_);
     const auto opened_with = [&](std::uint32_t features, double offset) {
-        auto bytes = good;
-        format::FileHeader header;
-        std::memcpy(&header, bytes.data(), sizeof header);
-        header.required_features = features;
-        header.offset_y_cells = offset;
-        header.checksum = 0;
-        std::memcpy(bytes.data(), &header, sizeof header);
-        header.checksum = xxh3_64(std::span(bytes).first(header.codes_offset));
-        std::memcpy(bytes.data(), &header, sizeof header);
-        overwrite(path_, bytes);
-        const auto file = GridFile::open(path_);
-        return file ? ErrorCode::empty : file.error().code;
+        return opened_with_header(good, [&](format::FileHeader& header) {
+            header.required_features = features;
+            header.offset_y_cells = offset;
+        });
     };
     EXPECT_EQ(opened_with(0, 0), ErrorCode::empty) << "sealing works";
     EXPECT_EQ(opened_with(1, 2.5), ErrorCode::empty);
@@ -150,23 +166,14 @@ TEST_F(GridFileTest, AWindowThatContradictsItselfIsRefused) {
     EXPECT_EQ(opened_with(5, 2.5), ErrorCode::unsupported);
 }
 
-// Reads and re-seals a file whose header or records were changed on purpose.
 TEST_F(GridFileTest, AProjectionThatDoesNotFitItsNumbersIsCorrupt) {
     ASSERT_TRUE(write(real_file_system()));
     const auto good = bytes_of(path_);
     const auto opened_as = [&](std::uint32_t projection, double spacing) {
-        auto bytes = good;
-        format::FileHeader header;
-        std::memcpy(&header, bytes.data(), sizeof header);
-        header.projection = projection;
-        header.spacing = spacing;
-        header.checksum = 0;
-        std::memcpy(bytes.data(), &header, sizeof header);
-        header.checksum = xxh3_64(std::span(bytes).first(header.codes_offset));
-        std::memcpy(bytes.data(), &header, sizeof header);
-        overwrite(path_, bytes);
-        const auto file = GridFile::open(path_);
-        return file ? ErrorCode::empty : file.error().code;
+        return opened_with_header(good, [&](format::FileHeader& header) {
+            header.projection = projection;
+            header.spacing = spacing;
+        });
     };
     EXPECT_EQ(opened_as(0, 1000), ErrorCode::empty) << "sealing works";
     EXPECT_EQ(opened_as(1, 0.01), ErrorCode::empty) << "degrees";
@@ -191,10 +198,7 @@ TEST_F(GridFileTest, AnImpossibleAuditIsCorrupt) {
     const auto opened_with = [&](auto change) {
         grid::Grid grid = testing::small_grid();
         change(grid.provenance.audit.front());
-        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
-        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
-        const auto file = GridFile::open(path_);
-        return file ? ErrorCode::empty : file.error().code;
+        return opened_as_written(grid);
     };
     EXPECT_EQ(opened_with([](grid::AuditRow&) {}), ErrorCode::empty);
     EXPECT_EQ(opened_with([](grid::AuditRow& row) { row.rms = NAN; }), ErrorCode::corrupt);
@@ -206,10 +210,7 @@ TEST_F(GridFileTest, APartOnImpossibleColumnsIsCorrupt) {
     const auto opened_with = [&](grid::GridWindow window) {
         grid::Grid grid = testing::small_grid();
         grid.provenance.parts.front().window = window;
-        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
-        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
-        const auto file = GridFile::open(path_);
-        return file ? ErrorCode::empty : file.error().code;
+        return opened_as_written(grid);
     };
     EXPECT_EQ(opened_with({16383, 0, 1, 16384}), ErrorCode::empty);
     EXPECT_EQ(opened_with({16383, 0, 2, 1}), ErrorCode::corrupt);

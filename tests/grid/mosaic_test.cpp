@@ -1,131 +1,22 @@
+// The rules of merging, against the slow oracle and by hand; what must be the same to the bit:
+// mosaic_bits_test.cpp.
 #include "grid/mosaic.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <deque>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "grid/beam_geometry.h"
-#include "grid/fast_log.h"
+#include "tests/grid/made_partials.h"
 #include "tests/grid/slow_mosaic.h"
 
 namespace stormcellar::grid {
 namespace {
 
 using level2::Moment;
-
-constexpr Quantization one_byte{1, -32, 0.5F};
-constexpr Quantization two_bytes{2, -40, 0.01F};
-
-// 70 x 52 columns of some 12 km and 18 levels: the last bricks are cut along every axis.
-GridSpec small_domain() {
-    GridSpec spec = default_spec(41, -75);
-    spec.projection = Projection::latitude_longitude;
-    spec.spacing_m = 0;
-    spec.spacing_deg = 0.12;
-    spec.nx = 70;
-    spec.ny = 52;
-    spec.levels_m.clear();
-    for (int level = 1; level <= 18; ++level)
-        spec.levels_m.push_back(350.0 * level);
-    return spec;
-}
-
-// Grids that stay where they are while partials point to them.
-class Partials {
-  public:
-    explicit Partials(GridSpec domain) : domain_(std::move(domain)) {}
-
-    template <class Fill>
-    void add(const SitePosition& site, const GridWindow& window, const Quantization& quantization,
-             Fill fill) {
-        Grid grid;
-        grid.spec = window_spec(domain_, window);
-        grid.values.assign(grid.spec.cell_count(), 0);
-        grid.status.assign(grid.spec.cell_count(), CellStatus::not_seen);
-        for (int iy = 0; iy < window.ny; ++iy) {
-            for (int ix = 0; ix < window.nx; ++ix) {
-                for (int iz = 0; iz < domain_.nz(); ++iz) {
-                    const std::size_t cell = grid.spec.index(ix, iy, iz);
-                    fill(window.first_x + ix, window.first_y + iy, iz, grid.status[cell],
-                         grid.values[cell]);
-                }
-            }
-        }
-        grids_.push_back(BrickGrid::from(grid, quantization));
-        all_.push_back({grids_.back().view(), site});
-    }
-    // Bricks of every kind: some all alike, some of states alone, some of all.
-    void add_random(const SitePosition& site, const GridWindow& window,
-                    const Quantization& quantization, unsigned seed) {
-        std::mt19937 random(seed);
-        std::vector<int> kinds;
-        for (int i = 0; i < 1000; ++i)
-            kinds.push_back(static_cast<int>(random() % 6));
-        add(site, window, quantization, [&](int ix, int iy, int iz, auto& status, float& value) {
-            const int kind = kinds[static_cast<std::size_t>((ix / 16 * 7 + iy / 16) * 3 + iz / 16)];
-            const auto drawn = static_cast<unsigned>(random() % 8);
-            if (kind < 3) {
-                status = static_cast<CellStatus>(kind == 2 && drawn == 0 ? 0 : kind % 2);
-            } else if (kind == 3) {
-                status = static_cast<CellStatus>(drawn % 3);
-            } else {
-                status = drawn < 4 ? CellStatus::value : static_cast<CellStatus>(drawn % 3);
-            }
-            if (status == CellStatus::value) {
-                value = static_cast<float>(-10 + 0.01 * static_cast<double>(random() % 7000));
-            }
-        });
-    }
-    [[nodiscard]] const GridSpec& domain() const { return domain_; }
-    std::vector<Partial>& all() { return all_; }
-
-  private:
-    GridSpec domain_;
-    std::deque<BrickGrid> grids_;
-    std::vector<Partial> all_;
-};
-
-const std::array<SitePosition, 5> sites = {{{"KBGM", 42.2, -75.98, 519},
-                                            {"KENX", 42.59, -74.06, 557},
-                                            {"KDIX", 39.95, -74.41, 45},
-                                            {"KCCX", 40.92, -78.0, 733},
-                                            {"TPHL", 39.95, -75.07, 46}}};
-const std::array<GridWindow, 5> windows = {
-    {{0, 0, 64, 52}, {16, 16, 54, 32}, {32, 0, 38, 48}, {0, 16, 48, 36}, {32, 16, 32, 32}}};
-
-Partials random_partials(const Quantization& quantization, unsigned seed = 1) {
-    Partials partials(small_domain());
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-        partials.add_random(sites[i], windows[i], quantization,
-                            seed * 100 + static_cast<unsigned>(i));
-    }
-    return partials;
-}
-
-void expect_same_bits(const BrickView& a, const BrickView& b) {
-    ASSERT_EQ(*a.spec, *b.spec);
-    ASSERT_EQ(a.quantization, b.quantization);
-    ASSERT_EQ(a.bricks.size(), b.bricks.size());
-    EXPECT_EQ(std::memcmp(a.bricks.data(), b.bricks.data(), a.bricks.size_bytes()), 0);
-    ASSERT_EQ(a.states.size(), b.states.size());
-    EXPECT_TRUE(std::equal(a.states.begin(), a.states.end(), b.states.begin()));
-    ASSERT_EQ(a.codes.size(), b.codes.size());
-    EXPECT_EQ(std::memcmp(a.codes.data(), b.codes.data(), a.codes.size()), 0);
-}
-
-void expect_same_bits(const Mosaic& a, const Mosaic& b) {
-    expect_same_bits(a.cells.view(), b.cells.view());
-    ASSERT_EQ(a.counts.has_value(), b.counts.has_value());
-    if (a.counts) expect_same_bits(a.counts->view(), b.counts->view());
-    ASSERT_EQ(a.weights.has_value(), b.weights.has_value());
-    if (a.weights) expect_same_bits(a.weights->view(), b.weights->view());
-}
 
 // What was compared, so that a test can ask whether it was enough.
 struct Compared {
@@ -292,174 +183,6 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, nothing, weak), no_echo);
 }
 
-TEST(Mosaic, OrderOfArrivalAndThreadsChangeNoBit) {
-    for (const Quantization& quantization : {one_byte, two_bytes}) {
-        Partials partials = random_partials(quantization, 4);
-        for (const Overlap overlap :
-             {Overlap::mean, Overlap::nearest, Overlap::distance_weighted}) {
-            MosaicOptions options;
-            options.overlap = overlap;
-            options.averaging = Averaging::in_z;
-            options.counts = options.weights = true;
-            const auto once = merge(partials.domain(), partials.all(), options);
-            ASSERT_TRUE(once);
-            std::mt19937 random(5);
-            for (const int threads : {1, 3}) {
-                options.threads = threads;
-                for (int i = 0; i < 3; ++i) {
-                    std::shuffle(partials.all().begin(), partials.all().end(), random);
-                    const auto again = merge(partials.domain(), partials.all(), options);
-                    ASSERT_TRUE(again);
-                    expect_same_bits(*once, *again);
-                }
-            }
-        }
-    }
-}
-
-TEST(Mosaic, OneSiteAloneIsItsPartial) {
-    for (const Quantization& quantization : {one_byte, two_bytes}) {
-        const GridSpec domain = small_domain();
-        Partials partials(domain);
-        partials.add_random(sites[0], {0, 0, domain.nx, domain.ny}, quantization, 6);
-        for (const Overlap overlap :
-             {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
-            MosaicOptions options;
-            options.overlap = overlap;
-            const auto made = merge(domain, partials.all(), options);
-            ASSERT_TRUE(made);
-            expect_same_bits(made->cells.view(), partials.all()[0].view);
-        }
-    }
-}
-
-TEST(Mosaic, EqualValuesStayWhatTheyAre) {
-    const GridSpec domain = small_domain();
-    for (const Quantization& quantization : {one_byte, two_bytes}) {
-        Partials partials(domain);
-        for (const SitePosition& site : sites) {
-            partials.add(site, {0, 0, domain.nx, domain.ny}, quantization,
-                         [&](int ix, int iy, int iz, auto& status, float& value) {
-                             status = CellStatus::value;
-                             value = static_cast<float>((ix * 31 + iy * 17 + iz * 3) % 80 - 20);
-                         });
-        }
-        for (const Averaging averaging : {Averaging::in_db, Averaging::in_z}) {
-            MosaicOptions options;
-            options.averaging = averaging;
-            const auto made = merge(domain, partials.all(), options);
-            ASSERT_TRUE(made);
-            expect_same_bits(made->cells.view(), partials.all()[0].view);
-        }
-    }
-}
-
-TEST(Mosaic, AnUpdateIsAFullMerge) {
-    std::mt19937 random(7);
-    for (const Quantization& quantization : {one_byte, two_bytes}) {
-        Partials partials = random_partials(quantization, 8);
-        const GridSpec& domain = partials.domain();
-        MosaicOptions options;
-        options.counts = options.weights = true;
-        auto mosaic = merge(domain, partials.all(), options);
-        ASSERT_TRUE(mosaic);
-        for (unsigned round = 0; round < 12; ++round) {
-            // A new volume, or a site that comes, goes, or moves its window.
-            std::vector<Partial>& all = partials.all();
-            std::vector<GridWindow> changed;
-            const std::size_t at = random() % sites.size();
-            const auto known = std::find_if(all.begin(), all.end(), [&](const Partial& partial) {
-                return partial.site.icao == sites[at].icao;
-            });
-            if (known != all.end()) {
-                changed.push_back(*window_of(domain, *known->view.spec));
-                all.erase(known);
-            }
-            if (round % 4 != 3) {
-                const GridWindow& window = windows[random() % windows.size()];
-                changed.push_back(window);
-                partials.add_random(sites[at], window, quantization, round + 1000);
-            }
-            options.threads = 1 + static_cast<int>(round % 2);
-            const auto updated = update(mosaic->view(), all, changed, options);
-            ASSERT_TRUE(updated);
-            const auto whole = merge(domain, all, options);
-            ASSERT_TRUE(whole);
-            expect_same_bits(*updated, *whole);
-            ASSERT_TRUE(update_in_place(*mosaic, all, changed, options));
-            expect_same_bits(*mosaic, *whole);
-        }
-    }
-}
-
-// With the partials that touch it alone, each stripe is as all of them make it.
-TEST(Mosaic, GrowsInStripesToTheFullMerge) {
-    for (const Quantization& quantization : {one_byte, two_bytes}) {
-        Partials partials = random_partials(quantization, 10);
-        const GridSpec& domain = partials.domain();
-        const auto whole = merge(domain, partials.all(), {});
-        auto mosaic = merge(domain, {}, {});
-        ASSERT_TRUE(whole && mosaic);
-        if (quantization != mosaic->cells.view().quantization) {
-            EXPECT_FALSE(update_in_place(*mosaic, partials.all(), {}, {})) << "other steps";
-            continue;
-        }
-        for (int x = 0; x < domain.nx; x += brick_edge) {
-            const GridWindow stripe{x, 0, std::min(brick_edge, domain.nx - x), domain.ny};
-            std::vector<Partial> touching;
-            for (const Partial& partial : partials.all()) {
-                const GridWindow window = *window_of(domain, *partial.view.spec);
-                if (window.first_x < stripe.end_x() && x < window.end_x())
-                    touching.push_back(partial);
-            }
-            ASSERT_TRUE(update_in_place(*mosaic, touching, {&stripe, 1}, {}));
-        }
-        expect_same_bits(*mosaic, *whole);
-    }
-}
-
-// Bricks that hold nothing to be seen may be anything on disk: they are not read. Nor are those
-// that no changed window touches.
-TEST(Mosaic, ReadsOnlyWhatIsOccupiedAndTouched) {
-    Partials partials = random_partials(one_byte, 9);
-    const GridSpec& domain = partials.domain();
-    const auto expected = merge(domain, partials.all(), {});
-    ASSERT_TRUE(expected);
-    std::deque<std::vector<std::byte>> spoilt;
-    std::vector<Partial> all = partials.all();
-    for (Partial& partial : all) {
-        auto& codes = spoilt.emplace_back(partial.view.codes.begin(), partial.view.codes.end());
-        for (std::size_t i = 0; i < partial.view.bricks.size(); ++i) {
-            if (partial.view.bricks[i].kind == BrickKind::stored) continue;
-            std::fill_n(codes.begin() + static_cast<std::ptrdiff_t>(i * brick_cells), brick_cells,
-                        std::byte{200});
-        }
-        partial.view.codes = codes;
-    }
-    const auto made = merge(domain, all, {});
-    ASSERT_TRUE(made);
-    expect_same_bits(*expected, *made);
-
-    // Everything but the bricks of one window.
-    const GridWindow changed{32, 32, 16, 32};
-    for (std::size_t s = 0; s < all.size(); ++s) {
-        const GridWindow window = *window_of(domain, *all[s].view.spec);
-        for (int bx = 0; bx < all[s].view.bricks_x; ++bx) {
-            for (int by = 0; by < all[s].view.bricks_y; ++by) {
-                const int x = window.first_x + bx * 16;
-                const int y = window.first_y + by * 16;
-                if (x >= 32 && x < 48 && y >= 32 && y < 64) continue;
-                const std::size_t first = all[s].view.brick_index(bx, by, 0) * brick_cells;
-                std::fill_n(spoilt[s].begin() + static_cast<std::ptrdiff_t>(first),
-                            all[s].view.bricks_z * brick_cells, std::byte{200});
-            }
-        }
-    }
-    const auto updated = update(expected->view(), all, {&changed, 1}, {});
-    ASSERT_TRUE(updated);
-    expect_same_bits(*expected, *updated);
-}
-
 // Two radars, one of which shows all 2 dB stronger, see one smooth field. Where the second one's
 // window ends its weight is at most 3.4 % of one, and half of what the first has 140 km nearer.
 TEST(Mosaic, NoSeamWhereAWindowEnds) {
@@ -541,27 +264,6 @@ TEST(Mosaic, TheDetectionLimitIsThatOfTheSlantRange) {
     EXPECT_GT(largest_db, 0.01);
 }
 
-TEST(Mosaic, NoPartialsSeeNothing) {
-    const auto made = merge(small_domain(), {}, {});
-    ASSERT_TRUE(made);
-    for (const BrickEntry& entry : made->cells.view().bricks) {
-        EXPECT_EQ(entry.kind, BrickKind::uniform);
-        EXPECT_EQ(entry.uniform_status, CellStatus::not_seen);
-    }
-}
-
-TEST(Mosaic, DistancesMadeBeforeChangeNothing) {
-    Partials partials = random_partials(one_byte, 10);
-    const auto expected = merge(partials.domain(), partials.all(), {});
-    for (Partial& partial : partials.all()) {
-        partial.distance = std::make_shared<const SiteDistance>(
-            partials.domain(), *window_of(partials.domain(), *partial.view.spec), partial.site);
-    }
-    const auto made = merge(partials.domain(), partials.all(), {});
-    ASSERT_TRUE(expected && made);
-    expect_same_bits(*expected, *made);
-}
-
 TEST(Mosaic, WhatCannotBeMergedIsABadArgument) {
     Partials partials = random_partials(one_byte, 11);
     const std::vector<Partial> good = partials.all();
@@ -619,26 +321,6 @@ TEST(Mosaic, NamesAreReadAsTheyAreWritten) {
         EXPECT_EQ(overlap_from_name(overlap_name(overlap)), overlap);
     }
     EXPECT_FALSE(overlap_from_name("median"));
-}
-
-TEST(FastLog, IsAsAccurateAsStated) {
-    for (double exponent = -125.99; exponent < 127.9; exponent += 0.00071) {
-        const auto x = static_cast<float>(std::exp2(exponent));
-        const double exact = std::log2(static_cast<double>(x));
-        ASSERT_NEAR(static_cast<double>(fast_log2(x)), exact, 4e-7 + 1e-7 * std::abs(exact)) << x;
-    }
-    EXPECT_EQ(fast_log2(1.0F), 0);
-    EXPECT_EQ(fast_log2(0x1p-126F), -126);
-}
-
-TEST(FastExp, IsAsAccurateAsStated) {
-    for (double exponent = -126; exponent < 127; exponent += 0.00057) {
-        const auto x = static_cast<float>(exponent);
-        const double exact = std::exp2(static_cast<double>(x));
-        ASSERT_NEAR(static_cast<double>(fast_exp2(x)), exact, 3e-7 * exact) << x;
-    }
-    EXPECT_EQ(fast_exp2(0), 1);
-    EXPECT_EQ(fast_exp2(-126), 0x1p-126F);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/version.h"
 #include "level2/decode.h"
 #include "level2/volume_checks.h"
+#include "pipeline/instant_cache.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -102,14 +103,15 @@ class FrameParts : public ::testing::Test {
         return all;
     }
     static MosaicFrame frame(const std::vector<std::size_t>& which,
-                             const MosaicFrame* previous = nullptr, FrameOptions options = {}) {
+                             const MosaicFrame* previous = nullptr, FrameOptions options = {},
+                             InstantCache* instants = nullptr) {
         options.threads = 2;
         const PreviousFrame before =
             previous == nullptr
                 ? PreviousFrame{}
                 : PreviousFrame{&previous->description, previous->mosaic.cells.view()};
         auto made = make_frame(domain(), views(which), instant, options, *geometries_,
-                               previous == nullptr ? nullptr : &before);
+                               {previous == nullptr ? nullptr : &before, instants});
         EXPECT_TRUE(made) << made.error().message;
         return std::move(*made);
     }
@@ -134,21 +136,47 @@ TEST_F(FrameParts, AFrameBroughtUpToDateHasTheBytesOfOneMadeWhole) {
     };
     std::vector<std::size_t> order(sources.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    int updated = 0;
+    InstantCache instants(std::size_t{64} << 20U);
+    int updated = 0, orders = 0;
     do {
         std::optional<MosaicFrame> stands;
         for (std::size_t count = 1; count <= order.size(); ++count) {
             const std::vector<std::size_t> come(order.begin(),
                                                 order.begin() + static_cast<std::ptrdiff_t>(count));
-            MosaicFrame now = frame(come, stands ? &*stands : nullptr);
+            MosaicFrame now =
+                frame(come, stands ? &*stands : nullptr, {}, orders % 2 == 0 ? &instants : nullptr);
             if (now.merged) ++updated;
             EXPECT_EQ(now.merged.has_value(), count > 1);
             ASSERT_EQ(bytes(now), whole_of(come)) << ::testing::PrintToString(come);
             stands = std::move(now);
         }
+        ++orders;
     } while (std::next_permutation(order.begin(), order.end()));
     EXPECT_EQ(updated, 120 * 4);
     EXPECT_EQ(whole.size(), 31U) << "every set of volumes was seen";
+}
+
+// Codes that are altered while the table stays what it was show that nobody reads them.
+TEST_F(FrameParts, ASitesGridForAnInstantIsMadeOnce) {
+    InstantCache instants(std::size_t{64} << 20U);
+    const MosaicFrame made = frame({0, 1, 2, 3, 4}, nullptr, {}, &instants);
+    EXPECT_GT(instants.bytes(), 0U);
+    std::vector<PartialView> altered = views({0, 1, 2, 3, 4});
+    const std::vector<std::byte> spoilt(altered[0].view.codes.size(), std::byte{99});
+    altered[0].view.codes = spoilt;
+    FrameOptions options;
+    const auto again =
+        make_frame(domain(), altered, instant, options, *geometries_, {nullptr, &instants});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(bytes(*again), bytes(made));
+    const auto without = make_frame(domain(), altered, instant, options, *geometries_);
+    ASSERT_TRUE(without);
+    EXPECT_NE(bytes(*without), bytes(made));
+    options.time = grid::TimeMethod::blend;
+    const auto other =
+        make_frame(domain(), altered, instant, options, *geometries_, {nullptr, &instants});
+    ASSERT_TRUE(other);
+    EXPECT_NE(bytes(*other), bytes(frame({0, 1, 2, 3, 4}, nullptr, options))) << "another recipe";
 }
 
 TEST_F(FrameParts, OnlyWindowsOfSitesThatChangedAreMerged) {

@@ -208,6 +208,11 @@ class MendMosaic : public ::testing::Test {
         file.seekp(-1, std::ios::end);
         file.put(last);
     }
+    // As after a restart: nothing is left in memory of what was made before.
+    Result<MendedGrid> mend_afresh(const cache::StoreEntry& entry, MendDepth depth) {
+        Ingestor ingestor(catalog_, store_, with_domain());
+        return CacheMender(catalog_, store_, ingestor, level2::Moment::ref).mend(entry, depth);
+    }
     static IngestOptions with_domain() {
         IngestOptions options;
         options.spacing_m = 8000;
@@ -247,7 +252,7 @@ TEST_F(MendMosaic, DamagedPartialsComeFromRawFilesAndFramesFromPartials) {
             } else {
                 fs::resize_file(entry.path, 5000);
             }
-            const auto mended = mender_.mend(entry, depth);
+            const auto mended = mend_afresh(entry, depth);
             ASSERT_TRUE(mended) << mended.error().message;
             EXPECT_EQ(mended->condition, GridCondition::made_again) << mended->why_not;
             EXPECT_TRUE(mended->reason.starts_with(entry.path.native())) << mended->reason;
@@ -262,7 +267,7 @@ TEST_F(MendMosaic, AFrameMadeOfWhatIsDamagedTooSaysSoAndIsPutRightWithIt) {
     const auto partial = partials().at(2);
     alter_last_byte_of(frame.path);
     alter_last_byte_of(partial.path);
-    const auto first = mender_.mend(frame, MendDepth::all);
+    const auto first = mend_afresh(frame, MendDepth::all);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->condition, GridCondition::made_again);
     EXPECT_NE(first->from.find("left out: " + partial.path.native()), std::string::npos)

@@ -1,0 +1,157 @@
+// How a station's database is opened, made and recognised; what stands in it: station_database.cpp.
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <sqlite3.h>
+
+#include "catalog/database_uri.h"
+#include "catalog/schema.h"
+#include "catalog/station_database.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How long a statement waits for another process's write before it gives up.
+constexpr int busy_timeout_ms = 10'000;
+
+tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
+    return fail(code_of(error), "{}: {}", path.native(), error.what());
+}
+
+// Whether the database is ours and of a version that we know; empty ones are ours to fill.
+Status check_identity(SQLite::Database& database, const fs::path& path) {
+    // One snapshot: another process may be making the tables just now.
+    const SQLite::Transaction snapshot(database, SQLite::TransactionBehavior::DEFERRED);
+    const int version = database.execAndGet("PRAGMA user_version").getInt();
+    const int id = database.execAndGet("PRAGMA application_id").getInt();
+    const int tables = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt();
+    if (tables == 0) return {};
+    const bool ours = database
+                          .execAndGet(
+                              "SELECT count(*) = 3 FROM sqlite_schema WHERE type = 'table' "
+                              "AND name IN ('file', 'volume', 'part')")
+                          .getInt() != 0;
+    if (!ours && id != application_id) {
+        return fail(ErrorCode::unsupported, "{}: is not a catalog of this software", path.native());
+    }
+    if (id == application_id && version > schema_version) {
+        return fail(ErrorCode::unsupported,
+                    "{}: was made by a later version of this software (schema {}, known up to {})",
+                    path.native(), version, schema_version);
+    }
+    if (!ours || id != application_id || version != schema_version) {
+        return fail(ErrorCode::corrupt, "{}: tables are missing or their numbers are wrong",
+                    path.native());
+    }
+    return {};
+}
+
+// SQLite does not wait for others here, as it does everywhere else.
+void enter_wal(SQLite::Database& database) {
+    const auto limit =
+        std::chrono::steady_clock::now() + std::chrono::milliseconds(busy_timeout_ms);
+    for (;;) {
+        try {
+            database.exec("PRAGMA journal_mode = WAL");
+            return;
+        } catch (const SQLite::Exception& error) {
+            const bool busy = error.getErrorCode() == SQLITE_BUSY;
+            if (!busy || std::chrono::steady_clock::now() > limit) throw;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+}
+
+void migrate(SQLite::Database& database) {
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    if (database.execAndGet("PRAGMA user_version").getInt() < 1) {
+        database.exec(create_version_1);
+        database.exec(fmt::format("PRAGMA application_id = {}", application_id));
+        database.exec(fmt::format("PRAGMA user_version = {}", schema_version));
+    }
+    transaction.commit();
+}
+
+// A reader that may not write cannot make the WAL's index. While a writer has the database open the
+// index exists; when there is no WAL nobody writes, and the file alone is the truth.
+template <class Open>
+auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
+    const bool has_wal = fs::exists(fs::path{path.native() + "-wal"});
+    for (const char* query : {"?mode=ro", "?mode=ro&immutable=1"}) {
+        try {
+            return open(uri_of(path, query));
+        } catch (const SQLite::Exception& error) {
+            const bool last = std::string_view{query}.find("immutable") != std::string_view::npos;
+            if (last || has_wal || code_of(error) == ErrorCode::corrupt) {
+                return open_failure(path, error);
+            }
+        }
+    }
+    return fail(ErrorCode::internal, "{}: could not be opened", path.native());
+}
+
+}  // namespace
+
+ErrorCode code_of(const SQLite::Exception& error) {
+    switch (error.getErrorCode()) {
+        case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
+        case SQLITE_CONSTRAINT:
+        case SQLITE_ERROR:
+            return ErrorCode::corrupt;
+        case SQLITE_FULL:
+            return ErrorCode::no_space;
+        case SQLITE_READONLY:
+        case SQLITE_PERM:
+            return ErrorCode::permission;
+        default:
+            return ErrorCode::io;
+    }
+}
+
+StationDatabase::StationDatabase(const std::string& uri, int flags, std::string station)
+    : database_(uri, flags | SQLite::OPEN_URI, busy_timeout_ms), station_(std::move(station)) {}
+
+Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const fs::path& path,
+                                                                           std::string station) {
+    try {
+        std::unique_ptr<StationDatabase> opened(new StationDatabase(
+            uri_of(path, ""), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, std::move(station)));
+        SQLite::Database& database = opened->database_;
+        if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
+        enter_wal(database);
+        database.exec("PRAGMA synchronous = FULL");
+        database.exec("PRAGMA foreign_keys = ON");
+        migrate(database);
+        return opened;
+    } catch (const SQLite::Exception& error) {
+        return open_failure(path, error);
+    }
+}
+
+Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_reading(
+    const fs::path& path, const std::string& station) {
+    using Opened = Result<std::unique_ptr<StationDatabase>>;
+    return try_to_read(path, [&](const std::string& uri) -> Opened {
+        std::unique_ptr<StationDatabase> opened(
+            new StationDatabase(uri, SQLite::OPEN_READONLY, station));
+        if (Status ours = check_identity(opened->database_, path); !ours) return pass_on(ours);
+        opened->is_snapshot_ = uri.ends_with("immutable=1");
+        return opened;
+    });
+}
+
+Result<std::unique_ptr<SQLite::Database>> StationDatabase::open_connection(const fs::path& path) {
+    using Opened = Result<std::unique_ptr<SQLite::Database>>;
+    return try_to_read(path, [&](const std::string& uri) -> Opened {
+        auto opened = std::make_unique<SQLite::Database>(
+            uri, SQLite::OPEN_READONLY | SQLite::OPEN_URI, busy_timeout_ms);
+        (void)opened->execAndGet("PRAGMA user_version");  // reads the first page
+        return opened;
+    });
+}
+
+}  // namespace stormcellar::catalog
