@@ -20,8 +20,9 @@
 // Then the rows of the United States at 0.01 degrees, with bench_merge's columns, the least of the
 // runs (bench/us_mosaic.h). --sites or --us: one of the two alone; --only: that many sites alone.
 // Without --full only rows of which all is expected to end within 9 minutes are run, by the bytes
-// and the seconds of those before. On stderr: what was read, and what was left out.
-// Runs of this program by itself: --sites-once SITES THREADS FEED CACHE.
+// and the seconds of those before. On stderr: what was read, what was left out, and CPU times,
+// which say more than total_s where others use the same cores. Runs of this program by itself:
+// --sites-once SITES THREADS FEED CACHE.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -59,9 +60,9 @@ int sites_once(int sites, int threads, const fs::path& feed, const fs::path& cac
         fmt::print(stderr, "bench_mosaic: {}\n", run.error().message);
         return 1;
     }
-    fmt::print("{} {} {} {} {} {} {} {} {}\n", run->total_s, run->volumes_s, run->libbz2_s,
+    fmt::print("{} {} {} {} {} {} {} {} {} {} {}\n", run->total_s, run->volumes_s, run->libbz2_s,
                run->size.compressed, run->size.uncompressed, run->size.dense, run->volumes,
-               run->frames, high_water_kib());
+               run->frames, high_water_kib(), run->cpu_s, run->libbz2_cpu_s);
     return 0;
 }
 
@@ -81,7 +82,8 @@ std::optional<SitesRow> run_sites(int sites, int threads, const fs::path& work) 
     SitesRow row;
     MosaicRun& run = row.run;
     words >> run.total_s >> run.volumes_s >> run.libbz2_s >> run.size.compressed >>
-        run.size.uncompressed >> run.size.dense >> run.volumes >> run.frames >> row.peak_kib;
+        run.size.uncompressed >> run.size.dense >> run.volumes >> run.frames >> row.peak_kib >>
+        run.cpu_s >> run.libbz2_cpu_s;
     if (!words) return std::nullopt;
     return row;
 }
@@ -102,10 +104,11 @@ void add_row(int sites, int threads, const SitesRow& row, Table& table) {
     fmt::print(
         stderr,
         "{} sites: {} volumes, {:.2f} GB in {:.2f} GB of files ({:.0f} % of the bytes expand "
-        "8 times or less), {} merged volumes; volumes {:.2f} s, merging {:.2f} s\n",
+        "8 times or less), {} merged volumes; volumes {:.2f} s, merging {:.2f} s; CPU time {:.2f} "
+        "s, of libbz2 alone {:.2f} s\n",
         sites, run.volumes, static_cast<double>(run.size.uncompressed) / 1e9,
         static_cast<double>(run.size.compressed) / 1e9, 100 * run.size.dense_part(), run.frames,
-        run.volumes_s, run.total_s - run.volumes_s);
+        run.volumes_s, run.total_s - run.volumes_s, run.cpu_s, run.libbz2_cpu_s);
 }
 
 // The rows of sites, in the order in which they are run.

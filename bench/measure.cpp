@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -66,6 +67,12 @@ void decompress_all(std::span<const std::span<const std::byte>> records) {
     std::vector<char> buffer(std::size_t{1} << 20);
     for (const auto record : records)
         decompress(record, buffer);
+}
+
+double cpu_s() {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 long number_in(std::string_view text) {

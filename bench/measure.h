@@ -22,6 +22,9 @@ double seconds_of(Work work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// CPU time of this process, by all threads.
+[[nodiscard]] double cpu_s();
+
 template <class Work>
 void keep_least_seconds(double& least, Work work) {
     least = std::min(least, seconds_of(work));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <utility>
 
@@ -19,11 +18,6 @@ using grid::GridSpec;
 using grid::GridWindow;
 using grid::SitePosition;
 
-double cpu_s() {
-    timespec now{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 template <class Work>
 void keep_least_cpu(double& least, Work work) {
     const double start_s = cpu_s();

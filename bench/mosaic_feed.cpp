@@ -147,8 +147,9 @@ Status make_feed(int sites, const fs::path& data, const fs::path& directory, int
     std::error_code failed;
     fs::create_directories(directory, failed);
     if (failed) return fail(ErrorCode::io, "{}: {}", directory.string(), failed.message());
-    for (const auto& [name, stamps] : missing_files(sites, directory)) {
-        const auto volume = feed_volume(name, data);
+    for (const auto& missing : missing_files(sites, directory)) {
+        const std::vector<Stamp>& stamps = missing.second;
+        const auto volume = feed_volume(missing.first, data);
         if (!volume) return pass_on(volume);
         std::vector<Status> written(stamps.size());
         for_each_piece(static_cast<int>(stamps.size()), threads, [&](int piece) {

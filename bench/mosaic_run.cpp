@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <list>
-#include <mutex>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -131,13 +132,22 @@ Status Runner::make_frames(UtcTime from, UtcTime until) {
     return {};
 }
 
-// What no frame from then on is made of.
+UtcTime middle_of(const pipeline::MadePartial& partial) {
+    return pipeline::PartialView{&partial.description, {}}.middle();
+}
+
+// What no frame from then on is made of: of each site all but the last one before it.
 void Runner::drop_before(UtcTime time) {
-    const auto gap = pipeline::FrameOptions{}.greatest_gap;
+    std::map<std::string, UtcTime> last;
+    for (const pipeline::MadePartial& partial : partials_) {
+        const UtcTime middle = middle_of(partial);
+        if (middle > time) continue;
+        const auto at = last.try_emplace(partial.description.sites.front().icao, middle).first;
+        at->second = std::max(at->second, middle);
+    }
     partials_.remove_if([&](const pipeline::MadePartial& partial) {
-        const cache::GridDescription& description = partial.description;
-        return description.start_time + (description.end_time - description.start_time) / 2 <
-               time - gap;
+        const auto at = last.find(partial.description.sites.front().icao);
+        return at != last.end() && middle_of(partial) < at->second;
     });
 }
 
@@ -150,7 +160,10 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
             ++last;
         const auto here = volumes.subspan(first, last - first);
         first = last;
+        const double before_s = cpu_s();
         done_.libbz2_s += seconds_of([&] { decompress_alone(here); });
+        const double between_s = cpu_s();
+        done_.libbz2_cpu_s += between_s - before_s;
         Status status;
         const double volumes_s = seconds_of([&] { status = make_partials(here); });
         if (!status) return status;
@@ -164,6 +177,7 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
             drop_before(next_frame);
         });
         if (!status) return status;
+        done_.cpu_s += cpu_s() - between_s;
         done_.volumes_s += volumes_s;
         done_.total_s += volumes_s + frames_s;
     }

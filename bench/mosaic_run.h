@@ -22,7 +22,9 @@ namespace stormcellar::bench {
 struct MosaicRun {
     double total_s = 0;    // raw files to frames in the cache
     double volumes_s = 0;  // of that, reading to partials; the rest are frames
+    double cpu_s = 0;      // CPU time of total_s, by all threads
     double libbz2_s = 0;   // reading and libbz2 alone, as many threads
+    double libbz2_cpu_s = 0;
     int volumes = 0;
     int frames = 0;
     FeedSize size;

@@ -303,6 +303,7 @@ Sample PolarSweep::gate(int position, std::int32_t gate) const {
 // Most stretches hold no echo: their limits add up to a difference of two sums.
 void PolarSweep::add_gates(int position, std::int32_t first, std::int32_t end,
                            Mixture& mixture) const {
+    if (first >= end) return;
     const Row& row = rows_[static_cast<std::size_t>(position)];
     const Kind& kind = kinds_[row.kind];
     const bool has_limits = blending_ == Blending::with_detection_limit;

@@ -119,7 +119,8 @@ class PolarSweep {
     [[nodiscard]] float gates_per_m_of_arc(ArcPlace place) const;
     // A gate of GatePlace's range.
     [[nodiscard]] Sample gate(int position, std::int32_t gate) const;
-    // All gates from `first` to before `end`, in that range, each with weight 1.
+    // All gates from `first` to before `end`, in that range, each with weight 1; none where `end`
+    // is not behind `first`.
     void add_gates(int position, std::int32_t first, std::int32_t end, Mixture& mixture) const;
 
     // How much higher the radial was measured than the sweep's elevation.

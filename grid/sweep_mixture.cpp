@@ -108,7 +108,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         const float high = center + (to_m - footprint.arc_m) * gates_a_m_of_arc;
         const auto first = std::max(at.first, static_cast<std::int32_t>(std::ceil(low)));
         const auto last = static_cast<std::int32_t>(std::floor(high));
-        sweep.add_gates(position, first, std::max(first, std::min(last + 1, at.end)), gates);
+        sweep.add_gates(position, first, last < at.end ? last + 1 : at.end, gates);
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });

@@ -114,7 +114,7 @@ TEST(MosaicBits, AnUpdateIsAFullMerge) {
 }
 
 // With the partials that touch it alone, each stripe is as all of them make it.
-TEST(Mosaic, GrowsInStripesToTheFullMerge) {
+TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
     for (const Quantization& quantization : {one_byte, two_bytes}) {
         Partials partials = random_partials(quantization, 10);
         const GridSpec& domain = partials.domain();

@@ -145,6 +145,49 @@ TEST(PolarSweep, TakesTheNearestGate) {
     EXPECT_EQ(prepared.at_range(10.5, 2125 + 1799 * 250 + 125.2).status, CellStatus::not_seen);
 }
 
+// Stretches of gates against one gate after another, with echo, folding and no echo in them; empty
+// ones, also beyond the last gate, add nothing (2026-11-22: sums of limits were read behind their
+// end there, which once in a few thousand volumes crashed).
+TEST(PolarSweep, StretchesOfGatesAreTheirGates) {
+    std::mt19937 random(3);
+    SweepPlan plan;
+    plan.code = [](int radial, int gate) {
+        if (gate % 50 < 30) return 0;
+        return (radial * 7 + gate * 13) % 5 == 0 ? 1
+               : (radial + gate) % 3 == 0        ? 0
+                                                 : 60 + gate % 40;
+    };
+    for (const CellExtent cell : {CellExtent::point, CellExtent::area}) {
+        const Prepared prepared(plan);
+        PolarSweepOptions with = options(plan.moment);
+        with.cell = cell;
+        const PolarSweep sweep(prepared.volume.sweeps[0], prepared.chosen[0], model, with);
+        const std::int32_t gates = sweep.gate_place(0, place_at(0)).end;
+        for (int i = 0; i < 2000; ++i) {
+            const int position = static_cast<int>(random() % sweep.radial_count());
+            const auto first = static_cast<std::int32_t>(random() % static_cast<unsigned>(gates));
+            const auto end = first + static_cast<std::int32_t>(
+                                         random() % static_cast<unsigned>(gates - first + 1));
+            Mixture together, one_by_one;
+            sweep.add_gates(position, first, end, together);
+            for (std::int32_t gate = first; gate < end; ++gate)
+                one_by_one.add(sweep.gate(position, gate), 1, sweep.blending());
+            EXPECT_EQ(together.weight(), one_by_one.weight());
+            EXPECT_EQ(together.is_all_quiet(), one_by_one.is_all_quiet());
+            const CellResult a = together.result(sweep.blending());
+            const CellResult b = one_by_one.result(sweep.blending());
+            EXPECT_EQ(a.status, b.status);
+            if (b.status == CellStatus::value) {
+                EXPECT_NEAR(a.value, b.value, 2e-3);
+            }
+        }
+        Mixture nothing;
+        sweep.add_gates(0, gates, gates, nothing);
+        sweep.add_gates(0, 2'000'000'000, gates, nothing);
+        EXPECT_EQ(nothing.weight(), 0);
+    }
+}
+
 TEST(PolarSweep, GatesAtNegativeRangeAreDropped) {
     SweepPlan plan;
     plan.first_gate_m = -375;
