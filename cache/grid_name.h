@@ -22,7 +22,9 @@ struct GridName {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
     UtcTime time;
-    auto operator<=>(const GridName&) const = default;  // by domain, then moment, then time
+    // By domain, then moment, then time.
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
+    auto operator<=>(const GridName&) const = default;
 };
 
 // Whether a name may stand for a domain: [A-Za-z0-9][A-Za-z0-9_-]{0,63}, and with or without a part

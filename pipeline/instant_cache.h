@@ -27,6 +27,7 @@ class InstantCache {
         std::uint64_t before = 0, after = 0;  // fingerprints of the two partials
         std::uint64_t recipe = 0;
         UtcTime instant;
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
         auto operator<=>(const Key&) const = default;
     };
 

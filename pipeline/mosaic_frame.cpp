@@ -281,6 +281,7 @@ std::vector<Bracket> brackets_of(std::span<const PartialView> partials, UtcTime 
         if (nearer) end = at;
     }
     std::vector<Bracket> brackets;
+    brackets.reserve(sites.size());
     for (const auto& [icao, bracket] : sites)
         brackets.push_back(bracket);
     return brackets;
@@ -315,6 +316,7 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
         return index ? &partials[*index] : nullptr;
     };
     std::vector<SiteShare> shares;
+    shares.reserve(brackets.size());
     for (const Bracket& bracket : brackets) {
         shares.push_back(
             share_of(partial_at(bracket.before), partial_at(bracket.after), instant, options.time));
@@ -331,6 +333,7 @@ Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const Par
         return pass_on(made);
     }
     std::vector<grid::Partial> to_merge;
+    to_merge.reserve(shares.size());
     for (const SiteShare& share : shares)
         to_merge.push_back(placed(domain, share, geometries));
     grid::MosaicOptions overlap = options.overlap;

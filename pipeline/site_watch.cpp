@@ -78,6 +78,7 @@ std::optional<PairReport> SiteWatch::compare(const CompleteFrame& frame, const P
         if (file && file->verify()) files.push_back(std::move(*file));
     }
     std::vector<PartialView> views;
+    views.reserve(files.size());
     for (const cache::GridFile& file : files)
         views.push_back({&file.description(), file.view(), &file});
     const UtcTime instant = frame.description.time;
