@@ -300,45 +300,59 @@ Sample PolarSweep::gate(int position, std::int32_t gate) const {
     return gate_of(row, kinds_[row.kind], gate);
 }
 
-// Most stretches hold no echo: their limits add up to a difference of two sums.
+// Most stretches hold no echo: their limits add up to a difference of two sums. The same codes give
+// the same bits in 8 bits and in 16.
 void PolarSweep::add_gates(int position, std::int32_t first, std::int32_t end,
                            Mixture& mixture) const {
     if (first >= end) return;
     const Row& row = rows_[static_cast<std::size_t>(position)];
     const Kind& kind = kinds_[row.kind];
     const bool has_limits = blending_ == Blending::with_detection_limit;
-    const bool plain = row.codes8 != nullptr && kind.first_valid_code == 2 &&
-                       !is_circular(blending_) &&
+    const bool plain = kind.first_valid_code == 2 && !is_circular(blending_) &&
                        (!has_limits || (row.has_simple_limit && !kind.loss_sums.empty()));
     if (!plain) {
         for (std::int32_t gate = first; gate < end; ++gate)
             mixture.add(gate_of(row, kind, gate), 1, blending_);
         return;
     }
-    unsigned any = 0;
-    for (std::int32_t gate = first; gate < end; ++gate)
-        any |= row.codes8[gate];
-    if (any != 0) return add_mixed_gates(row, kind, first, end, mixture);
-    const auto count = static_cast<double>(end - first);
-    double limits = 0;
-    if (has_limits) {
-        limits = count * static_cast<double>(row.limit_at_1km) +
-                 kind.loss_sums[static_cast<std::size_t>(end)] -
-                 kind.loss_sums[static_cast<std::size_t>(first)];
+    if (row.codes8 != nullptr) {
+        add_plain_gates(
+            row, kind, first, end, [&](std::int32_t gate) { return row.codes8[gate]; },
+            [&](std::uint8_t code) { return kind.values[code]; }, mixture);
+    } else {
+        add_plain_gates(
+            row, kind, first, end,
+            [&](std::int32_t gate) { return kind.moment->code(row.radial, gate); },
+            [&](std::uint16_t code) { return in_unit(kind.moment->value_of(code), averaging_); },
+            mixture);
     }
-    mixture.add_counted(CellStatus::no_echo, end - first, static_cast<float>(limits), blending_);
 }
 
-void PolarSweep::add_mixed_gates(const Row& row, const Kind& kind, std::int32_t first,
-                                 std::int32_t end, Mixture& mixture) const {
+template <class CodeAt, class ValueOf>
+void PolarSweep::add_plain_gates(const Row& row, const Kind& kind, std::int32_t first,
+                                 std::int32_t end, const CodeAt& code_at, const ValueOf& value_of,
+                                 Mixture& mixture) const {
     const bool has_limits = blending_ == Blending::with_detection_limit;
+    unsigned any = 0;
+    for (std::int32_t gate = first; gate < end; ++gate)
+        any |= code_at(gate);
+    if (any == 0) {
+        double sum = 0;
+        if (has_limits) {
+            sum = static_cast<double>(end - first) * static_cast<double>(row.limit_at_1km) +
+                  kind.loss_sums[static_cast<std::size_t>(end)] -
+                  kind.loss_sums[static_cast<std::size_t>(first)];
+        }
+        mixture.add_counted(CellStatus::no_echo, end - first, static_cast<float>(sum), blending_);
+        return;
+    }
     int valued = 0, quiet = 0;
     float values = 0, limits = 0;
     for (std::int32_t gate = first; gate < end; ++gate) {
-        const std::uint8_t code = row.codes8[gate];
+        const auto code = code_at(gate);
         if (code >= kind.first_valid_code) {
             ++valued;
-            values += kind.values[code];
+            values += value_of(code);
         } else if (code == 0) {
             ++quiet;
             if (!has_limits) continue;

@@ -189,8 +189,10 @@ class PolarSweep {
     [[nodiscard]] Sample wide_gate_of(const Row& row, const Kind& kind, std::int32_t gate) const;
     [[nodiscard]] Sample without_value(const Row& row, const Kind& kind, std::int32_t gate,
                                        std::uint16_t code) const;
-    void add_mixed_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
-                         Mixture& mixture) const;
+    // Gates that are a value, no echo or range folded, with simple limits where they have some.
+    template <class CodeAt, class ValueOf>
+    void add_plain_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
+                         const CodeAt& code_at, const ValueOf& value_of, Mixture& mixture) const;
     [[nodiscard]] float detection_limit_of(const Row& row, const Kind& kind,
                                            std::int32_t gate) const;
 

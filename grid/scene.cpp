@@ -83,7 +83,7 @@ Result<std::shared_ptr<const ColumnGeometry>> GridScene::geometry(FrameKind kind
 }
 
 const GridScene::KeptStack& GridScene::kept(const Method& method) {
-    KeptStack& kept = stacks_[{method.beam, method.averaging, method.on_circle}];
+    KeptStack& kept = stacks_[{method.beam, method.averaging, method.on_circle, method.cell}];
     if (kept.stack == nullptr) {
         const double start_s = accuracy::thread_s();
         kept.stack = std::make_unique<const SweepStack>(

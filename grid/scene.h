@@ -118,7 +118,7 @@ class GridScene {
     [[nodiscard]] double stack_seconds(const Method& method) { return kept(method).seconds; }
 
   private:
-    using StackKey = std::tuple<BeamKind, Averaging, bool>;
+    using StackKey = std::tuple<BeamKind, Averaging, bool, CellExtent>;
 
     struct KeptStack {
         std::unique_ptr<const SweepStack> stack;
