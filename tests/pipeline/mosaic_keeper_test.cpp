@@ -188,7 +188,8 @@ TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
     ASSERT_EQ(third.problems.size(), 1U);
     EXPECT_TRUE(third.problems[0].starts_with(damaged.native())) << third.problems[0];
     ASSERT_EQ(third.frames.size(), 1U);
-    const auto& files = open(third.frames[0]).description().provenance.source_files;
+    const std::vector<std::string> files =
+        open(third.frames[0]).description().provenance.source_files;
     EXPECT_EQ(files, (std::vector{sequence[0], sequence[2]}));
 }
 
