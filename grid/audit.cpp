@@ -236,7 +236,8 @@ void append_rows(const SweepAudit& sweep, double elevation_deg, std::vector<Audi
 
 Result<Audit> audit(const BrickView& grid, const level2::Volume& volume, const SitePosition& site,
                     const GridderOptions& gridded, const AuditOptions& options) {
-    if (!(options.azimuth_step_deg > 0) || !(options.range_step_m > 0) || options.threads < 1) {
+    if (!std::isgreater(options.azimuth_step_deg, 0.0) ||
+        !std::isgreater(options.range_step_m, 0.0) || options.threads < 1) {
         return fail(ErrorCode::bad_argument,
                     "an audit needs steps and threads, not {} degrees, {} m and {} threads",
                     options.azimuth_step_deg, options.range_step_m, options.threads);

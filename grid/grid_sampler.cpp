@@ -15,7 +15,10 @@ struct Between {
 };
 
 std::optional<Between> between(double place, int cells) {
-    if (!(place >= 0 && place <= cells - 1)) return std::nullopt;
+    // A place may be NaN: nowhere.
+    if (!std::isgreaterequal(place, 0.0) || !std::islessequal(place, cells - 1.0)) {
+        return std::nullopt;
+    }
     const int first = std::min(static_cast<int>(place), std::max(cells - 2, 0));
     return Between{first, std::min(first + 1, cells - 1), static_cast<float>(place - first)};
 }
@@ -34,7 +37,8 @@ GridSampler::GridSampler(const BrickView& view) : view_(view) {
 
 double GridSampler::level_at(double height_m) const {
     const std::vector<double>& levels_m = view_.spec->levels_m;
-    if (!(height_m >= levels_m.front() && height_m <= levels_m.back())) {
+    if (!std::isgreaterequal(height_m, levels_m.front()) ||
+        !std::islessequal(height_m, levels_m.back())) {
         return std::numeric_limits<double>::quiet_NaN();
     }
     const auto above = std::lower_bound(levels_m.begin(), levels_m.end(), height_m);

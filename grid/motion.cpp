@@ -154,7 +154,7 @@ Result<std::optional<MotionField>> estimate_motion(const BrickView& before, cons
     if (*before.spec != *after.spec) {
         return fail(ErrorCode::bad_argument, "motion between grids of different specs");
     }
-    if (!(seconds > 0) || !std::isfinite(seconds)) {
+    if (!std::isgreater(seconds, 0.0) || !std::isfinite(seconds)) {
         return fail(ErrorCode::bad_argument, "motion within {} s: it takes time to move", seconds);
     }
     const Images images = images_of(before, after, options);

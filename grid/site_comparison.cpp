@@ -228,8 +228,9 @@ Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
                                      const ComparisonOptions& options) {
     const bool good_motion = !options.motion || (std::isfinite(options.motion->east_mps) &&
                                                  std::isfinite(options.motion->north_mps));
-    if (!good_motion || !std::isfinite(options.least_dbz) || !(options.least_range_m >= 0) ||
-        !(options.greatest_range_m > 0) || std::isnan(options.least_correlation) ||
+    if (!good_motion || !std::isfinite(options.least_dbz) ||
+        !std::isgreaterequal(options.least_range_m, 0.0) ||
+        !std::isgreater(options.greatest_range_m, 0.0) || std::isnan(options.least_correlation) ||
         options.most_columns < 1) {
         return fail(ErrorCode::bad_argument, "sites are not compared with such options");
     }
