@@ -14,83 +14,7 @@ namespace {
 
 constexpr std::string_view simulated = "simulated-";
 
-// A line of storms that crosses the radar's view in an hour, in rain. Noise, clutter and jitter, so
-// that it compresses as real volumes do.
-constexpr std::string_view storm_line = R"(
-[radar]
-station = "KTLX"
-
-[volumes]
-count = 12
-start = "2024-06-01T00:00:00Z"
-interval_s = 300
-
-[[cut]]
-elevation_deg = 0.5
-waveform = "surveillance"
-azimuth_rate_deg_s = 21
-
-[[cut]]
-elevation_deg = 1.5
-azimuth_rate_deg_s = 20
-
-[[cut]]
-elevation_deg = 5
-azimuth_rate_deg_s = 25
-
-[[cut]]
-elevation_deg = 14
-azimuth_rate_deg_s = 28
-
-[instrument]
-seed = 4
-noise_db = 1
-velocity_noise_mps = 1
-velocity_folding = "on"
-range_folding = "on"
-azimuth_jitter_deg = 0.1
-elevation_jitter_deg = 0.05
-
-[instrument.clutter]
-peak_dbz = 50
-range_km = 30
-texture_db = 6
-
-[[layer]]
-position_km = [-20, 0]
-velocity_mps = [14, 5]
-radii_km = [190, 150]
-orientation_deg = 40
-top_km = 9
-peak_dbz = 28
-melting_km = 3.2
-bright_band_db = 8
-bright_band_depth_km = 0.4
-ripple_db = 6
-ripple_length_km = 12
-
-[[storm]]
-position_km = [-75, -40]
-velocity_mps = [18, 8]
-radii_km = [22, 12]
-orientation_deg = 30
-core_km = 4.5
-top_km = 15
-peak_dbz = 60
-tilt = [0.5, 0.3]
-ripple_db = 5
-ripple_length_km = 8
-
-[[storm]]
-position_km = [-55, 25]
-velocity_mps = [18, 8]
-radii_km = [18, 14]
-core_km = 4
-top_km = 14
-peak_dbz = 57
-ripple_db = 4
-ripple_length_km = 9
-)";
+constexpr const char* storm_line = STORMCELLAR_SOURCE_DIRECTORY "/scenes/storm-line.toml";
 
 FeedKind real(std::vector<std::string> files, int minutes) {
     return {std::move(files), std::chrono::minutes{minutes}};
@@ -126,7 +50,7 @@ Result<level2::Volume> feed_volume(const std::string& name, const std::filesyste
     if (name.starts_with(simulated)) {
         int number = 0;
         std::from_chars(name.data() + simulated.size(), name.data() + name.size(), number);
-        const auto scene = synth::parse_scene(storm_line, "a line of storms");
+        const auto scene = synth::read_scene(storm_line);
         if (!scene) return pass_on(scene);
         return synth::observe(*scene, number);
     }

@@ -90,6 +90,14 @@ std::int64_t StationDatabase::insert_volume(const VolumeFacts& facts, int genera
     return database_.getLastInsertRowid();
 }
 
+void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_t volume_id) {
+    SQLite::Statement part(database_, "INSERT INTO part VALUES (?, ?, ?)");
+    part.bind(1, file_id);
+    part.bind(2, ordinal);
+    part.bind(3, volume_id);
+    part.exec();
+}
+
 // What was settled survives a power cut: the file may be gone when we look again. A sync takes
 // milliseconds, though, and a file that grows is registered with every chunk.
 void StationDatabase::set_durable(bool durable) {
@@ -141,12 +149,7 @@ Registered StationDatabase::register_file(const FileFacts& facts) {
     int ordinal = 0;
     for (const VolumeFacts& volume : facts.volumes) {
         if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
-        const std::int64_t volume_id = store_volume(file_id, facts.content_hash, volume);
-        SQLite::Statement part(database_, "INSERT INTO part VALUES (?, ?, ?)");
-        part.bind(1, file_id);
-        part.bind(2, ordinal++);
-        part.bind(3, volume_id);
-        part.exec();
+        insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }
     transaction.commit();
     return exists ? Registered::updated : Registered::added;
@@ -181,12 +184,7 @@ void StationDatabase::restore_gone(const std::vector<SalvagedFile>& files) {
         const std::int64_t file_id = database_.getLastInsertRowid();
         int ordinal = 0;
         for (const SalvagedVolume& volume : salvaged.volumes) {
-            const std::int64_t volume_id = restore_volume(volume);
-            SQLite::Statement part(database_, "INSERT INTO part VALUES (?, ?, ?)");
-            part.bind(1, file_id);
-            part.bind(2, ordinal++);
-            part.bind(3, volume_id);
-            part.exec();
+            insert_part(file_id, ordinal++, restore_volume(volume));
         }
     }
     transaction.commit();

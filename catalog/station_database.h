@@ -61,6 +61,7 @@ class StationDatabase {
     void set_durable(bool durable);
     std::int64_t restore_volume(const SalvagedVolume& volume);
     std::int64_t insert_volume(const VolumeFacts& facts, int generation);
+    void insert_part(std::int64_t file_id, int ordinal, std::int64_t volume_id);
     std::int64_t store_volume(std::int64_t file_id, std::uint64_t content_hash,
                               const VolumeFacts& facts);
     std::vector<CatalogEntry> entries(SQLite::Statement& rows) const;

@@ -1,7 +1,6 @@
 #include "cli/grid_request.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <thread>
@@ -9,29 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
+#include "base/number_list.h"
+#include "grid/level_range.h"
+
 namespace stormcellar::cli {
 namespace {
-
-// Numbers with a separator between them; none when anything else stands there.
-std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        double number = 0;
-        const auto [stopped, error] = std::from_chars(at, end, number);
-        if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
-        numbers.push_back(number);
-        if (stopped == end) return numbers;
-        if (*stopped != separator) return std::nullopt;
-        at = stopped + 1;
-    }
-}
-
-// To the millimetre, so that 0.1 km is 100 m and nothing else.
-double metres(double km) {
-    return std::round(km * 1e6) / 1e3;
-}
 
 Result<std::vector<double>> parse_levels(const std::string& text) {
     std::vector<double> levels_m;
@@ -42,23 +23,17 @@ Result<std::vector<double>> parse_levels(const std::string& text) {
                         "--levels-km takes numbers a,b,c or bottom:top:step, not '{}'", text);
         }
         for (const double level_km : *levels_km)
-            levels_m.push_back(metres(level_km));
+            levels_m.push_back(grid::metres_of_km(level_km));
         return levels_m;
     }
-    const auto range = parse_numbers(text, ':');
-    const bool sensible =
-        range && range->size() == 3 && (*range)[2] > 0 && (*range)[1] >= (*range)[0];
-    if (!sensible) {
+    auto range_m = grid::parse_level_range(text);
+    if (!range_m) {
         return fail(ErrorCode::bad_argument,
-                    "--levels-km takes bottom:top:step with a top above the bottom and a step "
-                    "above 0, not '{}'",
-                    text);
+                    "--levels-km takes bottom:top:step with a top above the bottom, a step above 0 "
+                    "and at most {} levels, not '{}'",
+                    grid::GridSpec::greatest_level_count, text);
     }
-    const double steps = std::floor(((*range)[1] - (*range)[0]) / (*range)[2] + 1e-6);
-    if (steps > 1e4) return fail(ErrorCode::bad_argument, "--levels-km {}: too many levels", text);
-    for (int step = 0; step <= static_cast<int>(steps); ++step)
-        levels_m.push_back(metres((*range)[0] + step * (*range)[2]));
-    return levels_m;
+    return std::move(*range_m);
 }
 
 Result<std::array<double, 2>> parse_pair(std::string_view option, std::string_view takes,
@@ -239,7 +214,7 @@ Status size_in_metres(const GridRequest& request, grid::GridSpec& spec) {
     if (!ny) return pass_on(ny);
     spec.nx = *nx;
     spec.ny = *ny;
-    spec.spacing_m = metres(request.spacing);
+    spec.spacing_m = grid::metres_of_km(request.spacing);
     return {};
 }
 
@@ -249,13 +224,13 @@ Status size_in_degrees(const GridRequest& request, grid::GridSpec& spec) {
     const bool in_km = request.extent_unit == SizeUnit::km;
     spec.spacing_m = 0;
     spec.spacing_deg = request.spacing_unit == SizeUnit::km
-                           ? metres(request.spacing) / degree.north_m
+                           ? grid::metres_of_km(request.spacing) / degree.north_m
                            : request.spacing;
     std::array<int, 2> counts{};
     for (std::size_t i = 0; i < 2; ++i) {
         const bool exact = !in_km && request.spacing_unit == SizeUnit::degrees;
         const double extent_deg =
-            in_km ? metres(request.extent[i]) / degree_m[i] : request.extent[i];
+            in_km ? grid::metres_of_km(request.extent[i]) / degree_m[i] : request.extent[i];
         const auto cells = exact ? cells_along(extent_deg, spec.spacing_deg, SizeUnit::degrees)
                                  : cells_over(extent_deg, spec.spacing_deg);
         if (!cells) return pass_on(cells);

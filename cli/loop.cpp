@@ -17,7 +17,7 @@
 #include "cli/progress.h"
 #include "cli/query_options.h"
 #include "cli/scene_options.h"
-#include "render/animation.h"
+#include "render/animation/animation.h"
 
 namespace stormcellar::cli {
 namespace {

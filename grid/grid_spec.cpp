@@ -11,16 +11,15 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr std::uint64_t largest_cell_count = std::uint64_t{1} << 30;  // 5 GiB in memory
-constexpr int largest_level_count = 1024;
 constexpr double lowest_level_m = -1000;
 constexpr double highest_level_m = 60000;
 constexpr double largest_spacing_m = 1e6;
 constexpr double largest_spacing_deg = 10;
 
 Status validate_levels(const GridSpec& spec) {
-    if (spec.levels_m.empty() || spec.nz() > largest_level_count) {
+    if (spec.levels_m.empty() || spec.nz() > GridSpec::greatest_level_count) {
         return fail(ErrorCode::bad_argument, "a grid has 1 to {} levels, not {}",
-                    largest_level_count, spec.levels_m.size());
+                    GridSpec::greatest_level_count, spec.levels_m.size());
     }
     double previous_m = -HUGE_VAL;
     for (const double level_m : spec.levels_m) {

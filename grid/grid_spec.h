@@ -32,6 +32,7 @@ enum class Projection {
 
 struct GridSpec {
     static constexpr int greatest_side = 16384;  // columns or rows
+    static constexpr int greatest_level_count = 1024;
 
     Projection projection = Projection::azimuthal_equidistant;
     double center_latitude_deg = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -10,6 +9,7 @@
 
 #include "base/printable.h"
 #include "cache/store.h"
+#include "grid/level_range.h"
 #include "grid/projection.h"
 
 namespace stormcellar::pipeline {
@@ -18,32 +18,7 @@ namespace {
 using grid::GridSpec;
 using grid::Projection;
 
-constexpr std::size_t most_levels = 1024;
 constexpr int boundary_points = 64;  // along each side of the bounds
-
-// "bottom:top:step" in kilometres -> metres; none when it is not of that form.
-std::optional<std::vector<double>> expand_levels(const std::string& text) {
-    std::array<double, 3> parts{};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto [next, error] = std::from_chars(at, end, parts[i]);
-        if (error != std::errc{} || !std::isfinite(parts[i])) return std::nullopt;
-        const bool last = i + 1 == parts.size();
-        if (last ? next != end : next == end || *next != ':') return std::nullopt;
-        at = last ? end : next + 1;
-    }
-    const auto [bottom, top, step] = parts;
-    if (!(step > 0) || !(top >= bottom) || (top - bottom) / step >= most_levels) {
-        return std::nullopt;
-    }
-    // A top that the steps reach but for rounding is reached.
-    const auto steps = static_cast<int>(std::floor((top - bottom) / step + 1e-6));
-    std::vector<double> levels_m;
-    for (int i = 0; i <= steps; ++i)
-        levels_m.push_back(std::round((bottom + i * step) * 1e6) * 1e-3);
-    return levels_m;
-}
 
 bool is_icao(std::string_view name) {
     const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
@@ -111,7 +86,7 @@ void read_spacing(TomlTable& table, GridSpec& spec) {
         return;
     }
     if (degrees) table.complain("spacing_deg", "is for latitude_longitude");
-    spec.spacing_m = km.value_or(1) * 1000;
+    spec.spacing_m = grid::metres_of_km(km.value_or(1));
 }
 
 // Columns or rows that cover an extent; a millionth of a cell is rounding.
@@ -289,12 +264,12 @@ std::optional<std::vector<double>> read_levels_m(TomlTable& table) {
         if (levels_km->empty()) table.complain("levels_km", "must name a level");
         std::vector<double> levels_m;
         for (const double level : *levels_km)
-            levels_m.push_back(level * 1000);
+            levels_m.push_back(grid::metres_of_km(level));
         return levels_m;
     }
     const auto text = table.text("levels_km");
     if (!text) return std::nullopt;
-    auto levels_m = expand_levels(*text);
+    auto levels_m = grid::parse_level_range(*text);
     if (!levels_m) {
         table.complain("levels_km", fmt::format("\"{}\" is not BOTTOM:TOP:STEP, as in "
                                                 "\"0.5:16:0.5\"",

@@ -10,63 +10,13 @@
 
 #include "base/checksum.h"
 #include "cache/format.h"
-#include "tests/cache/small_grid.h"
+#include "tests/cache/grid_file_fixture.h"
 #include "tests/testing/power_cut_file_system.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cache {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::byte> bytes_of(const fs::path& path) {
-    return *read_file(path);
-}
-
-void overwrite(const fs::path& path, const std::vector<std::byte>& bytes) {
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-}
-
-class GridFileTest : public ::testing::TestWithParam<int> {
-  protected:
-    static grid::BrickGrid bricks(int code_bytes) {
-        grid::Quantization quantization;
-        quantization.code_bytes = code_bytes;
-        return grid::BrickGrid::from(testing::small_grid(), quantization);
-    }
-    Result<std::uint64_t> write(FileSystem& file_system, int code_bytes = 1) {
-        const grid::BrickGrid made = bricks(code_bytes);
-        return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view());
-    }
-    // Why it is not opened; `empty` where it is.
-    [[nodiscard]] ErrorCode opened() const {
-        const auto file = GridFile::open(path_);
-        return file ? ErrorCode::empty : file.error().code;
-    }
-    [[nodiscard]] ErrorCode opened_as_written(const grid::Grid& grid) const {
-        const grid::BrickGrid made = grid::BrickGrid::from(grid, {});
-        EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
-        return opened();
-    }
-    // A good file whose header is changed on purpose, sealed again.
-    template <class Change>
-    [[nodiscard]] ErrorCode opened_with_header(std::vector<std::byte> bytes, Change change) const {
-        format::FileHeader header;
-        std::memcpy(&header, bytes.data(), sizeof header);
-        change(header);
-        header.checksum = 0;
-        std::memcpy(bytes.data(), &header, sizeof header);
-        header.checksum = xxh3_64(std::span(bytes).first(header.codes_offset));
-        std::memcpy(bytes.data(), &header, sizeof header);
-        overwrite(path_, bytes);
-        return opened();
-    }
-
-    testing::TemporaryDirectory directory_;
-    fs::path path_ = directory_ / "a.scg";
-};
 
 TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     const grid::Grid grid = testing::small_grid();
@@ -326,71 +276,6 @@ TEST_F(GridFileTest, FullDiskLeavesNothing) {
     file_system.set_space(6000);
     EXPECT_EQ(write(file_system).error().code, ErrorCode::no_space);
     EXPECT_TRUE(fs::is_empty(directory_.path()));
-}
-
-class PackedGridFile : public GridFileTest {
-  protected:
-    Result<std::uint64_t> pack(FileSystem& file_system, int code_bytes = 1) {
-        const grid::BrickGrid made = bricks(code_bytes);
-        return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view(),
-                               Packing::lz4);
-    }
-};
-
-TEST_P(PackedGridFile, HoldsTheSameCellsInLessSpace) {
-    ASSERT_TRUE(write(real_file_system(), GetParam()));
-    const auto plain_size = fs::file_size(path_);
-    const auto plain = GridFile::open(path_);
-    ASSERT_TRUE(pack(real_file_system(), GetParam()));
-    const auto packed = GridFile::open(path_);
-    ASSERT_TRUE(packed) << packed.error().message;
-    EXPECT_EQ(plain->packing(), Packing::none);
-    EXPECT_EQ(packed->packing(), Packing::lz4);
-    EXPECT_TRUE(packed->verify());
-    EXPECT_LT(fs::file_size(path_), plain_size);
-    EXPECT_TRUE(std::ranges::equal(packed->view().codes, plain->view().codes)) << "places too";
-    EXPECT_EQ(grid::to_dense(packed->view()).status, grid::to_dense(plain->view()).status);
-    const auto first = bytes_of(path_);
-    ASSERT_TRUE(pack(real_file_system(), GetParam()));
-    EXPECT_EQ(bytes_of(path_), first);
-}
-INSTANTIATE_TEST_SUITE_P(CodeBytes, PackedGridFile, ::testing::Values(1, 2));
-
-// Those before the codes are guarded as in every file.
-TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
-    ASSERT_TRUE(pack(real_file_system()));
-    const auto bytes = bytes_of(path_);
-    format::FileHeader header;
-    std::memcpy(&header, bytes.data(), sizeof header);
-    ASSERT_LT(header.codes_offset, bytes.size());
-    for (std::size_t i = header.codes_offset; i < bytes.size(); ++i) {
-        auto flipped = bytes;
-        flipped[i] ^= std::byte{0x10};
-        overwrite(path_, flipped);
-        ASSERT_EQ(GridFile::open(path_).error().code, ErrorCode::corrupt) << "byte " << i;
-    }
-}
-
-TEST_F(PackedGridFile, IsInMemoryWhenItsFileIsCut) {
-    ASSERT_TRUE(pack(real_file_system()));
-    const auto file = GridFile::open(path_);
-    ASSERT_TRUE(file);
-    const auto before = grid::to_dense(file->view()).values;
-    fs::resize_file(path_, 4096);
-    EXPECT_EQ(grid::to_dense(file->view()).values, before);
-    EXPECT_EQ(file->check_whole().error().code, ErrorCode::truncated);
-    EXPECT_FALSE(file->verify());
-    EXPECT_FALSE(GridFile::open(path_));
-}
-
-TEST_F(PackedGridFile, AnAlteredFileIsFoundByVerify) {
-    ASSERT_TRUE(pack(real_file_system()));
-    const auto file = GridFile::open(path_);
-    ASSERT_TRUE(file);
-    auto bytes = bytes_of(path_);
-    bytes.back() ^= std::byte{1};
-    overwrite(path_, bytes);
-    EXPECT_EQ(file->verify().error().code, ErrorCode::corrupt);
 }
 
 TEST_F(GridFileTest, OtherThingsAreNamed) {

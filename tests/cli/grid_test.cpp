@@ -67,7 +67,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "--levels-km", "1:2"}, "--levels-km");
     expect_usage({"a", "--levels-km", "2:1:0.5"}, "--levels-km");
     expect_usage({"a", "--levels-km", "1:2:0"}, "--levels-km");
-    expect_usage({"a", "--levels-km", "1:2:1e-9"}, "too many levels");
+    expect_usage({"a", "--levels-km", "1:2:1e-9"}, "at most 1024 levels");
     expect_usage({"a", "--levels-km", "2,1"}, "levels must rise");
     expect_usage({"a", "--moment", "ref"}, "REF VEL SW");
     expect_usage({"a", "--threads", "0"}, "--threads");

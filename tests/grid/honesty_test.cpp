@@ -17,6 +17,7 @@
 #include "grid/oracle.h"
 #include "level2/decode.h"
 #include "tests/testing/data.h"
+#include "tests/testing/forced_choice.h"
 #include "tests/testing/slow_down.h"
 
 namespace stormcellar::grid {
@@ -121,19 +122,6 @@ double difference(Prepared& prepared, const Grid& a, const Grid& b) {
     return summary ? summary->p99 : 0;
 }
 
-// The choice with one effect, and what it needs, on; or with it, and what needs it, off.
-accuracy::Choice forced(const accuracy::Plan& plan, const accuracy::Chain& chain,
-                        const std::string& effect, bool on) {
-    accuracy::Choice choice = plan.choice;
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        const auto& effects = chain.steps[i].effects;
-        for (std::size_t k = 0; k < effects.size(); ++k) {
-            if (effects[k].name == effect) choice.rungs[i] = on ? k + 1 : k;
-        }
-    }
-    return choice;
-}
-
 class Honesty : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(Honesty, WhatIsLeftOffIsLessThanTheBudget) {
@@ -148,7 +136,7 @@ TEST_P(Honesty, WhatIsLeftOffIsLessThanTheBudget) {
     for (const accuracy::Decision& decision : plan.decisions) {
         if (decision.on) continue;
         position_m += decision.predicted.position_m;
-        const accuracy::Choice one = forced(plan, prepared->chain, decision.effect, true);
+        const accuracy::Choice one = testing::forced(plan, prepared->chain, decision.effect, true);
         for (std::size_t i = 0; i < all.rungs.size(); ++i)
             all.rungs[i] = std::max(all.rungs[i], one.rungs[i]);
         const Grid with = whole_grid(*prepared, scene_choice(prepared->chain, one));
@@ -225,7 +213,8 @@ TEST(Honesty, EveryEffectThatIsTurnedOnMattersInSomeScene) {
                                     accuracy::is_unbounded(decision.predicted);
             if (!decision.on || !called_for) continue;
             ever_on_for_a_reason[decision.effect] = true;
-            const accuracy::Choice without = forced(plan, prepared->chain, decision.effect, false);
+            const accuracy::Choice without =
+                testing::forced(plan, prepared->chain, decision.effect, false);
             const double change = difference(
                 *prepared, chosen, whole_grid(*prepared, scene_choice(prepared->chain, without)));
             const double part =

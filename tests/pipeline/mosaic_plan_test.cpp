@@ -14,6 +14,7 @@
 #include "grid/compare_bricks.h"
 #include "level2/decode.h"
 #include "tests/testing/data.h"
+#include "tests/testing/forced_choice.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -126,19 +127,6 @@ double difference(const MosaicFrame& a, const MosaicFrame& b) {
     return summary ? summary->p99 : 0;
 }
 
-// The choice with one effect, and what it needs, on; or with it, and what needs it, off.
-accuracy::Choice forced(const accuracy::Plan& plan, const accuracy::Chain& chain,
-                        const std::string& effect, bool on) {
-    accuracy::Choice choice = plan.choice;
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        const auto& effects = chain.steps[i].effects;
-        for (std::size_t k = 0; k < effects.size(); ++k) {
-            if (effects[k].name == effect) choice.rungs[i] = on ? k + 1 : k;
-        }
-    }
-    return choice;
-}
-
 class MosaicHonesty : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(MosaicHonesty, WhatIsLeftOffIsLessThanTheBudget) {
@@ -153,7 +141,7 @@ TEST_P(MosaicHonesty, WhatIsLeftOffIsLessThanTheBudget) {
     for (const accuracy::Decision& decision : plan.decisions) {
         if (decision.on || decision.effect == "exact_geodesic") continue;
         position_m += decision.predicted.position_m;
-        const accuracy::Choice one = forced(plan, prepared->chain, decision.effect, true);
+        const accuracy::Choice one = testing::forced(plan, prepared->chain, decision.effect, true);
         for (std::size_t i = 0; i < all.rungs.size(); ++i)
             all.rungs[i] = std::max(all.rungs[i], one.rungs[i]);
         EXPECT_LE(difference(chosen, frame_of(*prepared, one)), *prepared->budget.value)
@@ -178,7 +166,8 @@ TEST(MosaicHonesty, EveryEffectOfMosaicsMattersInSomeScene) {
         for (const accuracy::Decision& decision : plan.decisions) {
             // Not what came along because it costs nothing, or with the most accurate choice.
             if (!decision.on || !decision.reason.starts_with("without it")) continue;
-            const accuracy::Choice without = forced(plan, prepared->chain, decision.effect, false);
+            const accuracy::Choice without =
+                testing::forced(plan, prepared->chain, decision.effect, false);
             const double change = difference(chosen, frame_of(*prepared, without));
             const double part =
                 std::max(change / *prepared->budget.value,

@@ -127,9 +127,10 @@ lapse_db_per_km = 4
 }
 
 TEST(Scene, ThoseOfTheProjectAreRead) {
-    for (const char* name : {"instrument-all.toml", "moving-storm.toml", "small-storm.toml",
-                             "truth-clear-air.toml", "truth-edge.toml", "truth-point.toml",
-                             "truth-sine.toml", "truth-stratiform.toml", "truth-supercell.toml"}) {
+    for (const char* name :
+         {"instrument-all.toml", "moving-storm.toml", "small-storm.toml", "storm-line.toml",
+          "truth-clear-air.toml", "truth-edge.toml", "truth-point.toml", "truth-sine.toml",
+          "truth-stratiform.toml", "truth-supercell.toml"}) {
         const auto scene = read_scene(testing::source_directory() / "scenes" / name);
         EXPECT_TRUE(scene) << scene.error().message;
     }

@@ -1,0 +1,81 @@
+// Files whose bricks are packed.
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "tests/cache/grid_file_fixture.h"
+
+namespace stormcellar::cache {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PackedGridFile : public GridFileTest {
+  protected:
+    Result<std::uint64_t> pack(FileSystem& file_system, int code_bytes = 1) {
+        const grid::BrickGrid made = bricks(code_bytes);
+        return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view(),
+                               Packing::lz4);
+    }
+};
+
+TEST_P(PackedGridFile, HoldsTheSameCellsInLessSpace) {
+    ASSERT_TRUE(write(real_file_system(), GetParam()));
+    const auto plain_size = fs::file_size(path_);
+    const auto plain = GridFile::open(path_);
+    ASSERT_TRUE(pack(real_file_system(), GetParam()));
+    const auto packed = GridFile::open(path_);
+    ASSERT_TRUE(packed) << packed.error().message;
+    EXPECT_EQ(plain->packing(), Packing::none);
+    EXPECT_EQ(packed->packing(), Packing::lz4);
+    EXPECT_TRUE(packed->verify());
+    EXPECT_LT(fs::file_size(path_), plain_size);
+    EXPECT_TRUE(std::ranges::equal(packed->view().codes, plain->view().codes)) << "places too";
+    EXPECT_EQ(grid::to_dense(packed->view()).status, grid::to_dense(plain->view()).status);
+    const auto first = bytes_of(path_);
+    ASSERT_TRUE(pack(real_file_system(), GetParam()));
+    EXPECT_EQ(bytes_of(path_), first);
+}
+INSTANTIATE_TEST_SUITE_P(CodeBytes, PackedGridFile, ::testing::Values(1, 2));
+
+// Those before the codes are guarded as in every file.
+TEST_F(PackedGridFile, EveryFlippedByteOfTheCodesIsRefused) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const auto bytes = bytes_of(path_);
+    format::FileHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    ASSERT_LT(header.codes_offset, bytes.size());
+    for (std::size_t i = header.codes_offset; i < bytes.size(); ++i) {
+        auto flipped = bytes;
+        flipped[i] ^= std::byte{0x10};
+        overwrite(path_, flipped);
+        ASSERT_EQ(GridFile::open(path_).error().code, ErrorCode::corrupt) << "byte " << i;
+    }
+}
+
+TEST_F(PackedGridFile, IsInMemoryWhenItsFileIsCut) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const auto file = GridFile::open(path_);
+    ASSERT_TRUE(file);
+    const auto before = grid::to_dense(file->view()).values;
+    fs::resize_file(path_, 4096);
+    EXPECT_EQ(grid::to_dense(file->view()).values, before);
+    EXPECT_EQ(file->check_whole().error().code, ErrorCode::truncated);
+    EXPECT_FALSE(file->verify());
+    EXPECT_FALSE(GridFile::open(path_));
+}
+
+TEST_F(PackedGridFile, AnAlteredFileIsFoundByVerify) {
+    ASSERT_TRUE(pack(real_file_system()));
+    const auto file = GridFile::open(path_);
+    ASSERT_TRUE(file);
+    auto bytes = bytes_of(path_);
+    bytes.back() ^= std::byte{1};
+    overwrite(path_, bytes);
+    EXPECT_EQ(file->verify().error().code, ErrorCode::corrupt);
+}
+
+}  // namespace
+}  // namespace stormcellar::cache
