@@ -1,12 +1,12 @@
 #include "render/render.h"
 
 #include "render/canvas.h"
-#include "render/column_summary.h"
-#include "render/ground.h"
-#include "render/labels.h"
-#include "render/map_lines.h"
+#include "render/map/labels.h"
+#include "render/map/map_lines.h"
+#include "render/products/column_summary.h"
+#include "render/products/ground.h"
 #include "render/shades.h"
-#include "render/slicer.h"
+#include "render/volume/slicer.h"
 
 namespace stormcellar::render {
 namespace {
@@ -42,14 +42,16 @@ Image draw_picture(const grid::BrickView& view, const Scene& scene, const ViewGe
     const auto columns = summarize_columns(view, threads);
     const double scale = frame.layout.scale;
     const bool volume = scene.product == Product::volume;
-    const Image base = volume ? paint_ground(*view.spec, columns, geometry, scale, threads)
-                              : paint_composite(view, columns, geometry, scale, threads);
+    const Image base =
+        volume ? paint_ground(*view.spec, columns, geometry, scale, threads)
+               : paint_composite(view, nws_reflectivity(), columns, geometry, scale, threads);
     Canvas canvas(base);
     draw_border(canvas, frame.lines);
     if (scene.labels) draw_rings(canvas, frame.fonts, frame.lines);
     Image picture = canvas.image();
     if (volume) {
-        const Layer layer = slice_volume(view, geometry, scene.slices, scene.opacity, threads);
+        const Layer layer =
+            slice_volume(view, nws_reflectivity(), geometry, scene.slices, scene.opacity, threads);
         composite_over(layer, picture, 0, 0);
     }
     return picture;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file_system.h"
-#include "render/animation.h"
+#include "render/animation/animation.h"
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/temporary_directory.h"
 

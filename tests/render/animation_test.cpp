@@ -1,11 +1,11 @@
-#include "render/animation.h"
+#include "render/animation/animation.h"
 
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/animation_format.h"
+#include "render/animation/animation_format.h"
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"

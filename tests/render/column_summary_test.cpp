@@ -1,4 +1,4 @@
-#include "render/column_summary.h"
+#include "render/products/column_summary.h"
 
 #include <gtest/gtest.h>
 

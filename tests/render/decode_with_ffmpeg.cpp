@@ -1,5 +1,5 @@
 // Reads with FFmpeg's demuxers and decoders, so that what we wrote is seen by somebody else's code.
-#include "render/ffmpeg_handles.h"
+#include "render/animation/ffmpeg_handles.h"
 #include "tests/render/decoded_animation.h"
 
 namespace stormcellar::render {

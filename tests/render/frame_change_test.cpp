@@ -1,4 +1,4 @@
-#include "render/frame_change.h"
+#include "render/animation/frame_change.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/labels.h"
+#include "render/map/labels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "render/level_position.h"
+#include "render/volume/level_position.h"
 
 #include <gtest/gtest.h>
 

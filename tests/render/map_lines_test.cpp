@@ -1,5 +1,5 @@
 // Rings and sites stand where the map has them, whatever its projection.
-#include "render/map_lines.h"
+#include "render/map/map_lines.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "render/palette.h"
+#include "render/animation/palette.h"
 
 #include <algorithm>
 #include <cstdlib>

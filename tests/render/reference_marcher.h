@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "render/colour_table.h"
-#include "render/transfer_function.h"
+#include "render/colour/colour_table.h"
 #include "render/view_geometry.h"
+#include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
 
@@ -68,9 +68,11 @@ inline std::array<double, 4> reference_ray(const grid::BrickView& view,
                                       1.0 / 64);
         const double value =
             TransferFunction::first_bin_dbz + TransferFunction::bin_dbz * std::min(bin, 255.0);
-        const auto classed = nws_reflectivity_colour(static_cast<float>(value));
+        const auto classed = colour_of(nws_reflectivity(), static_cast<float>(value));
         if (!classed) continue;
-        const double alpha = -std::expm1(-extinction_per_m(value, opacity) * step) * sample.share;
+        const double alpha =
+            -std::expm1(-extinction_per_m(nws_reflectivity(), value, opacity) * step) *
+            sample.share;
         for (std::size_t c = 0; c < 3; ++c)
             colour[c] += through * alpha * (*classed)[c] / 255.0;
         through *= 1 - alpha;

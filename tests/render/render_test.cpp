@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour_table.h"
+#include "render/colour/colour_table.h"
 #include "render/shades.h"
 #include "tests/render/synthetic_storm.h"
 
@@ -44,7 +44,7 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
         render_frame(bricks.view(), facts_of(grid), plain(Product::composite, 520), 2);
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(map_pixel(*image, 10, 90), (Rgba8{0xFD, 0, 0, 255})) << "north-west is top left";
-    EXPECT_EQ(map_pixel(*image, 60, 20), range_folded_colour);
+    EXPECT_EQ(map_pixel(*image, 60, 20), nws_reflectivity().range_folded);
     EXPECT_EQ(map_pixel(*image, 30, 20), shades::seen) << "below the table";
     EXPECT_EQ(map_pixel(*image, 50, 50), shades::seen);
     EXPECT_EQ(image->at(1, 1), shades::page);

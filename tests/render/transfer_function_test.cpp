@@ -1,31 +1,13 @@
-#include "render/transfer_function.h"
+#include "render/volume/transfer_function.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "render/colour_table.h"
+#include "render/colour/colour_table.h"
 
 namespace stormcellar::render {
 namespace {
-
-TEST(ColourTable, HasFifteenClassesOfFiveDecibelsFromFive) {
-    for (std::size_t i = 0; i < nws_reflectivity.size(); ++i) {
-        EXPECT_EQ(nws_reflectivity[i].from_dbz, 5 + 5 * static_cast<float>(i));
-    }
-}
-
-TEST(ColourTable, GivesTheColoursOfTheWeatherService) {
-    EXPECT_FALSE(nws_reflectivity_colour(4.99F));
-    EXPECT_FALSE(nws_reflectivity_colour(std::nanf("")));
-    EXPECT_EQ(nws_reflectivity_colour(5), (Rgba8{0x04, 0xE9, 0xE7, 255}));
-    EXPECT_EQ(nws_reflectivity_colour(22.5F), (Rgba8{0x02, 0xFD, 0x02, 255}));
-    EXPECT_EQ(nws_reflectivity_colour(34.99F), (Rgba8{0x00, 0x8E, 0x00, 255}));
-    EXPECT_EQ(nws_reflectivity_colour(35), (Rgba8{0xFD, 0xF8, 0x02, 255}));
-    EXPECT_EQ(nws_reflectivity_colour(51), (Rgba8{0xFD, 0x00, 0x00, 255}));
-    EXPECT_EQ(nws_reflectivity_colour(67), (Rgba8{0xF8, 0x00, 0xFD, 255}));
-    EXPECT_EQ(nws_reflectivity_colour(95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
-}
 
 const grid::Quantization half_db{1, -32, 0.5F};
 
@@ -33,18 +15,8 @@ int bin_of_dbz(double dbz) {
     return static_cast<int>((dbz - TransferFunction::first_bin_dbz) / TransferFunction::bin_dbz);
 }
 
-// docs/rendering.md, by hand: the haze grows tenfold in 40 dB, the core in 10 dB.
-TEST(Extinction, IsTheSumOfHazeAndCore) {
-    EXPECT_EQ(extinction_per_m(4.99, 1), 0);
-    EXPECT_EQ(extinction_per_m(std::nan(""), 1), 0);
-    EXPECT_NEAR(extinction_per_m(5, 1) * reference_step_m, 0.012 + 0.12 * 3.16228e-5, 1e-9);
-    EXPECT_NEAR(extinction_per_m(45, 1) * reference_step_m, 0.12 + 0.12 * 0.316228, 1e-7);
-    EXPECT_NEAR(extinction_per_m(70, 1) * reference_step_m, 0.012 * 42.1697 + 12, 1e-5);
-    EXPECT_NEAR(extinction_per_m(40, 2.5) / extinction_per_m(40, 1), 2.5, 1e-12);
-}
-
 TEST(TransferFunction, FirstVisibleCodeIsFiveDbz) {
-    const TransferFunction transfer(half_db, 1, 1000);
+    const TransferFunction transfer(nws_reflectivity(), half_db, 1, 1000);
     EXPECT_EQ(half_db.value_of(static_cast<std::uint16_t>(transfer.first_visible_code())), 5);
 }
 
@@ -52,7 +24,7 @@ TEST(TransferFunction, FirstVisibleCodeIsFiveDbz) {
 TEST(TransferFunction, BinsHoldTheirValues) {
     for (const grid::Quantization& quantization :
          {half_db, grid::Quantization{2, -32, 0.01F}, grid::Quantization{1, -30, 1}}) {
-        const TransferFunction transfer(quantization, 1, 1000);
+        const TransferFunction transfer(nws_reflectivity(), quantization, 1, 1000);
         for (std::uint32_t code = 3; code <= quantization.largest_code(); ++code) {
             const double dbz =
                 static_cast<double>(quantization.value_of(static_cast<std::uint16_t>(code)));
@@ -66,7 +38,7 @@ TEST(TransferFunction, BinsHoldTheirValues) {
 }
 
 TEST(TransferFunction, OpacityRisesWithReflectivity) {
-    const TransferFunction transfer(half_db, 1, 1000);
+    const TransferFunction transfer(nws_reflectivity(), half_db, 1, 1000);
     for (int bin = bin_of_dbz(5); bin < TransferFunction::bin_count; ++bin) {
         const float alpha = transfer.entry(bin, bin).alpha;
         const float below = transfer.entry(bin - 1, bin - 1).alpha;
@@ -76,9 +48,9 @@ TEST(TransferFunction, OpacityRisesWithReflectivity) {
 }
 
 TEST(TransferFunction, OpacityIsCorrectedForTheStep) {
-    const TransferFunction reference(half_db, 1, reference_step_m);
+    const TransferFunction reference(nws_reflectivity(), half_db, 1, 1000.0);
     for (const double ratio : {0.1, 0.5, 3.0, 20.0}) {
-        const TransferFunction other(half_db, 1, ratio * reference_step_m);
+        const TransferFunction other(nws_reflectivity(), half_db, 1, ratio * 1000.0);
         for (const double dbz : {6.0, 23.0, 41.5, 52.0, 60.0}) {
             const int bin = bin_of_dbz(dbz);
             const double a = static_cast<double>(reference.entry(bin, bin).alpha);
@@ -89,7 +61,7 @@ TEST(TransferFunction, OpacityIsCorrectedForTheStep) {
 }
 
 TEST(TransferFunction, ColoursArePremultiplied) {
-    const TransferFunction transfer(half_db, 1, 1000);
+    const TransferFunction transfer(nws_reflectivity(), half_db, 1, 1000);
     const TransferEntry& red = transfer.entry(bin_of_dbz(52), bin_of_dbz(52));
     EXPECT_FLOAT_EQ(red.red, red.alpha * 253 / 255);
     EXPECT_EQ(red.green, 0);
@@ -98,7 +70,7 @@ TEST(TransferFunction, ColoursArePremultiplied) {
 // A step that crosses several classes against the slow sum over all values between its ends.
 TEST(TransferFunction, AStepHoldsEveryClassBetweenItsEnds) {
     const double step_m = 700;
-    const TransferFunction transfer(half_db, 1, step_m);
+    const TransferFunction transfer(nws_reflectivity(), half_db, 1, step_m);
     for (const auto& [low, high] : {std::pair{-20.0, 30.0}, std::pair{12.0, 14.0},
                                     std::pair{33.0, 61.0}, std::pair{5.0, 75.0}}) {
         double extinction = 0;
@@ -106,9 +78,10 @@ TEST(TransferFunction, AStepHoldsEveryClassBetweenItsEnds) {
         const int bins = static_cast<int>((high - low) / 0.5) + 1;
         for (int i = 0; i < bins; ++i) {
             const double dbz = low + 0.5 * i;
-            extinction += extinction_per_m(dbz, 1);
-            const auto colour = nws_reflectivity_colour(static_cast<float>(dbz));
-            if (colour) weighted_green += extinction_per_m(dbz, 1) * (*colour)[1] / 255;
+            extinction += extinction_per_m(nws_reflectivity(), dbz, 1);
+            const auto colour = colour_of(nws_reflectivity(), static_cast<float>(dbz));
+            if (colour)
+                weighted_green += extinction_per_m(nws_reflectivity(), dbz, 1) * (*colour)[1] / 255;
         }
         const double alpha = 1 - std::exp(-extinction / bins * step_m);
         const TransferEntry& entry = transfer.entry(bin_of_dbz(low), bin_of_dbz(high));
@@ -119,7 +92,8 @@ TEST(TransferFunction, AStepHoldsEveryClassBetweenItsEnds) {
 }
 
 TEST(TransferFunction, AllCodesBelowTheTableAreClear) {
-    EXPECT_EQ(TransferFunction({1, -200, 0.1F}, 1, 1000).first_visible_code(), 256U);
+    EXPECT_EQ(TransferFunction(nws_reflectivity(), {1, -200, 0.1F}, 1, 1000).first_visible_code(),
+              256U);
 }
 
 }  // namespace

@@ -1,0 +1,180 @@
+// WebP through libwebp's animation encoder. Lossless: the colours are data, and lossy WebP halves
+// their resolution. Method 1 and effort 50 were measured to be the knee (docs/decisions.md).
+#include <climits>
+#include <cmath>
+#include <span>
+
+#include <webp/encode.h>
+#include <webp/mux.h>
+
+#include "render/animation/animation_format.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr int method = 1;
+constexpr float effort = 50;
+
+struct EncoderDeleter {
+    void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
+};
+struct MuxDeleter {
+    void operator()(WebPMux* mux) const { WebPMuxDelete(mux); }
+};
+
+// libwebp's own memory, freed at the end of a scope.
+struct Data {
+    WebPData data{};
+    Data() { WebPDataInit(&data); }
+    Data(const Data&) = delete;
+    Data& operator=(const Data&) = delete;
+    ~Data() { WebPDataClear(&data); }
+};
+struct Picture {
+    WebPPicture picture{};
+    Picture() = default;
+    Picture(const Picture&) = delete;
+    Picture& operator=(const Picture&) = delete;
+    ~Picture() { WebPPictureFree(&picture); }
+};
+
+std::string xml_escaped(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                escaped += "&amp;";
+                break;
+            case '<':
+                escaped += "&lt;";
+                break;
+            case '>':
+                escaped += "&gt;";
+                break;
+            default:
+                // XML 1.0 has no other control characters.
+                escaped += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+        }
+    }
+    return escaped;
+}
+
+// Source: ISO 16684-1 (XMP), Dublin Core properties as language alternatives.
+std::string xmp_packet(const AnimationOptions& options) {
+    const auto property = [](const char* name, const std::string& text) {
+        return fmt::format(
+            "<dc:{0}><rdf:Alt><rdf:li xml:lang=\"x-default\">{1}</rdf:li></rdf:Alt>"
+            "</dc:{0}>",
+            name, xml_escaped(text));
+    };
+    std::string properties;
+    if (const std::string title = metadata_title(options); !title.empty()) {
+        properties += property("title", title);
+    }
+    properties += property("description", metadata_text(options));
+    return fmt::format(
+        "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">"
+        "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
+        "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\">"
+        "{}</rdf:Description></rdf:RDF></x:xmpmeta>",
+        properties);
+}
+
+class WebpEncoder final : public FrameEncoder {
+  public:
+    explicit WebpEncoder(const AnimationOptions& options) : options_(options) {}
+
+    [[nodiscard]] int largest_side() const override { return WEBP_MAX_DIMENSION; }
+
+    Status add(const Image& frame) override {
+        if (!encoder_) {
+            if (auto started = start(frame.width, frame.height); !started) return started;
+        }
+        Picture holder;
+        WebPPicture& picture = holder.picture;
+        if (WebPPictureInit(&picture) == 0) return version_mismatch();
+        picture.use_argb = 1;
+        picture.width = frame.width;
+        picture.height = frame.height;
+        if (WebPPictureImportRGBA(&picture, frame.rgba.data(), frame.width * 4) == 0) {
+            return fail(ErrorCode::internal, "WebP: no memory for a frame");
+        }
+        return add_to_encoder(&picture, milliseconds(count_++));
+    }
+
+    Result<std::vector<std::byte>> finish() override {
+        const auto end = milliseconds(count_) +
+                         static_cast<int>(std::llround(options_.last_frame_dwell_s * 1e3));
+        if (auto ended = add_to_encoder(nullptr, end); !ended) return pass_on(ended);
+        Data assembled;
+        if (WebPAnimEncoderAssemble(encoder_.get(), &assembled.data) == 0) {
+            return fail(ErrorCode::internal, "WebP: {}", WebPAnimEncoderGetError(encoder_.get()));
+        }
+        return with_metadata(assembled.data);
+    }
+
+  private:
+    static tl::unexpected<Error> version_mismatch() {
+        return fail(ErrorCode::internal, "WebP: the library's version is not the header's");
+    }
+
+    [[nodiscard]] int milliseconds(std::size_t index) const {
+        return static_cast<int>(frame_start(options_, index, 1000));
+    }
+
+    Status start(int width, int height) {
+        WebPAnimEncoderOptions options;
+        if (WebPAnimEncoderOptionsInit(&options) == 0 || WebPConfigInit(&config_) == 0) {
+            return version_mismatch();
+        }
+        options.anim_params.loop_count = 0;  // for ever
+        // A key frame is needed for seeking alone; between them only what changed is stored.
+        options.kmax = INT_MAX;
+        options.kmin = INT_MAX - 1;
+        config_.lossless = 1;
+        config_.exact = 1;
+        config_.method = method;
+        config_.quality = effort;
+        encoder_.reset(WebPAnimEncoderNew(width, height, &options));
+        if (!encoder_) return fail(ErrorCode::internal, "WebP: the encoder does not start");
+        return {};
+    }
+
+    Status add_to_encoder(WebPPicture* picture, int start_ms) {
+        if (WebPAnimEncoderAdd(encoder_.get(), picture, start_ms, &config_) == 0) {
+            return fail(ErrorCode::internal, "WebP: {}", WebPAnimEncoderGetError(encoder_.get()));
+        }
+        return {};
+    }
+
+    Result<std::vector<std::byte>> with_metadata(const WebPData& assembled) const {
+        if (options_.metadata.empty()) return bytes_of(assembled);
+        const std::unique_ptr<WebPMux, MuxDeleter> mux(WebPMuxCreate(&assembled, 0));
+        const std::string packet = xmp_packet(options_);
+        const WebPData xmp{reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size()};
+        Data whole;
+        if (!mux || WebPMuxSetChunk(mux.get(), "XMP ", &xmp, 0) != WEBP_MUX_OK ||
+            WebPMuxAssemble(mux.get(), &whole.data) != WEBP_MUX_OK) {
+            return fail(ErrorCode::internal, "WebP: the metadata cannot be added");
+        }
+        return bytes_of(whole.data);
+    }
+
+    static std::vector<std::byte> bytes_of(const WebPData& data) {
+        const auto bytes = std::as_bytes(std::span(data.bytes, data.size));
+        return {bytes.begin(), bytes.end()};
+    }
+
+    AnimationOptions options_;
+    WebPConfig config_{};
+    std::unique_ptr<WebPAnimEncoder, EncoderDeleter> encoder_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameEncoder> make_webp_encoder(const AnimationOptions& options) {
+    return std::make_unique<WebpEncoder>(options);
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,21 @@
+// render/animation/frame_change.h -- which part of a frame differs from the one before.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace stormcellar::render {
+
+struct Rectangle {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Rectangle&) const = default;
+};
+
+// The smallest rectangle that holds every pixel that differs; one pixel at the top left when none
+// does, because no format has an empty frame. Both spans hold width * height * pixel_bytes bytes.
+[[nodiscard]] Rectangle changed_rectangle(std::span<const std::uint8_t> before,
+                                          std::span<const std::uint8_t> after, int width,
+                                          int height, std::size_t pixel_bytes);
+
+}  // namespace stormcellar::render

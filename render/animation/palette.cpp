@@ -1,0 +1,298 @@
+#include "render/animation/palette.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace stormcellar::render {
+namespace {
+
+constexpr std::size_t most_exact = 256;
+constexpr int refinement_rounds = 2;
+
+// The eye is keener on green than on red than on blue.
+constexpr std::array<double, 3> channel_weight = {2, 4, 3};
+
+using Point = std::array<double, 3>;  // a colour, channels scaled so that distances are weighted
+
+// What is to be grouped: the colour of a cell of the histogram and how many pixels have it.
+struct Sample {
+    Point point{};
+    double count = 0;
+    Rgb8 colour{};
+    bool exact = false;  // half of the pixels or more have just this colour
+};
+
+std::uint32_t packed(Rgb8 colour) {
+    return (static_cast<std::uint32_t>(colour[0]) << 16) |
+           (static_cast<std::uint32_t>(colour[1]) << 8) | colour[2];
+}
+
+Rgb8 unpacked(std::uint32_t colour) {
+    return {static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8),
+            static_cast<std::uint8_t>(colour)};
+}
+
+Point point_of(Rgb8 colour) {
+    Point point{};
+    for (std::size_t c = 0; c < 3; ++c)
+        point[c] = colour[c] * channel_weight[c];
+    return point;
+}
+
+Rgb8 colour_of(const Point& point) {
+    Rgb8 colour{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        colour[c] =
+            static_cast<std::uint8_t>(std::clamp(point[c] / channel_weight[c] + 0.5, 0.0, 255.0));
+    }
+    return colour;
+}
+
+double distance_squared(const Point& a, const Point& b) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+        sum += (a[c] - b[c]) * (a[c] - b[c]);
+    return sum;
+}
+
+// Sums over a range of samples, from which mean and spread follow.
+struct Moments {
+    double count = 0;
+    Point sum{};
+    double squares = 0;
+
+    void add(const Sample& sample) {
+        count += sample.count;
+        for (std::size_t c = 0; c < 3; ++c) {
+            sum[c] += sample.count * sample.point[c];
+            squares += sample.count * sample.point[c] * sample.point[c];
+        }
+    }
+    // |sum|^2 / count: how much of the squares a single mean explains.
+    [[nodiscard]] double explained() const {
+        if (count <= 0) return 0;
+        return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count;
+    }
+    [[nodiscard]] double spread() const { return squares - explained(); }
+    [[nodiscard]] Point mean() const { return {sum[0] / count, sum[1] / count, sum[2] / count}; }
+};
+
+Moments moments_of(std::span<const Sample> samples) {
+    Moments moments;
+    for (const Sample& sample : samples)
+        moments.add(sample);
+    return moments;
+}
+
+struct Box {
+    std::span<Sample> samples;
+    Moments moments;
+};
+
+struct Split {
+    double gain = 0;
+    std::size_t channel = 0;
+    std::size_t position = 0;  // samples before it go to the one side
+};
+
+void sort_by_channel(std::span<Sample> samples, std::size_t channel) {
+    std::ranges::sort(samples, [channel](const Sample& a, const Sample& b) {
+        if (a.point[channel] != b.point[channel]) return a.point[channel] < b.point[channel];
+        return packed(a.colour) < packed(b.colour);  // one order only, whatever came before
+    });
+}
+
+// The cut across one channel that lessens the spread most.
+Split best_split(const Box& box) {
+    Split best;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        sort_by_channel(box.samples, channel);
+        Moments left;
+        for (std::size_t i = 1; i < box.samples.size(); ++i) {
+            left.add(box.samples[i - 1]);
+            Moments right = box.moments;
+            right.count -= left.count;
+            for (std::size_t c = 0; c < 3; ++c)
+                right.sum[c] -= left.sum[c];
+            const double gain = left.explained() + right.explained() - box.moments.explained();
+            if (gain > best.gain) best = {gain, channel, i};
+        }
+    }
+    return best;
+}
+
+// Splits the box of greatest spread again and again; gives the means.
+std::vector<Point> split_into(std::vector<Sample>& samples, std::size_t size) {
+    std::vector<Box> boxes{{samples, moments_of(samples)}};
+    while (boxes.size() < size) {
+        const auto widest = std::ranges::max_element(
+            boxes, {}, [](const Box& box) { return box.moments.spread(); });
+        const Split split = best_split(*widest);
+        if (split.position == 0) break;  // nothing differs any more
+        sort_by_channel(widest->samples, split.channel);
+        const auto left = widest->samples.first(split.position);
+        const auto right = widest->samples.subspan(split.position);
+        *widest = {left, moments_of(left)};
+        boxes.push_back({right, moments_of(right)});
+    }
+    std::vector<Point> means;
+    means.reserve(boxes.size());
+    for (const Box& box : boxes)
+        means.push_back(box.moments.mean());
+    return means;
+}
+
+std::size_t nearest_point(const std::vector<Point>& points, const Point& point) {
+    std::size_t best = 0;
+    double best_distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double distance = distance_squared(points[i], point);
+        if (distance < best_distance) {
+            best = i;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+// Each group's mean, or the one colour that makes up half of it.
+std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> points) {
+    std::vector<Moments> groups;
+    std::vector<const Sample*> largest;
+    for (int round = 0; round < refinement_rounds; ++round) {
+        groups.assign(points.size(), {});
+        largest.assign(points.size(), nullptr);
+        for (const Sample& sample : samples) {
+            const std::size_t group = nearest_point(points, sample.point);
+            groups[group].add(sample);
+            if (largest[group] == nullptr || sample.count > largest[group]->count) {
+                largest[group] = &sample;
+            }
+        }
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (groups[i].count > 0) points[i] = groups[i].mean();
+        }
+    }
+    std::vector<Rgb8> palette;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Sample* leader = largest[i];
+        const bool rules =
+            leader != nullptr && leader->exact && leader->count * 2 >= groups[i].count;
+        palette.push_back(rules ? leader->colour : colour_of(points[i]));
+    }
+    return palette;
+}
+
+// Runs of equal pixels, which a drawn picture is full of.
+template <class Visit>
+void for_each_run(const Image& frame, Visit visit) {
+    const auto& rgba = frame.rgba;
+    std::size_t i = 0;
+    while (i < rgba.size()) {
+        const Rgb8 colour{rgba[i], rgba[i + 1], rgba[i + 2]};
+        std::size_t end = i + 4;
+        while (end < rgba.size() && rgba[end] == colour[0] && rgba[end + 1] == colour[1] &&
+               rgba[end + 2] == colour[2]) {
+            end += 4;
+        }
+        visit(colour, (end - i) / 4);
+        i = end;
+    }
+}
+
+}  // namespace
+
+ColourHistogram::ColourHistogram() : cells_(std::size_t{64} * 64 * 64) {}
+
+void ColourHistogram::add(const Image& frame) {
+    for_each_run(frame, [this](Rgb8 colour, std::size_t length) { add_run(colour, length); });
+}
+
+void ColourHistogram::add_run(Rgb8 colour, std::uint64_t length) {
+    if (!too_many_) {
+        exact_.insert(packed(colour));
+        if (exact_.size() > most_exact) {
+            too_many_ = true;
+            exact_.clear();
+        }
+    }
+    Cell& cell = cells_[(static_cast<std::size_t>(colour[0] >> 2) << 12) |
+                        (static_cast<std::size_t>(colour[1] >> 2) << 6) | (colour[2] >> 2)];
+    cell.count += length;
+    for (std::size_t c = 0; c < 3; ++c)
+        cell.sum[c] += length * colour[c];
+    if (cell.leader == colour) {
+        cell.lead += length;
+    } else if (cell.lead >= length) {
+        cell.lead -= length;
+    } else {
+        cell.leader = colour;
+        cell.lead = length - cell.lead;
+    }
+}
+
+std::vector<Rgb8> ColourHistogram::palette(std::size_t size) const {
+    if (!too_many_ && exact_.size() <= size) {
+        std::vector<std::uint32_t> colours(exact_.begin(), exact_.end());
+        std::ranges::sort(colours);
+        std::vector<Rgb8> palette(colours.size());
+        std::ranges::transform(colours, palette.begin(), unpacked);
+        return palette;
+    }
+    std::vector<Sample> samples;
+    for (const Cell& cell : cells_) {
+        if (cell.count == 0) continue;
+        Sample sample;
+        sample.count = static_cast<double>(cell.count);
+        // A leader that far ahead has half of the pixels or more.
+        sample.exact = cell.lead * 2 >= cell.count;
+        sample.colour = cell.leader;
+        if (!sample.exact) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                sample.colour[c] =
+                    static_cast<std::uint8_t>((cell.sum[c] + cell.count / 2) / cell.count);
+            }
+        }
+        sample.point = point_of(sample.colour);
+        samples.push_back(sample);
+    }
+    auto points = split_into(samples, size);
+    return refine(samples, std::move(points));
+}
+
+PaletteMap::PaletteMap(std::vector<Rgb8> palette)
+    : palette_(std::move(palette)), known_(1U << 16) {}
+
+std::uint8_t PaletteMap::nearest(Rgb8 colour) {
+    const std::uint32_t key = packed(colour);
+    Known& known = known_[(key * 2654435761U) >> 16];
+    if (known.colour == key) return known.index;
+    int best = 0;
+    int best_distance = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < palette_.size(); ++i) {
+        int distance = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int difference =
+                (palette_[i][c] - colour[c]) * static_cast<int>(channel_weight[c]);
+            distance += difference * difference;
+        }
+        if (distance < best_distance) {
+            best = static_cast<int>(i);
+            best_distance = distance;
+        }
+    }
+    known = {key, static_cast<std::uint8_t>(best)};
+    return known.index;
+}
+
+std::vector<std::uint8_t> PaletteMap::indices(const Image& frame) {
+    std::vector<std::uint8_t> indices;
+    indices.reserve(frame.rgba.size() / 4);
+    for_each_run(frame, [&](Rgb8 colour, std::size_t length) {
+        indices.insert(indices.end(), length, nearest(colour));
+    });
+    return indices;
+}
+
+}  // namespace stormcellar::render

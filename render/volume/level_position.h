@@ -1,0 +1,46 @@
+// render/volume/level_position.h -- height -> position among the levels, as a broken number.
+//
+// 2.25 is a quarter of the way from level 2 to level 3. Below the first level 0, above the last
+// nz - 1. Levels at one spacing take one multiplication, others a bucket of a table and then at
+// most a few steps.
+// Accuracy: single precision, 1e-3 of a level over 1,024 levels.
+// Thread contract: immutable.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "grid/grid_spec.h"
+
+namespace stormcellar::render {
+
+class LevelPosition {
+  public:
+    // Heights are multiplied by `exaggeration` first.
+    LevelPosition(const grid::GridSpec& spec, double exaggeration);
+
+    [[nodiscard]] bool is_uniform() const { return uniform_; }
+    // The two numbers of the straight line for levels at one spacing: position = a + b * height.
+    [[nodiscard]] double offset() const { return offset_; }
+    [[nodiscard]] double slope() const { return slope_; }
+
+    [[nodiscard]] float operator()(float height) const {
+        if (!(height > levels_.front())) return 0;
+        if (height >= levels_.back()) return static_cast<float>(levels_.size() - 1);
+        std::size_t i =
+            buckets_[static_cast<std::size_t>((height - levels_.front()) * buckets_per_metre_)];
+        while (height >= levels_[i + 1])
+            ++i;
+        return static_cast<float>(i) + (height - levels_[i]) / (levels_[i + 1] - levels_[i]);
+    }
+
+  private:
+    bool uniform_ = true;
+    double offset_ = 0, slope_ = 0;
+    std::vector<float> levels_;
+    std::vector<std::uint16_t> buckets_;  // the interval that holds the bucket's lower end
+    float buckets_per_metre_ = 0;
+};
+
+}  // namespace stormcellar::render

@@ -1,0 +1,48 @@
+// render/volume/ray_packet.h -- eight rays at once through the bricks: the slicer's inner loop.
+//
+// SIMD by Highway, the target chosen at run time. No operation is fused or reordered, so that every
+// target gives the same bits. What a ray does is said in render/volume/slicer.h.
+// Thread contract: plain data; cast_packet() may run on many threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "grid/brick_view.h"
+#include "render/volume/level_position.h"
+#include "render/volume/transfer_function.h"
+
+namespace stormcellar::render {
+
+inline constexpr int packet_rays = 8;
+
+// Bricks are addressed in runs: 16 codes along z, the same x, y and brick.
+struct PacketVolume {
+    const std::byte* codes = nullptr;
+    int code_bytes = 1;
+    std::int32_t brick_stride_x = 0, brick_stride_y = 0;  // runs from brick to brick
+    std::int32_t last_x = 0, last_y = 0, last_z = 0;      // cells
+    const LevelPosition* levels = nullptr;                // none: z of a ray is a level
+    const TransferFunction* transfer = nullptr;
+
+    // `levels` and `transfer` must outlive this.
+    PacketVolume(const grid::BrickView& view, const LevelPosition& levels,
+                 const TransferFunction& transfer);
+    // Whether every run of the view has a number that fits.
+    [[nodiscard]] static bool can_address(const grid::BrickView& view);
+};
+
+// Parallel rays in cell positions: position = start + t * step, t counting slices from the near
+// end. The third axis is a level, or with PacketVolume::levels a height of drawn space. Ray i is
+// inside the box from enter[i] to leave[i]; with enter >= leave it sees nothing.
+struct RayPacket {
+    float x[packet_rays], y[packet_rays], z[packet_rays];
+    float enter[packet_rays], leave[packet_rays];
+    float step_x, step_y, step_z;
+};
+
+// Red, green, blue (premultiplied) and alpha of each ray. Only steps whose bit is set are sampled.
+void cast_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
+                 std::size_t words, float* rgba);
+
+}  // namespace stormcellar::render

@@ -1,0 +1,68 @@
+#include "render/colour/colour_table.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::render {
+namespace {
+
+TEST(ColourTable, HasFifteenClassesOfFiveDecibelsFromFive) {
+    for (std::size_t i = 0; i < nws_reflectivity().stops.size(); ++i) {
+        EXPECT_EQ(nws_reflectivity().stops[i].from, 5 + 5 * static_cast<float>(i));
+    }
+}
+
+TEST(ColourTable, GivesTheColoursOfTheWeatherService) {
+    EXPECT_FALSE(colour_of(nws_reflectivity(), 4.99F));
+    EXPECT_FALSE(colour_of(nws_reflectivity(), std::nanf("")));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 5), (Rgba8{0x04, 0xE9, 0xE7, 255}));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 22.5F), (Rgba8{0x02, 0xFD, 0x02, 255}));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 34.99F), (Rgba8{0x00, 0x8E, 0x00, 255}));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 35), (Rgba8{0xFD, 0xF8, 0x02, 255}));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 51), (Rgba8{0xFD, 0x00, 0x00, 255}));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 67), (Rgba8{0xF8, 0x00, 0xFD, 255}));
+    EXPECT_EQ(colour_of(nws_reflectivity(), 95), (Rgba8{0xFD, 0xFD, 0xFD, 255}));
+}
+
+// docs/rendering.md, by hand: the haze grows tenfold in 40 dB, the core in 10 dB.
+TEST(Extinction, IsTheSumOfHazeAndCore) {
+    EXPECT_EQ(extinction_per_m(nws_reflectivity(), 4.99, 1), 0);
+    EXPECT_EQ(extinction_per_m(nws_reflectivity(), std::nan(""), 1), 0);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 5, 1) * 1000, 0.012 + 0.12 * 3.16228e-5, 1e-9);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 45, 1) * 1000, 0.12 + 0.12 * 0.316228, 1e-7);
+    EXPECT_NEAR(extinction_per_m(nws_reflectivity(), 70, 1) * 1000, 0.012 * 42.1697 + 12, 1e-5);
+    EXPECT_NEAR(
+        extinction_per_m(nws_reflectivity(), 40, 2.5) / extinction_per_m(nws_reflectivity(), 40, 1),
+        2.5, 1e-12);
+}
+
+ColourTable smooth() {
+    ColourTable table;
+    table.stops = {{0, {0, 0, 0, 0}, {100, 200, 50, 255}},
+                   {10, {255, 0, 0, 255}, {255, 0, 0, 255}}};
+    table.end = 20;
+    table.extinction = {{2, 0.5}, {4, 1.5}};
+    return table;
+}
+
+TEST(ColourTable, ASmoothTableBlendsUpToTheNextStop) {
+    EXPECT_FALSE(colour_of(smooth(), -0.001F));
+    EXPECT_EQ(colour_of(smooth(), 0), (Rgba8{0, 0, 0, 0}));
+    EXPECT_EQ(colour_of(smooth(), 5), (Rgba8{50, 100, 25, 128}));
+    EXPECT_EQ(colour_of(smooth(), 10), (Rgba8{255, 0, 0, 255}));
+    EXPECT_EQ(colour_of(smooth(), 1e6F), (Rgba8{255, 0, 0, 255}));
+}
+
+TEST(ColourTable, ExtinctionIsStraightBetweenItsPoints) {
+    EXPECT_EQ(extinction_per_m(smooth(), 1.9, 1), 0);
+    EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 2, 1), 0.5e-3);
+    EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 3.5, 2), 2.5e-3);
+    EXPECT_DOUBLE_EQ(extinction_per_m(smooth(), 99, 1), 1.5e-3);
+    ColourTable late = smooth();
+    late.stops.front().from = 3;
+    EXPECT_EQ(extinction_per_m(late, 2.5, 1), 0) << "what has no colour is clear";
+}
+
+}  // namespace
+}  // namespace stormcellar::render
