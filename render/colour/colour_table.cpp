@@ -34,7 +34,7 @@ ColourTable make_nws_reflectivity() {
         table.end += class_width;
     }
     table.range_folded = {0x77, 0x00, 0x7D, 255};
-    for (int dbz = 5; dbz <= 95; ++dbz)
+    for (int dbz = 5; dbz <= 80; ++dbz)
         table.extinction.push_back({static_cast<float>(dbz), reflectivity_extinction(dbz)});
     return table;
 }
