@@ -35,8 +35,8 @@ TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(200, 16);
     constexpr double dbz = 41.875 + 0.5 * 0.3125;
     const grid::Quantization exact{1, dbz, 1};
-    const auto bricks = grid::BrickGrid::from(
-        make_grid_of(spec, [](int, int, int) { return valued(dbz); }), exact);
+    const auto bricks =
+        grid::BrickGrid::from(make_grid_of(spec, [](int, int, int) { return valued(dbz); }), exact);
     for (const double tilt : {0.0, 20.0, 40.0}) {
         for (const int slices : {8, 64, 1000}) {
             for (const double opacity : {0.03, 0.4}) {
