@@ -34,11 +34,13 @@ struct Corners {
     CodeVec low[4], high[4];
 };
 
-// Where they are: numbers of codes. `across` to the next cell along each axis, 0 at the grid's end.
+// Where they are: numbers of codes, for each side in x and y at the lower level. What is not inside
+// bricks, or whose upper neighbours do not follow, needs more than the first column.
 struct Addresses {
-    HWY_ALIGN std::int32_t at[packet_rays];
-    HWY_ALIGN std::int32_t across_x[packet_rays], across_y[packet_rays], across_z[packet_rays];
-    bool inside_bricks = true;  // each of the eight is in the brick of the first
+    HWY_ALIGN std::int32_t column[4][packet_rays];
+    HWY_ALIGN std::int32_t up[packet_rays];  // from the lower to the upper level
+    bool inside_bricks = true;               // each of the eight is in the brick of the first
+    bool paired = true;                      // the upper code follows the lower one
 };
 
 // How far beyond the cell below it a position lies.
@@ -48,10 +50,11 @@ struct Weights {
 
 constexpr std::int32_t next_x = grid::brick_edge * grid::brick_edge, next_y = grid::brick_edge;
 
-// The place along one axis of the cell below a position; adds up the addresses.
+// The place along one axis of the cell below a position; adds up the addresses. `across`: to the
+// next cell, 0 at the grid's end. `next_follows`: to all of them it is `next`.
 template <std::int32_t next>
 HWY_INLINE FloatVec place_on_axis(FloatVec position, std::int32_t last, std::int32_t brick_stride,
-                                  IntVec& at, IntVec& across, bool& inside) {
+                                  IntVec& at, IntVec& across, bool& next_follows) {
     const Floats f;
     const Ints i;
     const FloatVec held =
@@ -66,59 +69,65 @@ HWY_INLINE FloatVec place_on_axis(FloatVec position, std::int32_t last, std::int
     across = hn::IfThenZeroElse(
         at_end, hn::IfThenElse(at_edge, hn::Set(i, brick_stride - next * (grid::brick_edge - 1)),
                                hn::Set(i, next)));
-    inside = inside && hn::AllFalse(i, hn::Or(at_edge, at_end));
+    next_follows = hn::AllFalse(i, hn::Or(at_edge, at_end));
     return hn::Sub(held, hn::ConvertTo(f, cell));
 }
 
 template <class Code>
-HWY_INLINE std::uint64_t code_at(const std::byte* codes, std::int64_t at) {
+HWY_INLINE std::uint64_t load(const std::byte* from) {
     Code code;
-    std::memcpy(&code, codes + at * static_cast<std::int64_t>(sizeof(Code)), sizeof(Code));
+    std::memcpy(&code, from, sizeof(Code));
     return code;
 }
 
-// get(ray) for all rays, 16 bits each.
-template <class Get>
-HWY_INLINE CodeVec for_rays(Get get) {
-    const auto four = [&](int ray) {
-        return get(ray) | get(ray + 1) << 16 | get(ray + 2) << 32 | get(ray + 3) << 48;
-    };
-    return codes_of(four(0), four(4));
+// One code, or two in one number, from each ray's place. Unrolled by hand: the eight loads do not
+// wait for each other.
+template <class Code, int bytes>
+HWY_INLINE CodeVec for_rays(const std::byte* codes, const std::int32_t* at) {
+    const std::uint64_t first = load<Code>(codes + std::int64_t{at[0]} * bytes) |
+                                load<Code>(codes + std::int64_t{at[1]} * bytes) << 16 |
+                                load<Code>(codes + std::int64_t{at[2]} * bytes) << 32 |
+                                load<Code>(codes + std::int64_t{at[3]} * bytes) << 48;
+    const std::uint64_t last = load<Code>(codes + std::int64_t{at[4]} * bytes) |
+                               load<Code>(codes + std::int64_t{at[5]} * bytes) << 16 |
+                               load<Code>(codes + std::int64_t{at[6]} * bytes) << 32 |
+                               load<Code>(codes + std::int64_t{at[7]} * bytes) << 48;
+    return codes_of(first, last);
 }
 
-// 8-bit codes whose upper neighbour follows them: one load for two.
-template <class Across>
-HWY_INLINE void load_pairs(const std::byte* codes, const Addresses& where, Across across,
+HWY_INLINE void load_pairs(const std::byte* codes, const std::int32_t* at, int c,
                            Corners& corners) {
-    for (int c = 0; c < 4; ++c) {
-        const CodeVec pairs = for_rays([&](int ray) {
-            return code_at<std::uint16_t>(codes + where.at[ray] + across(c, ray), 0);
-        });
-        corners.low[c] = low_bytes(pairs);
-        corners.high[c] = high_bytes(pairs);
-    }
+    const CodeVec pairs = for_rays<std::uint16_t, 1>(codes, at);
+    corners.low[c] = low_bytes(pairs);
+    corners.high[c] = high_bytes(pairs);
 }
 
 template <class Code>
 HWY_INLINE void load_singly(const std::byte* codes, const Addresses& where, Corners& corners) {
+    const Ints i;
     for (int c = 0; c < 4; ++c) {
-        const auto column = [&](int ray) {
-            return std::int64_t{where.at[ray]} + ((c & 1) != 0 ? where.across_x[ray] : 0) +
-                   ((c & 2) != 0 ? where.across_y[ray] : 0);
-        };
-        corners.low[c] = for_rays([&](int ray) { return code_at<Code>(codes, column(ray)); });
-        corners.high[c] = for_rays(
-            [&](int ray) { return code_at<Code>(codes, column(ray) + where.across_z[ray]); });
+        HWY_ALIGN std::int32_t above[packet_rays];
+        for (int ray = 0; ray < packet_rays; ray += lanes) {
+            hn::Store(hn::Add(hn::Load(i, where.column[c] + ray), hn::Load(i, where.up + ray)), i,
+                      above + ray);
+        }
+        corners.low[c] = for_rays<Code, sizeof(Code)>(codes, where.column[c]);
+        corners.high[c] = for_rays<Code, sizeof(Code)>(codes, above);
     }
 }
 
 HWY_INLINE void load_corners(const PacketVolume& volume, const Addresses& where, Corners& corners) {
     if (volume.code_bytes == 2) return load_singly<std::uint16_t>(volume.codes, where, corners);
-    if (!where.inside_bricks) return load_singly<std::uint8_t>(volume.codes, where, corners);
-    load_pairs(
-        volume.codes, where,
-        [](int c, int) { return ((c & 1) != 0 ? next_x : 0) + ((c & 2) != 0 ? next_y : 0); },
-        corners);
+    if (!where.paired) return load_singly<std::uint8_t>(volume.codes, where, corners);
+    if (where.inside_bricks) {
+        load_pairs(volume.codes, where.column[0], 0, corners);
+        load_pairs(volume.codes + next_x, where.column[0], 1, corners);
+        load_pairs(volume.codes + next_y, where.column[0], 2, corners);
+        load_pairs(volume.codes + next_x + next_y, where.column[0], 3, corners);
+    } else {
+        for (int c = 0; c < 4; ++c)
+            load_pairs(volume.codes, where.column[c], c, corners);
+    }
 }
 
 HWY_INLINE FloatVec mix(FloatVec from, FloatVec to, FloatVec share) {
@@ -236,18 +245,22 @@ HWY_INLINE void take_samples(const PacketVolume& volume, const RayPacket& rays, 
         FloatVec z = position(rays.z, rays.step_z);
         if constexpr (curved) z = hn::Add(z, drop(*volume.curve, x, y));
         IntVec at = hn::Zero(i);
-        IntVec across[3];
-        weights[part].x = place_on_axis<next_x>(x, volume.last_x, volume.brick_stride_x, at,
-                                                across[0], where.inside_bricks);
-        weights[part].y = place_on_axis<next_y>(y, volume.last_y, volume.brick_stride_y, at,
-                                                across[1], where.inside_bricks);
-        weights[part].z = place_on_axis<1>(level_of(volume, z), volume.last_z,
-                                           static_cast<std::int32_t>(grid::brick_cells), at,
-                                           across[2], where.inside_bricks);
-        hn::Store(at, i, where.at + ray);
-        hn::Store(across[0], i, where.across_x + ray);
-        hn::Store(across[1], i, where.across_y + ray);
-        hn::Store(across[2], i, where.across_z + ray);
+        IntVec east, north, up;
+        bool follows_x = false, follows_y = false, follows_z = false;
+        weights[part].x =
+            place_on_axis<next_x>(x, volume.last_x, volume.brick_stride_x, at, east, follows_x);
+        weights[part].y =
+            place_on_axis<next_y>(y, volume.last_y, volume.brick_stride_y, at, north, follows_y);
+        weights[part].z =
+            place_on_axis<1>(level_of(volume, z), volume.last_z,
+                             static_cast<std::int32_t>(grid::brick_cells), at, up, follows_z);
+        where.inside_bricks = where.inside_bricks && follows_x && follows_y;
+        where.paired = where.paired && follows_z;
+        hn::Store(at, i, where.column[0] + ray);
+        hn::Store(hn::Add(at, east), i, where.column[1] + ray);
+        hn::Store(hn::Add(at, north), i, where.column[2] + ray);
+        hn::Store(hn::Add(hn::Add(at, east), north), i, where.column[3] + ray);
+        hn::Store(up, i, where.up + ray);
     }
     Corners corners;
     load_corners(volume, where, corners);

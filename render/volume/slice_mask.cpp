@@ -14,8 +14,7 @@ using grid::brick_edge;
 // Steps by which a bit may be set too early or too late: covers the rounding of both sides.
 constexpr double slack = 0.01;
 constexpr int block_edge = brick_edge / 2;
-// Half of what a tile spans, from its middle pixel: its own pixels and the first of the next.
-constexpr double half_tile_pixels = 0.5 * (tile_edge + 1);
+constexpr double half_tile_pixels = 0.5 * tile_edge;
 
 // Sets the bits from `first` to `last`, both included.
 void set_bits(std::uint64_t* words, int first, int last) {
@@ -196,10 +195,9 @@ bool SliceMask::place_in_picture(Box& box) const {
     const auto tile = [](double pixel, int tiles) {
         return static_cast<int>(std::floor(std::clamp(pixel / tile_edge, -1.0, 1.0 * tiles)));
     };
-    // A tile looks at one pixel more than its own.
-    box.first_tile = std::max(tile(left - 1, tiles_across_), 0);
+    box.first_tile = std::max(tile(left, tiles_across_), 0);
     box.last_tile = std::min(tile(right, tiles_across_), tiles_across_ - 1);
-    box.first_row = std::max(tile(top - 1, tiles_down_), 0);
+    box.first_row = std::max(tile(top, tiles_down_), 0);
     box.last_row = std::min(tile(bottom, tiles_down_), tiles_down_ - 1);
     const double half = half_tile_pixels * geometry_.metres_per_pixel(farthest);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -245,7 +243,6 @@ void SliceMask::mark(const Box& box, const Vec3& start, const Direction& directi
 
 bool SliceMask::fill_band(int tile_row, std::vector<std::uint64_t>& words) const {
     words.assign(static_cast<std::size_t>(tiles_across_) * words_per_tile_, 0);
-    // Of the tile's first pixel and of the first behind its last.
     const auto middle = [&](int tile) {
         return Pixel{tile * tile_edge + half_tile_pixels, tile_row * tile_edge + half_tile_pixels};
     };

@@ -1,11 +1,10 @@
 // render/volume/slice_mask.h -- which slices of which part of the picture may show anything.
 //
 // The picture is divided into square tiles. A bit for each tile and step (between two slices) says
-// whether any point of that step under any pixel of the tile, or under the first pixels below and
-// to the right of it, may find a visible value. Bits err to the safe side only. What may be visible
-// is told by the bricks' least and largest codes, and inside a brick by those of its 8 blocks of
-// 8 x 8 x 8 cells.
-// Thread contract: immutable; fill_band() may run on many threads.
+// whether any point of that step under any pixel of the tile may find a visible value. Bits err to
+// the safe side only. What may be visible is told by the bricks' least and largest codes, and
+// inside a brick by those of its 8 blocks of 8 x 8 x 8 cells. Thread contract: immutable;
+// fill_band() may run on many threads.
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,8 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
     if (!(tolerance > 0)) return steps;
     steps.tolerance = static_cast<float>(tolerance);
     const double cell_m = std::min(spec.cell_width_m(), spec.cell_height_m());
-    const double nearest_m = geometry.metres_per_pixel(geometry.far_m());
-    while (steps.stride < tile_edge / 2 && 2 * steps.stride * nearest_m <= cell_m)
+    const double pixel_m = geometry.metres_per_pixel(geometry.far_m());
+    while (steps.stride < tile_edge && 2 * steps.stride * pixel_m <= cell_m)
         steps.stride *= 2;
     return steps;
 }
@@ -46,10 +46,14 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     PacketVolume volume(view, levels, transfer_);
     volume.curve = maker.curve();
     const SliceMask mask(view, geometry_, options_.slices, transfer_);
-    const BandCaster caster(volume, maker, mask, layer.width, layer.height,
-                            pixel_steps(*view.spec, geometry_, options_.pixel_tolerance));
+    const BandCaster caster(volume, maker, mask, layer.width, layer.height, layer.rgba.data());
+    const PixelSteps steps = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance);
     for_each_piece(mask.tiles_down(), threads,
-                   [&](int tile_row) { caster.cast(tile_row, layer.rgba.data()); });
+                   [&](int tile_row) { caster.cast_first(tile_row, steps.stride); });
+    for (int stride = steps.stride; stride > 1; stride /= 2) {
+        for_each_piece(mask.tiles_down(), threads,
+                       [&](int tile_row) { caster.refine(tile_row, stride, steps.tolerance); });
+    }
     return layer;
 }
 
