@@ -32,6 +32,7 @@ enum class RecordKind : std::uint16_t {
     audit = 17,
     frame_part = 18,
     recipe = 19,
+    radar_trouble = 20,
 };
 
 struct RecordHead {
@@ -218,6 +219,9 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
         case RecordKind::note:
             provenance.notes.push_back(text_of(contents));
             return true;
+        case RecordKind::radar_trouble:
+            provenance.radar_troubles.push_back(text_of(contents));
+            return true;
         case RecordKind::source_modified:
             return read_number(contents, provenance.source_modified_ns);
         case RecordKind::parallels:
@@ -264,6 +268,8 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
     append_record(bytes, RecordKind::source_modified, std::as_bytes(std::span(&modified_ns, 1)));
     for (const auto& note : provenance.notes)
         append_text(bytes, RecordKind::note, note);
+    for (const auto& trouble : provenance.radar_troubles)
+        append_text(bytes, RecordKind::radar_trouble, trouble);
     if (description.spec.projection == grid::Projection::lambert_conformal) {
         append_record(bytes, RecordKind::parallels,
                       std::as_bytes(std::span(description.spec.parallels_deg)));

@@ -18,6 +18,7 @@
 #include "cli/query_options.h"
 #include "cli/scene_options.h"
 #include "render/animation/animation.h"
+#include "render/map/map_layer.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -119,7 +120,7 @@ class Encoding {
 // One frame; none when the grid's file is damaged, which is noted.
 Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
                                           const LoopOptions& options, const render::Scene& scene,
-                                          LoopReport& report) {
+                                          LoopReport& report, render::MapKeeper& map) {
     const auto start = Clock::now();
     const auto file = cache::GridFile::open(entry.path);
     report.read_s += seconds_since(start);
@@ -129,7 +130,7 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
     }
     const auto opened = Clock::now();
     auto picture = render::render_frame(file->view(), facts_of(options.domain, file->description()),
-                                        scene, thread_count(options.scene));
+                                        scene, thread_count(options.scene), &map);
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
     if (const Status whole = file->check_whole(); !whole) {  // cut while it was drawn
@@ -150,9 +151,10 @@ Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions
                 const render::Scene& scene, const std::atomic<bool>& stop, Encoding& encoding,
                 LoopReport& report) {
     Progress progress("frames", entries.size(), !options.quiet);
+    render::MapKeeper map;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (stop) return {};
-        auto picture = draw(entries[i], options, scene, report);
+        auto picture = draw(entries[i], options, scene, report, map);
         if (!picture) return pass_on(picture);
         if (*picture) {
             if (auto added = encoding.add(std::move(**picture)); !added) return added;

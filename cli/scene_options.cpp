@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/local_time.h"
+
 namespace stormcellar::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
@@ -63,9 +65,19 @@ int thread_count(const SceneOptions& options) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-render::FrameFacts facts_of(const std::string& domain, const cache::GridDescription& description) {
-    return {domain, description.moment, description.time, description.sites,
-            description.provenance.partial};
+render::FrameFacts facts_of(const std::string& domain, const cache::GridDescription& description,
+                            const std::string& time_zone, UtcTime now) {
+    render::FrameFacts facts{domain, description.moment, description.time, description.sites,
+                             description.provenance.partial};
+    facts.radar_troubles = description.provenance.radar_troubles;
+    const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
+    const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
+    if (!local.ends_with(" UTC")) facts.local_time = local;
+    const auto age = std::chrono::floor<std::chrono::seconds>(now - description.end_time);
+    if (age >= std::chrono::seconds(0) && age < std::chrono::hours(1)) {
+        facts.antenna_to_picture = age;
+    }
+    return facts;
 }
 
 }  // namespace stormcellar::cli

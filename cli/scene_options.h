@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "base/utc_time.h"
 #include "cache/grid_file.h"
 #include "render/render.h"
 #include "render/scene.h"
@@ -32,8 +33,12 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 
 [[nodiscard]] int thread_count(const SceneOptions& options);
 
-// What the labels say about a grid.
+// What the labels say about a grid. The local time is that of an IANA zone, of the machine's when
+// none is named; left out where it is UTC or not known. How old the newest radial is at `now` is
+// said of grids younger than an hour: of an archive's it would say nothing about the radar.
 [[nodiscard]] render::FrameFacts facts_of(const std::string& domain,
-                                          const cache::GridDescription& description);
+                                          const cache::GridDescription& description,
+                                          const std::string& time_zone = {},
+                                          UtcTime now = now_utc());
 
 }  // namespace stormcellar::cli

@@ -57,6 +57,8 @@ struct Provenance {
     // Of the newest source file, since the epoch: tells a re-sent volume from an older file of it.
     std::int64_t source_modified_ns = 0;  // 0: unknown
     std::vector<std::string> notes;       // e.g. a position that disagrees with the table
+    // What the radars reported to be wrong with them, "KTLX: standby, maintenance required".
+    std::vector<std::string> radar_troubles;
     // Of a frame between volumes: a later volume will change it; how often it was made. 0: no
     // frame.
     bool provisional = false;

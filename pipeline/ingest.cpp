@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "base/checksum.h"
 #include "base/file_system.h"
 #include "grid/audit.h"
@@ -15,6 +17,7 @@
 #include "grid/column_geometry.h"
 #include "grid/position_error.h"
 #include "level2/decode.h"
+#include "level2/message_2.h"
 #include "level2/volume_checks.h"
 #include "pipeline/file_facts.h"
 #include "pipeline/geometry_cache.h"
@@ -70,6 +73,18 @@ bool is_of_the_data(const Error& error) {
            error.code == ErrorCode::unsupported;
 }
 
+// What was met in reading a file, in any of its volumes.
+struct Reading {
+    bool damaged = false;                    // bytes are lost
+    std::vector<std::string> troubles = {};  // of the radar, by its last message 2
+
+    // As grids keep them.
+    [[nodiscard]] std::vector<std::string> troubles_of(const std::string& station) const {
+        if (troubles.empty()) return {};
+        return {fmt::format("{}: {}", station, fmt::join(troubles, ", "))};
+    }
+};
+
 }  // namespace
 
 struct Ingestor::Impl {
@@ -94,14 +109,14 @@ struct Ingestor::Impl {
     Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
                                   IngestOutcome outcome);
     Result<IngestOutcome> grid_all(const FileFacts& facts,
-                                   const std::vector<level2::Volume>& volumes, bool damaged,
-                                   IngestOutcome outcome);
-    Status grid_one(const FileFacts& facts, const level2::Volume& volume, bool damaged,
+                                   const std::vector<level2::Volume>& volumes,
+                                   const Reading& reading, IngestOutcome outcome);
+    Status grid_one(const FileFacts& facts, const level2::Volume& volume, const Reading& reading,
                     IngestOutcome& outcome);
     Result<fs::path> commit(grid::Grid& made, const level2::Volume& volume,
                             const grid::GridderOptions& gridder, IngestOutcome& outcome);
-    Status keep_mosaics(const FileFacts& facts, const level2::Volume& volume, bool damaged,
-                        IngestOutcome& outcome);
+    Status keep_mosaics(const FileFacts& facts, const level2::Volume& volume,
+                        const Reading& reading, IngestOutcome& outcome);
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
 };
 
@@ -130,9 +145,8 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string
 }
 
 // Grids one volume and commits it. A volume whose radar nobody can place has no grid.
-// `damaged`: bytes of the file are lost, in this volume or in another one.
-Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& volume, bool damaged,
-                                IngestOutcome& outcome) {
+Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& volume,
+                                const Reading& reading, IngestOutcome& outcome) {
     const auto antenna = level2::antenna_position(volume);
     if (!antenna || volume.station.empty()) {
         outcome.result = IngestResult::no_position;
@@ -164,7 +178,8 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
         grid::unplanned_error(volume, site, spec, (*geometry)->frame_kind(), gridder);
     made->provenance.source_files = {facts.path.filename().string()};
     made->provenance.source_modified_ns = facts.modified_ns;
-    made->provenance.partial = damaged || !level2::is_complete(volume);
+    made->provenance.partial = reading.damaged || !level2::is_complete(volume);
+    made->provenance.radar_troubles = reading.troubles_of(site.icao);
     if (antenna->disagreement) made->provenance.notes.push_back(*antenna->disagreement);
     outcome.grid_s += seconds_since(start);
     outcome.partial = outcome.partial || made->provenance.partial;
@@ -183,14 +198,15 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
 
 // What a domain cannot use is no reason to reject the file, whose own grid stands.
 Status Ingestor::Impl::keep_mosaics(const FileFacts& facts, const level2::Volume& volume,
-                                    bool damaged, IngestOutcome& outcome) {
+                                    const Reading& reading, IngestOutcome& outcome) {
     const auto antenna = level2::antenna_position(volume);
     if (mosaics.is_idle() || !antenna || volume.station.empty()) return {};
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
                                   antenna->altitude_m};
     VolumeSource source{volume, site, facts.path.filename().string()};
     source.modified_ns = facts.modified_ns;
-    source.partial = damaged || !level2::is_complete(volume);
+    source.partial = reading.damaged || !level2::is_complete(volume);
+    source.radar_troubles = reading.troubles_of(site.icao);
     if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
     const auto start = Clock::now();
     const auto kept = mosaics.take_in(source, share_of(options.grid_threads));
@@ -228,17 +244,17 @@ Result<fs::path> Ingestor::Impl::commit(grid::Grid& made, const level2::Volume& 
 // again, never lost.
 Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
                                                const std::vector<level2::Volume>& volumes,
-                                               bool damaged, IngestOutcome outcome) {
+                                               const Reading& reading, IngestOutcome outcome) {
     outcome.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
     for (const level2::Volume& volume : volumes) {
         if (store == nullptr) continue;
         if (has_moment(volume, options.moment)) {
-            if (const Status gridded = grid_one(facts, volume, damaged, outcome); !gridded) {
+            if (const Status gridded = grid_one(facts, volume, reading, outcome); !gridded) {
                 if (!is_of_the_data(gridded.error())) return pass_on(gridded);
                 return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
             }
         }
-        if (const Status kept = keep_mosaics(facts, volume, damaged, outcome); !kept) {
+        if (const Status kept = keep_mosaics(facts, volume, reading, outcome); !kept) {
             return pass_on(kept);
         }
     }
@@ -253,7 +269,10 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
                                               bool finish_partial, IngestOutcome outcome) {
     facts.reason = reason_of(decoded.report);
     const bool complete = decoded.report.complete;
-    const bool damaged = decoded.report.bytes_dropped > 0;
+    Reading reading{decoded.report.bytes_dropped > 0, {}};
+    if (decoded.report.rda_status) {
+        reading.troubles = level2::rda_troubles(*decoded.report.rda_status);
+    }
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     for (const level2::Volume& volume : volumes)
         facts.volumes.push_back(facts_of(volume));
@@ -274,7 +293,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         return outcome;
     }
     facts.state = complete ? FileState::complete : FileState::partial;
-    return grid_all(facts, volumes, damaged, std::move(outcome));
+    return grid_all(facts, volumes, reading, std::move(outcome));
 }
 
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {

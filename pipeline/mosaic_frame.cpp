@@ -120,6 +120,7 @@ void describe(const PartialView& partial, cache::GridDescription& frame) {
     add_once(provenance.source_files, source.source_files);
     add_once(provenance.stations, source.stations);
     add_once(provenance.notes, source.notes);
+    add_once(provenance.radar_troubles, source.radar_troubles);
     provenance.method = source.method;
     provenance.beam_model = source.beam_model;
     provenance.averaging = source.averaging;

@@ -132,6 +132,7 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     description.provenance.source_files = {source.file};
     description.provenance.source_modified_ns = source.modified_ns;
     description.provenance.partial = source.partial;
+    description.provenance.radar_troubles = source.radar_troubles;
     description.provenance.notes.insert(description.provenance.notes.begin(), source.notes.begin(),
                                         source.notes.end());
     const std::scoped_lock lock(frames_of(domain.name, moment));

@@ -39,6 +39,7 @@ struct VolumeSource {
     std::int64_t modified_ns = 0;
     bool partial = false;
     std::vector<std::string> notes = {};
+    std::vector<std::string> radar_troubles = {};  // as in grid::Provenance
 };
 
 struct Kept {

@@ -156,6 +156,22 @@ void Canvas::line(const std::vector<Point>& points, double line_width, Rgba8 col
     cairo_stroke(context_.get());
 }
 
+void Canvas::add_to_path(const std::vector<Point>& points, Point offset) {
+    cairo_new_sub_path(context_.get());
+    for (const Point& p : points)
+        cairo_line_to(context_.get(), p.x + offset.x, p.y + offset.y);
+}
+
+void Canvas::draw_path(double line_width, Rgba8 colour) {
+    use_colour(context_.get(), colour);
+    cairo_set_line_width(context_.get(), line_width);
+    cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_BEVEL);
+    // Half the time, and no difference to the eye.
+    cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_FAST);
+    cairo_stroke(context_.get());
+    cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_DEFAULT);
+}
+
 void Canvas::clip(const std::vector<Point>& polygon) {
     unclip();
     trace(polygon);

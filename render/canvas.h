@@ -57,6 +57,9 @@ class Canvas {
     void fill(const Rect& rect, Rgba8 colour);
     void fill(const std::vector<Point>& polygon, Rgba8 colour);
     void line(const std::vector<Point>& points, double line_width, Rgba8 colour, bool closed);
+    // Many lines drawn as one: where they cross, a translucent colour does not show twice.
+    void add_to_path(const std::vector<Point>& points, Point offset = {});
+    void draw_path(double line_width, Rgba8 colour);  // and begins a new one
     // Until the next clip or unclip, only what lies inside is drawn.
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);

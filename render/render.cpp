@@ -2,7 +2,9 @@
 
 #include "render/canvas.h"
 #include "render/map/labels.h"
+#include "render/map/map_layer.h"
 #include "render/map/map_lines.h"
+#include "render/map/map_marks.h"
 #include "render/products/column_summary.h"
 #include "render/products/ground.h"
 #include "render/shades.h"
@@ -34,12 +36,13 @@ struct Frame {
     LabelLayout layout;
     MapLines lines;
     Fonts fonts;
+    MapMarks marks;
 };
 
 // The picture with its lines, without the labels round it.
-Image draw_picture(const grid::BrickView& view, const Scene& scene, const ViewGeometry& geometry,
-                   const Frame& frame, int threads) {
-    const auto columns = summarize_columns(view, threads);
+Image draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
+                   const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
+                   int threads) {
     const double scale = frame.layout.scale;
     const bool volume = scene.product == Product::volume;
     const Image base =
@@ -47,7 +50,11 @@ Image draw_picture(const grid::BrickView& view, const Scene& scene, const ViewGe
                : paint_composite(view, nws_reflectivity(), columns, geometry, scale, threads);
     Canvas canvas(base);
     draw_border(canvas, frame.lines);
-    if (scene.labels) draw_rings(canvas, frame.fonts, frame.lines);
+    if (scene.labels) {
+        draw_map(canvas, *frame.lines.map, scale);
+        draw_rings(canvas, frame.lines);
+        draw_ground_marks(canvas, frame.fonts, frame.lines, frame.marks);
+    }
     Image picture = canvas.image();
     if (volume) {
         const VolumeSlicer slicer(nws_reflectivity(), view.quantization, geometry,
@@ -61,8 +68,9 @@ Image draw_picture(const grid::BrickView& view, const Scene& scene, const ViewGe
 }  // namespace
 
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
-                           int threads) {
+                           int threads, MapKeeper* keeper) {
     if (auto valid = check(view, facts, scene); !valid) return pass_on(valid);
+    const auto columns = summarize_columns(view, threads);
     Frame frame;
     frame.lines.ring_spacing_m = drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m);
     frame.layout.width = scene.width;
@@ -71,7 +79,10 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         auto fonts = Fonts::load();
         if (!fonts) return pass_on(fonts);
         frame.fonts = *fonts;
-        auto layout = lay_out_labels(frame.fonts, scene, facts, frame.lines.ring_spacing_m);
+        auto layout =
+            lay_out_labels(frame.fonts, scene, facts,
+                           {legend_of(scene, facts.moment, nws_reflectivity()),
+                            frame.lines.ring_spacing_m, coverage_of(columns, *view.spec)});
         if (!layout) return pass_on(layout);
         frame.layout = *layout;
     }
@@ -80,17 +91,24 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     frame.lines.geometry = &geometry;
     frame.lines.spec = view.spec;
     frame.lines.sites = &facts.sites;
-    frame.lines.camera = scene.product == Product::composite ? Camera{180, 0, 1} : scene.camera;
     frame.lines.heights = scene.product == Product::volume;
     frame.lines.scale = frame.layout.scale;
+    MapKeeper own;
+    if (scene.labels) {
+        const auto map =
+            (keeper != nullptr ? *keeper : own).get(*view.spec, geometry, frame.layout.scale);
+        if (!map) return pass_on(map);
+        frame.lines.map = *map;
+        frame.marks = plan_marks(frame.fonts, frame.lines);
+    }
 
-    Image picture = draw_picture(view, scene, geometry, frame, threads);
+    Image picture = draw_picture(view, columns, scene, geometry, frame, threads);
     if (!scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
     canvas.place(picture, frame.layout.left, frame.layout.top);
     frame.lines.left = frame.layout.left;
     frame.lines.top = frame.layout.top;
-    draw_marks(canvas, frame.fonts, frame.lines);
+    draw_marks(canvas, frame.fonts, frame.lines, frame.marks);
     draw_labels(canvas, frame.fonts, frame.layout);
     return canvas.image();
 }

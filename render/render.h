@@ -4,6 +4,8 @@
 // time over it. The same input gives the same pixels for any number of threads.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@
 
 namespace stormcellar::render {
 
+class MapKeeper;  // render/map/map_layer.h
+
 // What the labels say about the grid.
 struct FrameFacts {
     std::string domain;
@@ -22,9 +26,18 @@ struct FrameFacts {
     UtcTime time;
     std::vector<grid::SitePosition> sites;
     bool partial = false;
+    // The rest may be left empty. The time where somebody is, "1999-05-03 18:56:21 CDT".
+    std::string local_time = {};
+    // From the newest radial to now, of a picture made while it is news.
+    std::optional<std::chrono::seconds> antenna_to_picture = {};
+    // What radars say is wrong with them, "KTLX: standby, maintenance required".
+    std::vector<std::string> radar_troubles = {};
 };
 
+// A loop hands the same keeper to each of its frames: the map is then prepared once. The pixels
+// are the same with it or without.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
-                                         const Scene& scene, int threads);
+                                         const Scene& scene, int threads,
+                                         MapKeeper* keeper = nullptr);
 
 }  // namespace stormcellar::render

@@ -14,11 +14,18 @@ inline constexpr Rgba8 not_seen = {16, 18, 22, 255};
 inline constexpr Rgba8 hatch = {74, 78, 88, 255};  // the lines over not_seen
 inline constexpr Rgba8 border = {108, 120, 138, 255};
 inline constexpr Rgba8 ring = {150, 165, 185, 120};
+// The map: over its casing readable on echo, too grey to be taken for it.
+inline constexpr Rgba8 county = {104, 112, 122, 150};
+inline constexpr Rgba8 state = {150, 158, 170, 230};
+inline constexpr Rgba8 country = {188, 192, 200, 240};
+inline constexpr Rgba8 coast = {140, 160, 182, 235};
+inline constexpr Rgba8 casing = {8, 10, 14, 90};
+inline constexpr Rgba8 city = {206, 210, 216, 255};
 inline constexpr Rgba8 separator = {40, 48, 60, 255};
 inline constexpr Rgba8 text = {232, 236, 242, 255};
 inline constexpr Rgba8 quiet_text = {160, 172, 188, 255};
 inline constexpr Rgba8 warning_text = {255, 190, 90, 255};
-inline constexpr Rgba8 halo = {8, 10, 14, 200};
+inline constexpr Rgba8 halo = {8, 10, 14, 220};
 
 // What was not seen at a pixel of the whole picture: not_seen under thin diagonal lines, `scale`
 // times the usual distance apart.

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/ranges.h>
+
 #include "base/station_table.h"
 #include "base/version.h"
-#include "render/colour/colour_table.h"
+#include "render/map/base_map.h"
+#include "render/map/colour_bar.h"
 #include "render/products/ground.h"
 #include "render/shades.h"
 
@@ -16,7 +19,7 @@ namespace {
 constexpr double usual_width = 796;
 constexpr double usual_height = 532;
 constexpr double header_height = 46;
-constexpr double footer_height = 24;
+constexpr double footer_height = 36;
 constexpr double panel_width = 124;
 constexpr double margin = 10;
 
@@ -45,11 +48,6 @@ std::string title_of(const FrameFacts& facts) {
     }
     if (facts.domain != icao) title = fmt::format("{}  ({})", facts.domain, title);
     return title;
-}
-
-std::string product_title(const Scene& scene) {
-    return scene.product == Product::volume ? "Reflectivity, 3D volume"
-                                            : "Composite reflectivity (column maximum)";
 }
 
 std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_spacing_m) {
@@ -89,13 +87,8 @@ class Builder {
         const double smallest = 0.75 * size;
         while (fonts_.width(text, size, style.bold) > room && size > smallest)
             size -= 0.25;
-        while (fonts_.width(text, size, style.bold) > room && !text.empty()) {
-            // Whole characters of UTF-8 go.
-            while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) {
-                text.pop_back();
-            }
-            if (!text.empty()) text.pop_back();
-        }
+        text = shortened(std::move(text), size, style.bold, room);
+        if (text.empty()) return 0;
         const double width = fonts_.width(text, size, style.bold);
         const double x = ends_here ? left - width : left;
         layout_.texts.push_back({{x, baseline - 0.8 * size, width, 1.05 * size},
@@ -112,11 +105,40 @@ class Builder {
     }
 
   private:
+    // With an ellipsis for what has no room; empty when even that has none.
+    [[nodiscard]] std::string shortened(std::string text, double size, bool bold,
+                                        double room) const {
+        if (fonts_.width(text, size, bold) <= room) return text;
+        // Whole characters of UTF-8 go, and spaces before the ellipsis.
+        const auto cut = [&text](std::size_t bytes) {
+            while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U)
+                --bytes;
+            while (bytes > 0 && text[bytes - 1] == ' ')
+                --bytes;
+            return text.substr(0, bytes) + "\u2026";
+        };
+        std::size_t fits = 0;
+        std::size_t too_long = text.size();
+        while (too_long - fits > 1) {
+            const std::size_t middle = (fits + too_long) / 2;
+            (fonts_.width(cut(middle), size, bold) <= room ? fits : too_long) = middle;
+        }
+        return fits == 0 ? std::string{} : cut(fits);
+    }
+
     const Fonts& fonts_;
     LabelLayout& layout_;
 };
 
-void lay_out_header(Builder& builder, const Scene& scene, const FrameFacts& facts) {
+std::vector<std::string> warnings_of(const FrameFacts& facts) {
+    std::vector<std::string> warnings;
+    if (facts.partial) warnings.emplace_back("partial volume");
+    warnings.insert(warnings.end(), facts.radar_troubles.begin(), facts.radar_troubles.end());
+    return warnings;
+}
+
+void lay_out_header(Builder& builder, const Scene& scene, const FrameFacts& facts,
+                    const std::string& product) {
     const double left = builder.scaled(margin);
     const double right = scene.width - left;
     const double first = builder.scaled(20);
@@ -129,78 +151,69 @@ void lay_out_header(Builder& builder, const Scene& scene, const FrameFacts& fact
         builder.put(time, right, first, 0.6 * scene.width, {14, true, shades::text}, true);
     builder.put(title_of(facts), left, first, right - time_width - gap - left,
                 {14, true, shades::text});
-    double partial_width = 0;
-    if (facts.partial) {
-        partial_width = builder.put("partial volume", right, second, 0.4 * scene.width,
-                                    {11, true, shades::warning_text}, true);
-    }
-    builder.put(product_title(scene), left, second, right - partial_width - gap - left,
-                {11, false, shades::quiet_text});
+    const double local_width = builder.put(facts.local_time, right, second, 0.4 * scene.width,
+                                           {11, false, shades::quiet_text}, true);
+    // In one line with the product, so that the frames of a loop keep their place.
+    const auto warnings = warnings_of(facts);
+    const double room = right - local_width - gap - left;
+    const double product_width =
+        builder.put(product, left, second, warnings.empty() ? room : 0.6 * room,
+                    {11, false, shades::quiet_text});
+    builder.put(fmt::format("{}", fmt::join(warnings, "  \u00B7  ")), left + product_width + gap,
+                second, room - product_width - gap, {11, true, shades::warning_text});
 }
 
-void lay_out_footer(Builder& builder, const Scene& scene, const std::string& text) {
+void lay_out_footer(Builder& builder, const Scene& scene, const FrameFacts& facts,
+                    const PictureFacts& picture) {
     const double left = builder.scaled(margin);
     const double right = scene.width - left;
-    const double baseline = scene.height - builder.scaled(8);
-    const double width =
-        builder.put(fmt::format("stormcellar {}", software_version), right, baseline,
-                    0.3 * scene.width, {9, false, shades::quiet_text}, true);
-    builder.put(text, left, baseline, right - width - builder.scaled(14) - left,
-                {10, false, shades::quiet_text});
-}
+    const double gap = builder.scaled(14);
+    const double first = scene.height - builder.scaled(21);
+    const double second = scene.height - builder.scaled(7);
+    const Builder::Style style = {10, false, shades::quiet_text};
+    const Builder::Style small = {8.5, false, shades::quiet_text};
 
-struct LegendRow {
-    std::string text;
-    Rgba8 colour;
-    bool hatched;
-};
-
-std::vector<LegendRow> legend_of(const Scene& scene) {
-    if (scene.product == Product::composite) {
-        return {{"no echo or < 5 dBZ", shades::seen, false},
-                {"range folded", nws_reflectivity().range_folded, false},
-                {"not seen", shades::not_seen, true}};
+    double width = 0;
+    if (facts.antenna_to_picture) {
+        width = builder.put(duration_text(*facts.antenna_to_picture) + " from antenna to picture",
+                            right, first, 0.45 * scene.width, style, true);
     }
-    const std::string height = fmt::format("{:g} km", low_coverage_m / 1000);
-    return {{"seen below " + height, shades::seen, false},
-            {"seen above " + height, shades::seen_aloft, false},
-            {"not seen", shades::not_seen, true}};
+    builder.put(footer_of(scene, facts, picture.ring_spacing_m), left, first,
+                right - width - gap - left, style);
+    width = builder.put(fmt::format("{}  \u00B7  stormcellar {}", map_credit, software_version),
+                        right, second, 0.55 * scene.width, small, true);
+    if (!picture.coverage) return;
+    builder.put(fmt::format("Seen: {} of the columns, {} below {:g} km",
+                            percent_text(picture.coverage->seen),
+                            percent_text(picture.coverage->seen_low), low_coverage_m / 1000),
+                left, second, right - width - gap - left, small);
 }
 
-void lay_out_bar(Builder& builder, Rect bar) {
-    const auto& stops = nws_reflectivity().stops;
-    const std::size_t classes = stops.size();
-    const double height = bar.height / static_cast<double>(classes);
-    const double size = 10;
-    const std::size_t every = height >= 1.15 * builder.scaled(size) ? 1 : 2;
-    for (std::size_t i = 0; i < classes; ++i) {
-        // Whole pixels, so that no seam shows between the blocks.
-        const double low = std::round(bar.bottom() - static_cast<double>(i) * height);
-        const double high = std::round(bar.bottom() - static_cast<double>(i + 1) * height);
-        builder.block({bar.x, high, bar.width, low - high}, stops[i].colour);
-        if (i % every != 0) continue;
-        builder.put(fmt::format("{:g}", stops[i].from), bar.right() + builder.scaled(6),
-                    low + 0.3 * builder.scaled(size), builder.scaled(30),
-                    {size, false, shades::text});
+void lay_out_bar(Builder& builder, const ColourTable& table, Rect box) {
+    constexpr double size = 10;
+    const double text_height = builder.scaled(size);
+    const ColourBar bar = colour_bar(table, box, 1.15 * text_height);
+    for (const BarBlock& block : bar.blocks)
+        builder.block(block.box, block.colour);
+    for (const BarTick& tick : bar.ticks) {
+        builder.put(tick.text, box.right() + builder.scaled(6), tick.y + 0.3 * text_height,
+                    builder.scaled(76), {size, false, shades::text});
     }
 }
 
-void lay_out_panel(Builder& builder, const Scene& scene, Rect panel) {
+void lay_out_panel(Builder& builder, const Legend& legend, Rect panel) {
     const double x = panel.x + builder.scaled(12);
     const double room = panel.right() - builder.scaled(4) - x;
     const double row = builder.scaled(17);
-    const auto rows = legend_of(scene);
-    const bool volume = scene.product == Product::volume;
 
     // From the bottom up: notes, legend, its heading; the bar takes what is left.
     double y = panel.bottom() - builder.scaled(4);
-    if (volume) {
-        builder.put("are clear", x, y, room, {9.5, false, shades::quiet_text});
-        builder.put("no echo and < 5 dBZ", x, y - builder.scaled(12), room,
-                    {9.5, false, shades::quiet_text});
-        y -= builder.scaled(30);
+    for (auto note = legend.notes.rbegin(); note != legend.notes.rend(); ++note) {
+        builder.put(*note, x, y, room, {9.5, false, shades::quiet_text});
+        y -= builder.scaled(12);
     }
-    for (auto line = rows.rbegin(); line != rows.rend(); ++line) {
+    if (!legend.notes.empty()) y -= builder.scaled(6);
+    for (auto line = legend.rows.rbegin(); line != legend.rows.rend(); ++line) {
         const double edge = builder.scaled(11);
         builder.block({std::round(x), std::round(y - edge + builder.scaled(2)), std::round(edge),
                        std::round(edge)},
@@ -210,20 +223,29 @@ void lay_out_panel(Builder& builder, const Scene& scene, Rect panel) {
                     {9.5, false, shades::text});
         y -= row;
     }
-    if (volume) {
-        builder.put("Coverage (ground)", x, y, room, {10, true, shades::quiet_text});
+    if (!legend.heading.empty()) {
+        builder.put(legend.heading, x, y, room, {10, true, shades::quiet_text});
         y -= row;
     }
-    builder.put("dBZ", x, panel.y + builder.scaled(14), room, {11, true, shades::text});
-    const double bar_top = panel.y + builder.scaled(24);
-    lay_out_bar(builder, {std::round(x), bar_top, std::round(builder.scaled(20)),
-                          std::max(15.0, y + builder.scaled(2) - bar_top)});
+    if (legend.table == nullptr) return;
+    builder.put(legend.table->unit, x, panel.y + builder.scaled(14), room,
+                {11, true, shades::text});
+    const double bar_top = std::round(panel.y + builder.scaled(24));
+    lay_out_bar(builder, *legend.table,
+                {std::round(x), bar_top, std::round(builder.scaled(20)),
+                 std::max(15.0, std::round(y + builder.scaled(2) - bar_top))});
 }
 
 }  // namespace
 
+std::string duration_text(std::chrono::seconds duration) {
+    const auto seconds = duration.count();
+    if (seconds < 60) return fmt::format("{} s", seconds);
+    return fmt::format("{} min {} s", seconds / 60, seconds % 60);
+}
+
 Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const FrameFacts& facts,
-                                   double drawn_ring_spacing_m) {
+                                   const PictureFacts& picture) {
     if (scene.width < smallest_labelled_width || scene.height < smallest_labelled_height) {
         return fail(ErrorCode::bad_argument,
                     "labels need a picture of at least {} by {} pixels, not {} by {}: leave them "
@@ -237,10 +259,10 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     layout.width = scene.width - static_cast<int>(std::lround(builder.scaled(panel_width)));
     layout.height =
         scene.height - layout.top - static_cast<int>(std::lround(builder.scaled(footer_height)));
-    lay_out_header(builder, scene, facts);
-    lay_out_footer(builder, scene, footer_of(scene, facts, drawn_ring_spacing_m));
+    lay_out_header(builder, scene, facts, picture.legend.product);
+    lay_out_footer(builder, scene, facts, picture);
     lay_out_panel(
-        builder, scene,
+        builder, picture.legend,
         {static_cast<double>(layout.width), static_cast<double>(layout.top),
          static_cast<double>(scene.width - layout.width), static_cast<double>(layout.height)});
     return layout;

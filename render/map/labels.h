@@ -2,14 +2,21 @@
 // done.
 //
 // The picture lies below a header and above a footer; a panel at its right holds the colour bar
-// and the legend. Layout and drawing are apart, so that tests can see that nothing overlaps.
+// and the legend. Where the picture lies depends on the scene alone, so that it keeps its place
+// from frame to frame of a loop. Layout and drawing are apart, so that tests can see that nothing
+// overlaps. Text that has no room becomes smaller, down to three quarters, then ends in an
+// ellipsis. The colour bar: a stepped table has classes of one height, each labelled at its lower
+// bound; one with blends has an axis regular in value, labelled at round values.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "render/canvas.h"
+#include "render/map/coverage.h"
+#include "render/map/legend.h"
 #include "render/render.h"
 
 namespace stormcellar::render {
@@ -40,11 +47,21 @@ struct LabelLayout {
     std::vector<LabelText> texts;
 };
 
+// What the labels say of the picture beside the facts of its grid.
+struct PictureFacts {
+    Legend legend;
+    double ring_spacing_m = 50e3;  // as drawn
+    std::optional<Coverage> coverage;
+};
+
 // bad_argument when the scene's picture is too small for labels.
 [[nodiscard]] Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene,
                                                  const FrameFacts& facts,
-                                                 double drawn_ring_spacing_m);
+                                                 const PictureFacts& picture);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);
+
+// "42 s", "3 min 12 s"
+[[nodiscard]] std::string duration_text(std::chrono::seconds duration);
 
 }  // namespace stormcellar::render

@@ -44,6 +44,7 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_EQ(about.provenance.effects, grid.provenance.effects);
     EXPECT_EQ(about.provenance.predicted_error, "position 714 m");
     EXPECT_EQ(about.provenance.notes, grid.provenance.notes);
+    EXPECT_EQ(about.provenance.radar_troubles, grid.provenance.radar_troubles);
     EXPECT_EQ(about.provenance.sweeps, grid.provenance.sweeps);
     EXPECT_TRUE(about.provenance.provisional);
     EXPECT_EQ(about.provenance.revision, 3);

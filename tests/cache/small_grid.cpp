@@ -28,6 +28,7 @@ grid::Grid small_grid() {
     made.provenance.vcp = 21;
     made.provenance.partial = true;
     made.provenance.notes = {"a note"};
+    made.provenance.radar_troubles = {"KBGM: standby, alarm 452", "KOKX: on auxiliary power"};
     made.provenance.provisional = true;
     made.provenance.revision = 3;
     made.provenance.parts = {{"KBGM", made.time, 0x123456789ABCDEF0, {0, 16, 40, 8}},

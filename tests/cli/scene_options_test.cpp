@@ -50,6 +50,43 @@ TEST(SceneOptions, NonsenseIsBadArgument) {
     }
 }
 
+cache::GridDescription description() {
+    cache::GridDescription grid;
+    grid.time = parse_compact("19990503_235621").value();
+    grid.end_time = grid.time + std::chrono::minutes(5);
+    grid.sites = {{"KTLX", 35.3, -97.3, 389}};
+    grid.provenance.partial = true;
+    grid.provenance.radar_troubles = {"KTLX: on auxiliary power"};
+    return grid;
+}
+
+TEST(FactsOf, SaysWhatTheGridSays) {
+    const auto facts = facts_of("plains", description(), "America/Chicago");
+    EXPECT_EQ(facts.domain, "plains");
+    EXPECT_EQ(facts.sites.at(0).icao, "KTLX");
+    EXPECT_TRUE(facts.partial);
+    EXPECT_EQ(facts.local_time, "1999-05-03 18:56:21 CDT");
+    EXPECT_THAT(facts.radar_troubles, ::testing::ElementsAre("KTLX: on auxiliary power"));
+    EXPECT_FALSE(facts.antenna_to_picture) << "an archive";
+}
+
+TEST(FactsOf, UtcIsSaidOnceAndANameThatIsNoZoneNotAtAll) {
+    EXPECT_EQ(facts_of("plains", description(), "Etc/UTC").local_time, "");
+    EXPECT_EQ(facts_of("plains", description(), "Nowhere/Land").local_time, "");
+}
+
+TEST(FactsOf, TheAgeOfTheNewestRadialWhileItIsNews) {
+    const auto age_at = [](std::chrono::milliseconds later) {
+        const auto grid = description();
+        return facts_of("plains", grid, "UTC", grid.end_time + later).antenna_to_picture;
+    };
+    EXPECT_EQ(age_at(std::chrono::milliseconds(192'999)), std::chrono::seconds(192));
+    EXPECT_EQ(age_at(std::chrono::milliseconds(0)), std::chrono::seconds(0));
+    EXPECT_EQ(age_at(std::chrono::milliseconds(3'599'999)), std::chrono::seconds(3599));
+    EXPECT_FALSE(age_at(std::chrono::hours(1)));
+    EXPECT_FALSE(age_at(std::chrono::milliseconds(-1))) << "a clock that is late";
+}
+
 TEST(SceneOptions, ThreadsDefaultToTheMachines) {
     EXPECT_GE(thread_count(parse("")), 1);
     EXPECT_EQ(thread_count(parse("--threads 3")), 3);

@@ -75,6 +75,21 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::unchanged);
 }
 
+// As message 2 of these files says.
+TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
+    STORMCELLAR_NEED_DATA();
+    const auto troubles_of = [&](const std::string& name, const std::string& station) {
+        const auto outcome = ingestor_.ingest(real(name), false);
+        EXPECT_TRUE(outcome) << outcome.error().message;
+        const auto file = cache::GridFile::open(grids(station).at(0).path);
+        return file->description().provenance.radar_troubles;
+    };
+    EXPECT_EQ(troubles_of("volumes/KOKX20080109_141449.gz", "KOKX"),
+              std::vector<std::string>{"KOKX: maintenance mandatory, receiver alarm"});
+    EXPECT_EQ(troubles_of("mosaic-northeast/KBGM20100911_012056_V03.gz", "KBGM"),
+              std::vector<std::string>{});
+}
+
 TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
     STORMCELLAR_NEED_DATA();
     cache::Budgets budgets;

@@ -101,6 +101,19 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
         EXPECT_TRUE(open(entry.path).verify());
 }
 
+TEST_F(MosaicKeeperTest, FramesSayWhatTheirRadarsReported) {
+    take(load(sequence[0]));
+    const Loaded loaded = load(sequence[1]);
+    VolumeSource source{loaded.volume, loaded.site, loaded.file};
+    source.radar_troubles = {"KBGM: standby"};
+    const auto kept = keeper_.take_in(source, 2);
+    ASSERT_TRUE(kept);
+    ASSERT_EQ(kept->frames.size(), 1U);
+    EXPECT_EQ(open(kept->partials.at(0)).description().provenance.radar_troubles,
+              source.radar_troubles);
+    EXPECT_EQ(open(kept->frames[0]).description().provenance.radar_troubles, source.radar_troubles);
+}
+
 TEST_F(MosaicKeeperTest, AVolumeThatComesLateReplacesTheFramesAboutIt) {
     take(load(sequence[0]));
     const Kept last = take(load(sequence[2]));

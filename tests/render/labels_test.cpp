@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/colour/colour_table.h"
+#include "render/shades.h"
+
 namespace stormcellar::render {
 namespace {
 
@@ -43,50 +46,143 @@ void expect_tidy(const LabelLayout& layout, int width, int height) {
     }
 }
 
+PictureFacts picture_of(const Scene& scene, level2::Moment moment, const ColourTable& table) {
+    return {legend_of(scene, moment, table), 50e3, Coverage{0.9958, 0.4}};
+}
+
+// Long everything.
+FrameFacts troubled(int sites) {
+    FrameFacts facts = facts_for(std::string(64, 'W'), sites, true);
+    facts.local_time = "2026-11-22 18:56:21 America/Argentina/ComodRivadavia";
+    facts.antenna_to_picture = std::chrono::seconds(3599);
+    for (int i = 0; i < 40; ++i)
+        facts.radar_troubles.emplace_back("KTLX: standby, maintenance mandatory, alarm 452");
+    return facts;
+}
+
+// Uneven classes of a moment without a unit, and a blend with long numbers.
+ColourTable uneven_table() {
+    ColourTable table = nws_reflectivity();
+    table.unit = "";
+    table.stops = {{-0.0625F, {1, 2, 3, 255}, {1, 2, 3, 255}},
+                   {0.125F, {9, 2, 3, 255}, {9, 2, 3, 255}},
+                   {0.13F, {9, 99, 3, 255}, {9, 99, 3, 255}},
+                   {1234.5F, {9, 2, 99, 255}, {9, 2, 99, 255}}};
+    table.end = 2000;
+    return table;
+}
+
+ColourTable smooth_table() {
+    ColourTable table = nws_reflectivity();
+    table.unit = "degrees a kilometre";
+    table.stops = {{-64.25F, {0, 0, 200, 255}, {200, 200, 200, 255}},
+                   {0, {200, 200, 200, 255}, {200, 0, 0, 255}}};
+    table.end = 63.75F;
+    return table;
+}
+
+constexpr std::pair<int, int> sizes[] = {{400, 300},   {640, 480},   {796, 532},  {800, 300},
+                                         {800, 600},   {1024, 768},  {1280, 720}, {1920, 1080},
+                                         {2560, 1440}, {3840, 2160}, {8192, 300}, {400, 1000},
+                                         {480, 640},   {1080, 1920}, {2160, 3840}};
+
+void expect_tidy(const Fonts& fonts, const Scene& scene, const FrameFacts& facts) {
+    const ColourTable tables[] = {nws_reflectivity(), uneven_table(), smooth_table()};
+    std::vector<PictureFacts> pictures;
+    for (const ColourTable& table : tables)
+        pictures.push_back(picture_of(scene, level2::Moment::ref, table));
+    for (const level2::Moment moment : level2::all_moments)
+        pictures.push_back(picture_of(scene, moment, tables[0]));
+    for (const PictureFacts& picture : pictures) {
+        const auto layout = lay_out_labels(fonts, scene, facts, picture);
+        ASSERT_TRUE(layout);
+        expect_tidy(*layout, scene.width, scene.height);
+        EXPECT_GT(layout->width, scene.width / 2);
+        EXPECT_GT(layout->height, scene.height / 2);
+    }
+}
+
 TEST(Labels, NothingOverlapsAtAnySize) {
     const Fonts fonts = Fonts::load().value();
-    const std::string long_name(64, 'W');
-    const std::pair<int, int> sizes[] = {{400, 300},  {640, 480},  {796, 532},   {800, 300},
-                                         {400, 1000}, {1280, 720}, {1920, 1080}, {3840, 2160},
-                                         {8192, 300}, {1080, 1920}};
     for (const auto& [width, height] : sizes) {
         for (const Product product : {Product::volume, Product::composite}) {
-            for (const auto& facts : {facts_for("KTLX", 1, false), facts_for(long_name, 1, true),
-                                      facts_for("plains", 7, true), facts_for("x", 0, false)}) {
-                SCOPED_TRACE(testing::Message() << width << "x" << height << " " << facts.domain);
+            for (const auto& facts : {facts_for("KTLX", 1, false), facts_for("plains", 7, true),
+                                      troubled(1), troubled(160), facts_for("x", 0, false)}) {
+                SCOPED_TRACE(::testing::Message() << width << "x" << height << " " << facts.domain);
                 Scene scene;
                 scene.width = width;
                 scene.height = height;
                 scene.product = product;
                 scene.camera.azimuth_deg = 157.5;
                 scene.camera.tilt_deg = 52.125;
-                const auto layout = lay_out_labels(fonts, scene, facts, 50e3);
-                ASSERT_TRUE(layout);
-                expect_tidy(*layout, width, height);
-                EXPECT_GT(layout->width, width / 2);
-                EXPECT_GT(layout->height, height / 2);
+                expect_tidy(fonts, scene, facts);
             }
         }
     }
 }
 
+TEST(Labels, WhatHasNoRoomEndsInAnEllipsis) {
+    const Fonts fonts = Fonts::load().value();
+    Scene scene;
+    scene.width = 640;
+    scene.height = 480;
+    const auto layout = lay_out_labels(fonts, scene, troubled(1),
+                                       picture_of(scene, level2::Moment::ref, nws_reflectivity()));
+    ASSERT_TRUE(layout);
+    int cut = 0;
+    for (const LabelText& text : layout->texts) {
+        EXPECT_LE(fonts.width(text.text, text.size, text.bold), text.box.width + 0.01);
+        cut += text.text.ends_with("\u2026") ? 1 : 0;
+    }
+    EXPECT_GE(cut, 2) << "the title and the warnings";
+}
+
+TEST(Labels, WarningsStandBesideTheProductAndMoveNothing) {
+    const Fonts fonts = Fonts::load().value();
+    const Scene scene;
+    FrameFacts facts = facts_for("KTLX", 1, false);
+    const auto picture = picture_of(scene, level2::Moment::ref, nws_reflectivity());
+    const auto quiet = lay_out_labels(fonts, scene, facts, picture);
+    facts.partial = true;
+    facts.radar_troubles = {"KTLX: standby"};
+    const auto layout = lay_out_labels(fonts, scene, facts, picture);
+    EXPECT_EQ(layout->top, quiet->top);
+    EXPECT_EQ(layout->height, quiet->height);
+    EXPECT_EQ(layout->width, quiet->width);
+    bool found = false;
+    for (const LabelText& text : layout->texts) {
+        if (text.text != "partial volume  \u00B7  KTLX: standby") continue;
+        found = true;
+        EXPECT_EQ(text.colour, shades::warning_text);
+    }
+    EXPECT_TRUE(found);
+}
+
 std::vector<std::string> texts_of(const Scene& scene, const FrameFacts& facts) {
     std::vector<std::string> texts;
-    const auto layout = lay_out_labels(Fonts::load().value(), scene, facts, 50e3);
+    const auto layout = lay_out_labels(Fonts::load().value(), scene, facts,
+                                       picture_of(scene, facts.moment, nws_reflectivity()));
     for (const LabelText& text : layout->texts)
         texts.push_back(text.text);
     return texts;
 }
 
 TEST(Labels, SayWhatWasDone) {
-    using testing::Contains;
-    using testing::HasSubstr;
+    using ::testing::Contains;
+    using ::testing::HasSubstr;
     Scene scene;
     scene.vertical_exaggeration = 8;
-    const auto texts = texts_of(scene, facts_for("KTLX", 1, true));
+    FrameFacts facts = facts_for("KTLX", 1, true);
+    facts.local_time = "1999-05-03 18:56:21 CDT";
+    facts.antenna_to_picture = std::chrono::seconds(192);
+    const auto texts = texts_of(scene, facts);
+    EXPECT_THAT(texts, Contains("1999-05-03 18:56:21 CDT"));
+    EXPECT_THAT(texts, Contains("3 min 12 s from antenna to picture"));
     EXPECT_THAT(texts, Contains("KTLX  Oklahoma City, OK"));
     EXPECT_THAT(texts, Contains("1999-05-03 23:56:21 UTC"));
     EXPECT_THAT(texts, Contains("partial volume"));
+    EXPECT_THAT(texts, Contains("Seen: > 99 % of the columns, 40 % below 3 km"));
+    EXPECT_THAT(texts, Contains(HasSubstr("Census")));
     EXPECT_THAT(texts, Contains("dBZ"));
     EXPECT_THAT(texts, Contains("not seen"));
     EXPECT_THAT(texts, Contains(HasSubstr("vertical \u00D78")));
@@ -100,19 +196,32 @@ TEST(Labels, WholeVolumesAreNotCalledPartialAndMapsSayNoExaggeration) {
     Scene scene;
     scene.product = Product::composite;
     const auto texts = texts_of(scene, facts_for("KTLX", 1, false));
-    EXPECT_THAT(texts, testing::Not(testing::Contains("partial volume")));
-    EXPECT_THAT(texts, testing::Contains("range folded"));
-    EXPECT_THAT(texts, testing::Not(testing::Contains(testing::HasSubstr("vertical"))));
+    EXPECT_THAT(texts, ::testing::Not(::testing::Contains("partial volume")));
+    EXPECT_THAT(texts, ::testing::Contains("range folded"));
+    EXPECT_THAT(texts, ::testing::Not(::testing::Contains(::testing::HasSubstr("vertical"))));
+}
+
+TEST(Labels, WhatIsNotKnownIsNotSaid) {
+    const auto texts = texts_of(Scene{}, facts_for("KTLX", 1, false));
+    for (const char* words : {"antenna to picture", "partial", "maintenance"})
+        EXPECT_THAT(texts, ::testing::Not(::testing::Contains(::testing::HasSubstr(words))));
+}
+
+TEST(DurationText, SaysMinutesAndSeconds) {
+    EXPECT_EQ(duration_text(std::chrono::seconds(0)), "0 s");
+    EXPECT_EQ(duration_text(std::chrono::seconds(59)), "59 s");
+    EXPECT_EQ(duration_text(std::chrono::seconds(60)), "1 min 0 s");
+    EXPECT_EQ(duration_text(std::chrono::seconds(192)), "3 min 12 s");
 }
 
 TEST(Labels, ATooSmallPictureIsRefused) {
     Scene scene;
     scene.width = 399;
     const auto layout =
-        lay_out_labels(Fonts::load().value(), scene, facts_for("KTLX", 1, false), 50e3);
+        lay_out_labels(Fonts::load().value(), scene, facts_for("KTLX", 1, false), {});
     ASSERT_FALSE(layout);
     EXPECT_EQ(layout.error().code, ErrorCode::bad_argument);
-    EXPECT_THAT(layout.error().message, testing::HasSubstr("400 by 300"));
+    EXPECT_THAT(layout.error().message, ::testing::HasSubstr("400 by 300"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "base/floating_point.h"
 #include "grid/projection.h"
+#include "render/map/map_marks.h"
 #include "render/shades.h"
 #include "tests/render/synthetic_storm.h"
 
@@ -65,10 +66,9 @@ void expect_rings(const grid::GridSpec& spec, const grid::SitePosition& site) {
     lines.geometry = &view;
     lines.spec = &spec;
     lines.sites = &sites;
-    lines.camera = {180, 0, 1};
     lines.scale = 3;  // lines wide enough to cover pixels whole
     Canvas canvas(side, side, {255, 255, 255, 255});
-    draw_rings(canvas, *fonts, lines);
+    draw_rings(canvas, lines);
     const Image image = canvas.image();
     int pixels = 0;
     int off = 0;
@@ -119,7 +119,7 @@ TEST(MapLines, ASiteIsMarkedInItsColumn) {
         lines.spec = &spec;
         lines.sites = &sites;
         Canvas canvas(side, side, {255, 255, 255, 255});
-        draw_marks(canvas, *fonts, lines);
+        draw_marks(canvas, *fonts, lines, plan_marks(*fonts, lines));
         const Pixel at = view.project(spec.x_m(300), spec.y_m(120), 0);
         const Rgba8 pixel = canvas.image().at(static_cast<int>(at.x), static_cast<int>(at.y));
         EXPECT_EQ(pixel, shades::text) << grid::projection_name(projection);

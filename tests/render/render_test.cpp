@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/colour/colour_table.h"
+#include "render/map/map_layer.h"
 #include "render/shades.h"
 #include "tests/render/synthetic_storm.h"
 
@@ -95,6 +96,22 @@ TEST(RenderFrame, TheSamePixelsForAnyNumberOfThreads) {
             EXPECT_EQ(render_frame(bricks.view(), facts_of(grid), scene, threads)->rgba, one->rgba);
         }
     }
+}
+
+TEST(RenderFrame, AKeptMapChangesNoPixel) {
+    const auto grid = storm_grid(small_spec(120, 32, 4000, 500));
+    const auto bricks = bricks_of(grid);
+    MapKeeper keeper;
+    for (const Product product : {Product::composite, Product::composite, Product::volume}) {
+        Scene scene;
+        scene.product = product;
+        scene.slices = 32;
+        const auto alone = render_frame(bricks.view(), facts_of(grid), scene, 2);
+        const auto kept = render_frame(bricks.view(), facts_of(grid), scene, 2, &keeper);
+        ASSERT_TRUE(alone && kept);
+        EXPECT_EQ(alone->rgba, kept->rgba);
+    }
+    EXPECT_EQ(keeper.times_made(), 2);
 }
 
 TEST(RenderFrame, EveryPixelIsOpaqueFromAnySide) {

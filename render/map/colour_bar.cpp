@@ -1,0 +1,84 @@
+#include "render/map/colour_bar.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace stormcellar::render {
+namespace {
+
+bool is_stepped(const ColourTable& table) {
+    return std::all_of(table.stops.begin(), table.stops.end(),
+                       [](const ColourStop& stop) { return stop.colour == stop.until; });
+}
+
+void add_block(ColourBar& bar, const Rect& box, double low_y, double high_y, Rgba8 colour) {
+    if (low_y <= high_y) return;
+    if (!bar.blocks.empty() && bar.blocks.back().colour == colour) {
+        Rect& last = bar.blocks.back().box;
+        last = {last.x, high_y, last.width, last.bottom() - high_y};
+        return;
+    }
+    bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, colour});
+}
+
+ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_tick) {
+    ColourBar bar;
+    const std::size_t classes = table.stops.size();
+    const double height = box.height / static_cast<double>(classes);
+    std::size_t every = 1;
+    while (static_cast<double>(every) * height < least_tick && every < classes)
+        ++every;
+    for (std::size_t i = 0; i < classes; ++i) {
+        const double low = std::round(box.bottom() - static_cast<double>(i) * height);
+        const double high = std::round(box.bottom() - static_cast<double>(i + 1) * height);
+        if (low > high) {
+            // Neighbours of one colour stay apart: each class is there.
+            bar.blocks.push_back({{box.x, high, box.width, low - high}, table.stops[i].colour});
+        }
+        if (i % every == 0) bar.ticks.push_back({low, fmt::format("{:g}", table.stops[i].from)});
+    }
+    return bar;
+}
+
+// 1, 2 or 5 times a power of ten.
+double round_step(double least) {
+    const double power = std::pow(10, std::floor(std::log10(least)));
+    for (const double digit : {1.0, 2.0, 5.0}) {
+        if (digit * power >= least * (1 - 1e-9)) return digit * power;
+    }
+    return 10 * power;
+}
+
+ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tick) {
+    ColourBar bar;
+    const double lowest = static_cast<double>(table.lowest());
+    const double span = std::max(1e-6, static_cast<double>(table.end) - lowest);
+    const double top = std::round(box.y);
+    const double bottom = std::round(box.bottom());
+    const int rows = static_cast<int>(bottom - top);
+    for (int row = 0; row < rows; ++row) {
+        const double value = lowest + span * (row + 0.5) / rows;
+        const auto colour = colour_of(table, static_cast<float>(value));
+        add_block(bar, box, bottom - row, bottom - row - 1,
+                  colour.value_or(table.stops.front().colour));
+    }
+    const double step = round_step(span * std::min(1.0, least_tick / std::max(1.0, box.height)));
+    const auto first = static_cast<int>(std::ceil(lowest / step - 1e-6));
+    const auto last = static_cast<int>(std::floor((lowest + span) / step + 1e-6));
+    for (int i = first; i <= last; ++i) {
+        const double value = i * step;
+        bar.ticks.push_back({bottom - (value - lowest) / span * rows, fmt::format("{:g}", value)});
+    }
+    return bar;
+}
+
+}  // namespace
+
+ColourBar colour_bar(const ColourTable& table, const Rect& box, double least_tick) {
+    return is_stepped(table) ? stepped_bar(table, box, least_tick)
+                             : smooth_bar(table, box, least_tick);
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,39 @@
+// render/map/label_places.h -- which room of a picture is taken, so that no text stands on another.
+//
+// Thread contract: a value; one thread.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "render/canvas.h"
+
+namespace stormcellar::render {
+
+class LabelPlaces {
+  public:
+    // Nothing may stand outside the frame.
+    explicit LabelPlaces(const Rect& frame) : frame_(frame) {}
+
+    [[nodiscard]] bool is_free(const Rect& box) const {
+        const bool inside = box.x >= frame_.x && box.y >= frame_.y &&
+                            box.right() <= frame_.right() && box.bottom() <= frame_.bottom();
+        return inside && std::none_of(taken_.begin(), taken_.end(), [&](const Rect& other) {
+                   return box.x < other.right() && other.x < box.right() &&
+                          box.y < other.bottom() && other.y < box.bottom();
+               });
+    }
+    void take(const Rect& box) { taken_.push_back(box); }
+    // Takes the box if it is free.
+    bool claim(const Rect& box) {
+        if (!is_free(box)) return false;
+        take(box);
+        return true;
+    }
+
+  private:
+    Rect frame_;
+    std::vector<Rect> taken_;
+};
+
+}  // namespace stormcellar::render

@@ -1,0 +1,345 @@
+#include "render/map/map_layer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/map/map_ground.h"
+#include "render/shades.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr double earth_radius_m = 6371e3;
+constexpr double most_thinned_px = 0.7;
+constexpr double most_bent_px = 0.2;
+constexpr double least_step_px = 0.3;
+constexpr double county_m = 45e3;
+constexpr double least_county_px = 30;
+// Beyond it Cairo's numbers end; such a point is not visible.
+constexpr double farthest_px = 1e6;
+
+struct Box {
+    double west = 0, south = 0, east = 0, north = 0;
+};
+
+// Of the ground: what both the grid and the picture hold.
+Box visible_ground(const ViewGeometry& geometry) {
+    const Box grid = {-geometry.half_x_m(), -geometry.half_y_m(), geometry.half_x_m(),
+                      geometry.half_y_m()};
+    Box seen = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    const double w = geometry.width();
+    const double h = geometry.height();
+    for (const Pixel corner : {Pixel{0, 0}, Pixel{w, 0}, Pixel{w, h}, Pixel{0, h}}) {
+        const auto ground = geometry.ground(corner);
+        if (!ground || !std::isfinite(ground->x_m) || !std::isfinite(ground->y_m)) return grid;
+        seen.west = std::min(seen.west, ground->x_m);
+        seen.south = std::min(seen.south, ground->y_m);
+        seen.east = std::max(seen.east, ground->x_m);
+        seen.north = std::max(seen.north, ground->y_m);
+    }
+    return {std::max(grid.west, seen.west), std::max(grid.south, seen.south),
+            std::min(grid.east, seen.east), std::min(grid.north, seen.north)};
+}
+
+// Metres of ground to a pixel, across the picture, where they are fewest.
+double finest_metres_per_pixel(const ViewGeometry& geometry) {
+    double finest = HUGE_VAL;
+    for (const double share : {0.5, 0.75, 1.0}) {
+        const double y = share * geometry.height();
+        const double x = 0.5 * geometry.width();
+        const auto left = geometry.ground({x - 1, y});
+        const auto right = geometry.ground({x + 1, y});
+        if (!left || !right) continue;
+        const double apart = std::hypot(right->x_m - left->x_m, right->y_m - left->y_m) / 2;
+        if (std::isfinite(apart)) finest = std::min(finest, apart);
+    }
+    return std::isfinite(finest) && finest > 0 ? finest : geometry.metres_per_pixel();
+}
+
+// Latitudes and longitudes of a part of the ground, with some room; longitudes are continuous and
+// may leave -180..180.
+Box degrees_of(const GroundMap& ground, const Box& box) {
+    constexpr int steps = 32;
+    Box found = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            const bool at_edge = i == 0 || i == steps || j == 0 || j == steps;
+            if (!at_edge && (i % 8 != 0 || j % 8 != 0)) continue;
+            const grid::GeoPoint place =
+                ground.place({box.west + (box.east - box.west) * i / steps,
+                              box.south + (box.north - box.south) * j / steps});
+            const double longitude =
+                ground.projection().continuous_longitude_deg(place.longitude_deg);
+            found.west = std::min(found.west, longitude);
+            found.east = std::max(found.east, longitude);
+            found.south = std::min(found.south, place.latitude_deg);
+            found.north = std::max(found.north, place.latitude_deg);
+        }
+    }
+    const double room = 0.05 + 0.02 * (found.north - found.south);
+    found = {found.west - 2 * room, found.south - room, found.east + 2 * room, found.north + room};
+    // Near a pole all longitudes may be inside.
+    if (found.north > 88 || found.south < -88) {
+        found.west = -1000;
+        found.east = 1000;
+    }
+    return found;
+}
+
+bool touches(const MapLine& line, const Box& degrees) {
+    if (line.south_deg > degrees.north || line.north_deg < degrees.south) return false;
+    for (const double turn : {-360.0, 0.0, 360.0}) {
+        if (line.west_deg + turn <= degrees.east && line.east_deg + turn >= degrees.west) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The part of a segment inside a box; false when there is none (Liang and Barsky 1984).
+bool clip(GroundPoint& a, GroundPoint& b, const Box& box) {
+    double from = 0;
+    double to = 1;
+    const double dx = b.x_m - a.x_m;
+    const double dy = b.y_m - a.y_m;
+    const std::array<double, 4> steps = {-dx, dx, -dy, dy};
+    const std::array<double, 4> rooms = {a.x_m - box.west, box.east - a.x_m, a.y_m - box.south,
+                                         box.north - a.y_m};
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (steps[i] == 0) {
+            if (rooms[i] < 0) return false;
+        } else if (steps[i] < 0) {
+            from = std::max(from, rooms[i] / steps[i]);
+        } else {
+            to = std::min(to, rooms[i] / steps[i]);
+        }
+    }
+    if (from > to) return false;
+    b = {a.x_m + to * dx, a.y_m + to * dy};
+    a = {a.x_m + from * dx, a.y_m + from * dy};
+    return true;
+}
+
+// Makes strokes of lines, one after the other.
+class Tracer {
+  public:
+    Tracer(const GroundMap& ground, const ViewGeometry& geometry, const Box& box, double finest_m,
+           std::vector<MapStroke>& strokes)
+        : ground_(ground),
+          geometry_(geometry),
+          box_(box),
+          most_bent_m_(most_bent_px * finest_m),
+          strokes_(strokes) {}
+
+    void trace(MapKind kind, const std::vector<grid::GeoPoint>& line) {
+        kind_ = kind;
+        break_off();
+        Vertex last{line.front(), ground_.ground(line.front())};
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            const Vertex next{line[i], ground_.ground(line[i])};
+            divide(last, next, 0);
+            last = next;
+        }
+        break_off();
+    }
+
+  private:
+    struct Vertex {
+        grid::GeoPoint place;
+        GroundPoint at;
+    };
+
+    void divide(const Vertex& a, const Vertex& b, int depth) {
+        if (!is_finite(a.at) || !is_finite(b.at)) return break_off();
+        const double length = std::hypot(b.at.x_m - a.at.x_m, b.at.y_m - a.at.y_m);
+        // Four times the sagitta of a parallel of latitude at 45 degrees, for all up to 75.
+        const bool may_bend = length * length / (2 * earth_radius_m) > most_bent_m_;
+        if (!may_bend || depth == 12) return segment(a.at, b.at);
+        Vertex middle;
+        middle.place = {(a.place.latitude_deg + b.place.latitude_deg) / 2,
+                        (a.place.longitude_deg + b.place.longitude_deg) / 2};
+        middle.at = ground_.ground(middle.place);
+        const double off = std::hypot(middle.at.x_m - (a.at.x_m + b.at.x_m) / 2,
+                                      middle.at.y_m - (a.at.y_m + b.at.y_m) / 2);
+        if (off <= most_bent_m_) {
+            segment(a.at, middle.at);
+            return segment(middle.at, b.at);
+        }
+        divide(a, middle, depth + 1);
+        divide(middle, b, depth + 1);
+    }
+
+    void segment(GroundPoint a, GroundPoint b) {
+        const GroundPoint end = b;
+        if (!is_finite(a) || !is_finite(b) || !clip(a, b, box_)) return break_off();
+        const Point from = pixel(a);
+        const Point to = pixel(b);
+        if (!is_visible(from) || !is_visible(to)) return break_off();
+        if (points_.empty()) points_.push_back(from);
+        waiting_ = to;
+        has_waiting_ = true;
+        if (std::hypot(to.x - points_.back().x, to.y - points_.back().y) >= least_step_px) {
+            points_.push_back(to);
+            has_waiting_ = false;
+        }
+        // Cut off at the far end: what follows does not begin there.
+        if (b.x_m != end.x_m || b.y_m != end.y_m) break_off();
+    }
+
+    void break_off() {
+        if (has_waiting_ && !points_.empty()) points_.push_back(waiting_);
+        has_waiting_ = false;
+        if (points_.size() >= 2) strokes_.push_back({kind_, points_});
+        points_.clear();
+    }
+
+    [[nodiscard]] Point pixel(GroundPoint p) const {
+        const Pixel at = geometry_.project(p.x_m, p.y_m, geometry_.ground_m());
+        return {at.x, at.y};
+    }
+    static bool is_finite(GroundPoint p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m); }
+    static bool is_visible(Point p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::abs(p.x) < farthest_px &&
+               std::abs(p.y) < farthest_px;
+    }
+
+    const GroundMap& ground_;
+    const ViewGeometry& geometry_;
+    Box box_;
+    double most_bent_m_;
+    std::vector<MapStroke>& strokes_;
+    MapKind kind_ = MapKind::coast;
+    std::vector<Point> points_;
+    Point waiting_;
+    bool has_waiting_ = false;
+};
+
+// The set of a kind to draw: the coarsest that is fine enough, else the finest.
+const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) {
+    const MapSet* best = nullptr;
+    for (const MapSet& set : map.sets()) {
+        if (set.kind != kind) continue;
+        const bool fits = set.tolerance_m <= most_thinned_m;
+        if (best == nullptr || (fits && set.tolerance_m > best->tolerance_m) ||
+            (best->tolerance_m > most_thinned_m && set.tolerance_m < best->tolerance_m)) {
+            best = &set;
+        }
+    }
+    return best;
+}
+
+void add_cities(const BaseMap& map, const GroundMap& ground, const ViewGeometry& geometry,
+                const Box& box, const Box& degrees, MapLayer& layer) {
+    for (const MapCity& city : map.cities()) {
+        const MapLine spot = {city.place.longitude_deg,
+                              city.place.latitude_deg,
+                              city.place.longitude_deg,
+                              city.place.latitude_deg,
+                              0,
+                              {}};
+        if (!touches(spot, degrees)) continue;
+        const GroundPoint at = ground.ground(city.place);
+        const bool inside =
+            at.x_m >= box.west && at.x_m <= box.east && at.y_m >= box.south && at.y_m <= box.north;
+        if (!inside) continue;
+        const Pixel pixel = geometry.project(at.x_m, at.y_m, geometry.ground_m());
+        if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) continue;
+        if (pixel.x >= 0 && pixel.y >= 0 && pixel.x <= geometry.width() &&
+            pixel.y <= geometry.height()) {
+            layer.cities.push_back({{pixel.x, pixel.y}, city.name});
+        }
+    }
+}
+
+struct Look {
+    double width;
+    Rgba8 colour;
+};
+
+Look look_of(MapKind kind) {
+    switch (kind) {
+        case MapKind::county:
+            return {0.6, shades::county};
+        case MapKind::state:
+            return {0.9, shades::state};
+        case MapKind::lake:
+            return {0.8, shades::coast};
+        case MapKind::country:
+            return {1.2, shades::country};
+        case MapKind::coast:
+            break;
+    }
+    return {1.0, shades::coast};
+}
+
+}  // namespace
+
+Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
+                             const ViewGeometry& geometry, double scale) {
+    MapLayer layer;
+    const Box box = visible_ground(geometry);
+    if (!(box.west < box.east && box.south < box.north)) return layer;
+    const GroundMap ground(spec);
+    const Box degrees = degrees_of(ground, box);
+    const double finest_m = finest_metres_per_pixel(geometry);
+    Tracer tracer(ground, geometry, box, finest_m, layer.strokes);
+    for (const MapKind kind :
+         {MapKind::county, MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
+        if (kind == MapKind::county && county_m / finest_m < least_county_px * scale) continue;
+        const MapSet* set = best_set(map, kind, most_thinned_px * finest_m);
+        if (set == nullptr) continue;
+        for (const MapLine& line : set->lines) {
+            if (!touches(line, degrees)) continue;
+            const auto points = map.points_of(line);
+            if (!points) return pass_on(points);
+            tracer.trace(kind, *points);
+        }
+    }
+    add_cities(map, ground, geometry, box, degrees, layer);
+    return layer;
+}
+
+Result<const MapLayer*> MapKeeper::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
+                                       double scale) {
+    // A view of a plane is known by four points of it, no three on a line.
+    std::vector<double> view = {static_cast<double>(geometry.width()),
+                                static_cast<double>(geometry.height()), scale};
+    const double h = geometry.ground_m();
+    for (const double x : {-geometry.half_x_m(), geometry.half_x_m()}) {
+        for (const double y : {-geometry.half_y_m(), geometry.half_y_m()}) {
+            const Pixel at = geometry.project(x, y, h);
+            view.push_back(at.x);
+            view.push_back(at.y);
+        }
+    }
+    const bool is_known =
+        std::all_of(view.begin(), view.end(), [](double v) { return std::isfinite(v); });
+    if (times_made_ > 0 && is_known && view == view_ && spec == spec_) return &layer_;
+    const auto map = BaseMap::built_in();
+    if (!map) return pass_on(map);
+    auto layer = prepare_map(*map, spec, geometry, scale);
+    if (!layer) return pass_on(layer);
+    layer_ = std::move(*layer);
+    spec_ = spec;
+    view_ = std::move(view);
+    ++times_made_;
+    return &layer_;
+}
+
+void draw_map(Canvas& canvas, const MapLayer& layer, double scale, Point offset) {
+    for (const bool casing : {true, false}) {
+        for (auto first = layer.strokes.begin(); first != layer.strokes.end();) {
+            const auto last = std::find_if(first, layer.strokes.end(), [&](const MapStroke& s) {
+                return s.kind != first->kind;
+            });
+            Look look = look_of(first->kind);
+            if (casing) look = {look.width + 1.6, shades::casing};
+            for (; first != last; ++first)
+                canvas.add_to_path(first->points, offset);
+            canvas.draw_path(look.width * scale, look.colour);
+        }
+    }
+}
+
+}  // namespace stormcellar::render

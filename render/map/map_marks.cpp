@@ -1,0 +1,292 @@
+#include "render/map/map_marks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "render/map/label_places.h"
+#include "render/map/map_ground.h"
+#include "render/shades.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr double text_size = 10;
+constexpr double city_size = 9;
+constexpr double north_radius = 17;
+
+class Planner {
+  public:
+    Planner(const Fonts& fonts, const MapLines& lines)
+        : fonts_(fonts),
+          lines_(lines),
+          geometry_(*lines.geometry),
+          places_(Rect{margin(), margin(), geometry_.width() - 2 * margin(),
+                       geometry_.height() - 2 * margin()}) {}
+
+    MapMarks plan() {
+        for (const auto& site : *lines_.sites)
+            plan_site_mark(site);
+        plan_corner();
+        for (std::size_t i = 0; i < marks_.sites.size(); ++i)
+            plan_site_name(marks_.sites[i], names_[i]);
+        if (lines_.heights) plan_heights();
+        if (lines_.sites->size() == 1) plan_distances();
+        if (lines_.map != nullptr) plan_cities();
+        return std::move(marks_);
+    }
+
+  private:
+    [[nodiscard]] double scaled(double length) const { return length * lines_.scale; }
+    [[nodiscard]] double margin() const { return 2 * lines_.scale; }
+
+    [[nodiscard]] std::optional<Point> pixel(GroundPoint p, double height_m) const {
+        const Pixel at = geometry_.project(p.x_m, p.y_m, height_m);
+        if (!std::isfinite(at.x) || !std::isfinite(at.y)) return std::nullopt;
+        return Point{at.x, at.y};
+    }
+    [[nodiscard]] std::optional<Point> on_ground(GroundPoint p) const {
+        return pixel(p, geometry_.ground_m());
+    }
+    [[nodiscard]] bool inside_grid(GroundPoint p) const {
+        return std::isfinite(p.x_m) && std::isfinite(p.y_m) &&
+               std::abs(p.x_m) < geometry_.half_x_m() && std::abs(p.y_m) < geometry_.half_y_m();
+    }
+    static Rect about(Point p, double half) { return {p.x - half, p.y - half, 2 * half, 2 * half}; }
+
+    // The text, if its place is free.
+    std::optional<MarkText> claim(const std::string& text, Point left_baseline, double size,
+                                  bool bold, Rgba8 colour) {
+        const double halo = scaled(1);
+        // Where it will be drawn: on whole pixels.
+        left_baseline = {std::nearbyint(left_baseline.x), std::nearbyint(left_baseline.y)};
+        const Rect box = {left_baseline.x - halo, left_baseline.y - 0.8 * size - halo,
+                          fonts_.width(text, size, bold) + 2 * halo, 1.05 * size + 2 * halo};
+        if (!places_.claim(box)) return std::nullopt;
+        return MarkText{box, left_baseline, size, bold, colour, text};
+    }
+
+    // The arrow's and the bar's corner: the first that covers no site, else the first, and what
+    // they cover there is not drawn.
+    void plan_corner() {
+        const double w = scaled(2 * north_radius + 8);
+        const double h = scaled(2 * north_radius + 28);
+        const auto bar = make_scale_bar();
+        const double bar_room = bar ? bar->box.width + scaled(5) : 0;
+        const double right = geometry_.width() - scaled(11) - w;
+        const double bottom = geometry_.height() - scaled(7) - h;
+        const double top = scaled(7);
+        const std::array<Point, 4> corners = {Point{scaled(11), bottom}, Point{right, bottom},
+                                              Point{scaled(11), top}, Point{right, top}};
+        const auto whole = [&](Point corner) {
+            const double left = corner.x < right ? corner.x : corner.x - bar_room;
+            return Rect{left, corner.y, w + bar_room, h};
+        };
+        const auto free_corner = std::find_if(corners.begin(), corners.end(), [&](Point corner) {
+            return places_.is_free(whole(corner));
+        });
+        const Point corner = free_corner == corners.end() ? corners.front() : *free_corner;
+        marks_.north = {corner.x, corner.y, w, h};
+        places_.take(marks_.north);
+        if (bar) {
+            marks_.scale_bar = *bar;
+            Rect& box = marks_.scale_bar->box;
+            box.x = corner.x < right ? corner.x + w + scaled(5) : corner.x - bar_room;
+            box.y = corner.y + h - box.height;
+            marks_.scale_bar->left = {std::nearbyint(box.x + scaled(3)),
+                                      std::nearbyint(box.bottom() - scaled(5))};
+            const bool fits = box.x >= 0 && box.right() <= geometry_.width();
+            if (fits) places_.take(box);
+            if (!fits) marks_.scale_bar.reset();
+        }
+        for (std::size_t i = marks_.sites.size(); i-- > 0;) {
+            const Rect mark = about(marks_.sites[i], scaled(4));
+            const bool covered = overlaps(mark, marks_.north) ||
+                                 (marks_.scale_bar && overlaps(mark, marks_.scale_bar->box));
+            if (!covered) continue;
+            marks_.sites.erase(marks_.sites.begin() + static_cast<std::ptrdiff_t>(i));
+            names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+    }
+    static bool overlaps(const Rect& a, const Rect& b) {
+        return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+    }
+
+    // On WGS84, to a pixel, across the middle of the picture.
+    [[nodiscard]] std::optional<double> metres_per_pixel() const {
+        const double x = 0.5 * geometry_.width();
+        const double y = 0.5 * geometry_.height();
+        const double reach = 0.05 * geometry_.width();
+        const auto left = geometry_.ground({x - reach, y});
+        const auto right = geometry_.ground({x + reach, y});
+        if (!left || !right) return std::nullopt;
+        const GroundMap map(*lines_.spec);
+        const grid::GeoPoint from = map.place(*left);
+        const double apart_m = grid::SiteFrame(from.latitude_deg, from.longitude_deg)
+                                   .to_polar(map.place(*right))
+                                   .arc_m;
+        if (!std::isfinite(apart_m) || apart_m <= 0) return std::nullopt;
+        return apart_m / (2 * reach);
+    }
+
+    // Its place comes later.
+    [[nodiscard]] std::optional<ScaleBar> make_scale_bar() const {
+        const auto metres = metres_per_pixel();
+        if (!metres) return std::nullopt;
+        const double most_m = *metres * std::min(0.25 * geometry_.width(), scaled(130));
+        const double power = std::pow(10, std::floor(std::log10(most_m)));
+        ScaleBar bar;
+        for (const double digit : {1.0, 2.0, 5.0}) {
+            if (digit * power <= most_m) bar.metres = digit * power;
+        }
+        bar.length = bar.metres / *metres;
+        const double size = scaled(text_size);
+        const double width =
+            std::max(bar.length, scaled(3) + fonts_.width(distance_text(bar.metres), size, false));
+        bar.box = {0, 0, width + scaled(6), size + scaled(11)};
+        return bar;
+    }
+
+    void plan_site_mark(const grid::SitePosition& site) {
+        const GroundPoint p = ground_of_site(lines_, site);
+        if (!inside_grid(p)) return;
+        const auto at = on_ground(p);
+        const double r = scaled(4);
+        if (!at || at->x < r || at->y < r || at->x > geometry_.width() - r ||
+            at->y > geometry_.height() - r) {
+            return;
+        }
+        marks_.sites.push_back(*at);
+        names_.push_back(site.icao);
+        places_.take(about(*at, r));
+    }
+
+    void plan_site_name(Point at, const std::string& name) {
+        const double size = scaled(text_size);
+        const double width = fonts_.width(name, size, true);
+        const double right = at.x + scaled(6);
+        const double left = at.x - scaled(6) - width;
+        const double above = at.y - scaled(3);
+        const double below = at.y + 0.8 * size + scaled(2);
+        for (const Point& corner :
+             {Point{right, above}, Point{left, above}, Point{right, below}, Point{left, below}}) {
+            if (auto text = claim(name, corner, size, true, shades::text)) {
+                marks_.site_texts.push_back(std::move(*text));
+                return;
+            }
+        }
+    }
+
+    // Of the box's upright edges the leftmost in the picture; of two, the one further away, which
+    // is higher in the picture. It is an outline of the box: no echo is ever behind it.
+    void plan_heights() {
+        std::optional<GroundPoint> edge;
+        Point edge_at;
+        for (const GroundPoint& corner : ground_corners(geometry_)) {
+            const auto at = on_ground(corner);
+            if (!at) return;
+            const bool better =
+                !edge || at->x < edge_at.x - 0.5 || (at->x < edge_at.x + 0.5 && at->y < edge_at.y);
+            if (!better) continue;
+            edge = corner;
+            edge_at = *at;
+        }
+        const double top_m = geometry_.top_m();
+        const auto top = pixel(*edge, top_m);
+        const auto zero = pixel(*edge, 0);
+        const auto one_km = pixel(*edge, 1000);
+        if (!top || !zero || !one_km) return;
+        const double size = scaled(text_size);
+        const double km = std::abs(one_km->y - zero->y);
+        double step_m = 0;
+        for (const double candidate : {10000.0, 5000.0, 2000.0, 1000.0}) {
+            if (km * candidate / 1000 >= 1.7 * size) step_m = candidate;
+        }
+        if (step_m == 0) return;
+        const double width = fonts_.width("00 km", size, false);
+        HeightScale heights{edge_at, *top, {}, edge_at.x > width + scaled(12) ? -1.0 : 1.0};
+        for (int i = 1; i * step_m <= top_m; ++i) {
+            const auto tick = pixel(*edge, i * step_m);
+            if (!tick || tick->y < size || tick->y > geometry_.height() - size) continue;
+            const std::string text = distance_text(i * step_m);
+            const double x = tick->x + heights.side * scaled(7) -
+                             (heights.side < 0 ? fonts_.width(text, size, false) : 0);
+            auto placed = claim(text, {x, tick->y + 0.36 * size}, size, false, shades::quiet_text);
+            if (!placed) continue;
+            heights.ticks.push_back(*tick);
+            marks_.height_texts.push_back(std::move(*placed));
+        }
+        marks_.heights = std::move(heights);
+    }
+
+    // Distances stand on the rings where they come nearest to the viewer: lowest in the picture.
+    void plan_distances() {
+        const double size = scaled(text_size);
+        for (int i = 1; i <= 40; ++i) {
+            const auto ring = ring_points(lines_, i * lines_.ring_spacing_m);
+            const Point* lowest = nullptr;
+            for (const Point& p : ring) {
+                if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+                if (lowest == nullptr || p.y > lowest->y + 1e-6) lowest = &p;
+            }
+            if (lowest == nullptr) return;
+            const auto ground = geometry_.ground({lowest->x, lowest->y});
+            if (!ground || !inside_grid(*ground)) return;
+            const std::string text = distance_text(i * lines_.ring_spacing_m);
+            const double width = fonts_.width(text, size, false);
+            if (auto placed = claim(text, {lowest->x - width / 2, lowest->y + 0.36 * size}, size,
+                                    false, shades::quiet_text)) {
+                marks_.ground_texts.push_back(std::move(*placed));
+            }
+        }
+    }
+
+    void plan_cities() {
+        const double size = scaled(city_size);
+        const double dot = scaled(2.6);
+        const double apart = scaled(44);
+        for (const MapPlace& city : lines_.map->cities) {
+            // Not too close, so that the map stays quiet.
+            const bool crowded =
+                std::any_of(marks_.cities.begin(), marks_.cities.end(), [&](const Point& other) {
+                    return std::hypot(other.x - city.at.x, other.y - city.at.y) < apart;
+                });
+            if (crowded || !places_.is_free(about(city.at, dot))) continue;
+            const double width = fonts_.width(city.name, size, false);
+            const double right = city.at.x + scaled(4.5);
+            const double left = city.at.x - scaled(4.5) - width;
+            const double level = city.at.y + 0.36 * size;
+            const double middle = city.at.x - width / 2;
+            for (const Point& corner :
+                 {Point{right, level}, Point{left, level}, Point{middle, city.at.y - scaled(5)},
+                  Point{middle, city.at.y + 0.8 * size + scaled(5)}}) {
+                auto text = claim(city.name, corner, size, false, shades::city);
+                if (!text) continue;
+                marks_.ground_texts.push_back(std::move(*text));
+                marks_.cities.push_back(city.at);
+                places_.take(about(city.at, dot));
+                break;
+            }
+        }
+    }
+
+    const Fonts& fonts_;
+    const MapLines& lines_;
+    const ViewGeometry& geometry_;
+    LabelPlaces places_;
+    MapMarks marks_;
+    std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::string distance_text(double metres) {
+    return metres < 1000 ? fmt::format("{:g} m", metres) : fmt::format("{:g} km", metres / 1000);
+}
+
+MapMarks plan_marks(const Fonts& fonts, const MapLines& lines) {
+    return Planner(fonts, lines).plan();
+}
+
+}  // namespace stormcellar::render

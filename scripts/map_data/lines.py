@@ -1,0 +1,75 @@
+"""Lines of (longitude, latitude) in degrees: joined at their ends, simplified."""
+import collections
+import math
+
+METRES_PER_DEGREE = 111320.0
+
+
+def joined(pieces):
+    """Pieces that meet two and two at a point become one line."""
+    ends = collections.defaultdict(list)
+    for index, piece in enumerate(pieces):
+        ends[piece[0]].append(index)
+        ends[piece[-1]].append(index)
+    used = [False] * len(pieces)
+
+    def grow(line):
+        while line[0] != line[-1]:
+            here = ends[line[-1]]
+            free = [i for i in here if not used[i]]
+            if len(here) != 2 or not free:
+                break
+            used[free[0]] = True
+            piece = pieces[free[0]]
+            line += (piece if piece[0] == line[-1] else piece[::-1])[1:]
+        return line
+
+    result = []
+    for index, piece in enumerate(pieces):
+        if used[index]:
+            continue
+        used[index] = True
+        line = grow(list(piece))
+        result.append(grow(line[::-1]))
+    return result
+
+
+def simplified(line, tolerance_m):
+    """Douglas and Peucker (1973) in metres of a local plane; ends stay."""
+    if len(line) < 3:
+        return list(line)
+    east = METRES_PER_DEGREE * math.cos(math.radians(sum(p[1] for p in line) / len(line)))
+    plane = [(p[0] * east, p[1] * METRES_PER_DEGREE) for p in line]
+    keep = [False] * len(line)
+    keep[0] = keep[-1] = True
+    todo = [(0, len(line) - 1)]
+    while todo:
+        first, last = todo.pop()
+        ax, ay = plane[first]
+        dx, dy = plane[last][0] - ax, plane[last][1] - ay
+        length2 = dx * dx + dy * dy
+        worst, at = tolerance_m * tolerance_m, -1
+        for i in range(first + 1, last):
+            px, py = plane[i][0] - ax, plane[i][1] - ay
+            if length2 > 0:
+                share = min(1.0, max(0.0, (px * dx + py * dy) / length2))
+                px, py = px - share * dx, py - share * dy
+            if px * px + py * py > worst:
+                worst, at = px * px + py * py, i
+        if at >= 0:
+            keep[at] = True
+            todo += [(first, at), (at, last)]
+    return [p for p, kept in zip(line, keep) if kept]
+
+
+def is_speck(points, tolerance_m, units_per_degree):
+    """A line of one point, or an island that is smaller than twice the tolerance."""
+    if len(points) < 2:
+        return True
+    if points[0] != points[-1]:
+        return False
+    unit = METRES_PER_DEGREE / units_per_degree
+    high = (max(p[1] for p in points) - min(p[1] for p in points)) * unit
+    wide = ((max(p[0] for p in points) - min(p[0] for p in points)) * unit *
+            math.cos(math.radians(points[0][1] / units_per_degree)))
+    return math.hypot(wide, high) < 2 * tolerance_m

@@ -1,0 +1,147 @@
+"""The layers of the map, out of the packages that hold them."""
+import collections
+import json
+import math
+import pathlib
+
+from . import lines
+
+# What US weather radars can see, and some way about it: west, south, east, north.
+REGIONS = [(-180, 15.5, -50, 74), (170, 48, 180, 74), (141, 9, 150, 20), (122, 22, 136, 44),
+           (-34, 34, -21, 43)]
+GREAT_LAKES = (-92.7, 41.2, -75.9, 49.2)
+SAME_LINE_M = 1500  # nearer than this, a shore of the Census is a line of Natural Earth's
+
+
+def topology(path):
+    with open(path, encoding="utf-8") as file:
+        data = json.load(file)
+    (sx, sy), (tx, ty) = data["transform"]["scale"], data["transform"]["translate"]
+    arcs = []
+    for arc in data["arcs"]:
+        x = y = 0
+        points = []
+        for dx, dy in arc:
+            x, y = x + dx, y + dy
+            points.append((x * sx + tx, y * sy + ty))
+        arcs.append(points)
+    return arcs, data["objects"]
+
+
+def arcs_of(geometry):
+    polygons = geometry.get("arcs", [])
+    if geometry.get("type") == "Polygon":
+        polygons = [polygons]
+    return [arc if arc >= 0 else ~arc for polygon in polygons for ring in polygon for arc in ring]
+
+
+def owners(objects):
+    found = collections.defaultdict(list)
+    for geometry in objects["geometries"]:
+        for arc in arcs_of(geometry):
+            found[arc].append(geometry.get("id"))
+    return found
+
+
+def in_region(line):
+    west, east = min(p[0] for p in line), max(p[0] for p in line)
+    south, north = min(p[1] for p in line), max(p[1] for p in line)
+    return any(west <= r[2] and east >= r[0] and south <= r[3] and north >= r[1] for r in REGIONS)
+
+
+def runs(line, wanted):
+    """The parts of a line whose segments are wanted."""
+    run = []
+    for one, other in zip(line, line[1:]):
+        if wanted(one, other):
+            run = run or [one]
+            run.append(other)
+        elif run:
+            yield run
+            run = []
+    if run:
+        yield run
+
+
+def cut_to_regions(line):
+    def inside(one, other):
+        at_seam = abs(one[0]) > 179.99 and abs(other[0]) > 179.99
+        return not at_seam and in_region([one, other])
+    return list(runs(line, inside))
+
+
+def countries(directory):
+    arcs, objects = topology(pathlib.Path(directory) / "countries-10m.json")
+    coast, border = [], []
+    for arc, ids in sorted(owners(objects["countries"]).items()):
+        if in_region(arcs[arc]):
+            (coast if len(ids) == 1 else border).extend(cut_to_regions(arcs[arc]))
+    return lines.joined(coast), lines.joined(border)
+
+
+class Nearness:
+    """How far a point is from lines, up to SAME_LINE_M."""
+
+    def __init__(self, lines_, box):
+        self.cells = collections.defaultdict(list)
+        for line in lines_:
+            for one, other in zip(line, line[1:]):
+                if box[0] <= one[0] <= box[2] and box[1] <= one[1] <= box[3]:
+                    steps = 1 + int(200 * max(abs(one[0] - other[0]), abs(one[1] - other[1])))
+                    for i in range(steps):
+                        x = one[0] + (other[0] - one[0]) * i / steps
+                        y = one[1] + (other[1] - one[1]) * i / steps
+                        self.cells[(int(x * 20), int(y * 20))].append((x, y))
+
+    def is_near(self, point):
+        east = lines.METRES_PER_DEGREE * math.cos(math.radians(point[1]))
+        cx, cy = int(point[0] * 20), int(point[1] * 20)
+        return any(math.hypot((x - point[0]) * east,
+                              (y - point[1]) * lines.METRES_PER_DEGREE) < SAME_LINE_M
+                   for i in (-1, 0, 1) for j in (-1, 0, 1)
+                   for x, y in self.cells.get((cx + i, cy + j), ()))
+
+
+def united_states(directory, border):
+    """Counties, states, and the shores of the Great Lakes, where the Census' counties end."""
+    arcs, objects = topology(pathlib.Path(directory) / "counties-10m.json")
+    county, state, shore = [], [], []
+    near = Nearness(border, GREAT_LAKES)
+    box = GREAT_LAKES
+
+    def is_shore(one, other):
+        return all(box[0] < p[0] < box[2] and box[1] < p[1] < box[3] and not near.is_near(p)
+                   for p in (one, other))
+
+    for arc, ids in sorted(owners(objects["counties"]).items()):
+        if len(ids) == 1:
+            shore.extend(runs(arcs[arc], is_shore))
+        elif ids[0][:2] == ids[1][:2]:
+            county.append(arcs[arc])
+        else:
+            state.append(arcs[arc])
+    return lines.joined(county), lines.joined(state), lines.joined(shore)
+
+
+def lakes(path):
+    with open(path, encoding="utf-8") as file:
+        features = json.load(file)["features"]
+    found = []
+    for feature in features:
+        geometry = feature["geometry"]
+        polygons = geometry["coordinates"]
+        if geometry["type"] == "Polygon":
+            polygons = [polygons]
+        for polygon in polygons:
+            for ring in polygon:
+                found.extend(cut_to_regions([tuple(p[:2]) for p in ring]))
+    return found
+
+
+def read_layers(options):
+    coast, border = countries(options.world_atlas)
+    county, state, shore = united_states(options.us_atlas, border)
+    if options.lakes:
+        shore = lakes(options.lakes)
+    return {"coast": coast, "country": border, "county": county,
+            "state": state, "lake": shore}
