@@ -26,7 +26,7 @@ ViewGeometry geometry_of(const grid::GridSpec& spec, const Scene& scene, int wid
     if (scene.product == Product::composite) {
         return {spec, Camera{180, 0, scene.camera.zoom}, 1, width, height};
     }
-    return {spec, scene.camera, scene.vertical_exaggeration, width, height};
+    return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
 }
 
 // Where the picture is, and how its lines and letters are drawn.
@@ -50,8 +50,9 @@ Image draw_picture(const grid::BrickView& view, const Scene& scene, const ViewGe
     if (scene.labels) draw_rings(canvas, frame.fonts, frame.lines);
     Image picture = canvas.image();
     if (volume) {
-        const Layer layer =
-            slice_volume(view, nws_reflectivity(), geometry, scene.slices, scene.opacity, threads);
+        const VolumeSlicer slicer(nws_reflectivity(), view.quantization, geometry,
+                                  {scene.slices, Integration::second_order, scene.opacity});
+        const Layer layer = slicer.draw(view, threads);
         composite_over(layer, picture, 0, 0);
     }
     return picture;

@@ -48,10 +48,21 @@ Status validate(const Scene& scene) {
         return fail(ErrorCode::bad_argument, "azimuth must be a finite number of degrees, not {}",
                     camera.azimuth_deg);
     }
-    const std::array<Status, 8> checks = {
+    if (camera.eye && camera.field_of_view_deg == 0) {
+        return fail(ErrorCode::bad_argument,
+                    "a camera with a place of its own needs a field of view above 0 degrees");
+    }
+    const Eye eye = camera.eye.value_or(Eye{});
+    const std::array<Status, 12> checks = {
         check_range("width", scene.width, 16, 8192),
         check_range("height", scene.height, 16, 8192),
-        check_range("tilt", camera.tilt_deg, 0, 90),
+        check_range("tilt", camera.tilt_deg, 0, camera.eye ? 180 : 90),
+        camera.field_of_view_deg == 0
+            ? Status{}
+            : check_range("field of view", camera.field_of_view_deg, 1, 150),
+        check_range("the camera's place to the east (m)", eye.x_m, -1e7, 1e7),
+        check_range("the camera's place to the north (m)", eye.y_m, -1e7, 1e7),
+        check_range("the camera's height (m)", eye.height_m, -1e3, 1e7),
         check_range("zoom", camera.zoom, 0.01, 1000),
         check_range("slices", scene.slices, 8, 4096),
         check_range("exaggeration", scene.vertical_exaggeration, 0.1, 100),

@@ -1,6 +1,7 @@
 // render/scene.h -- what is to be shown: product, camera, colours, labels.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,11 +14,20 @@ enum class Product { volume, composite };
 [[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
 [[nodiscard]] std::string_view product_name(Product product);
 
-// Orthographic camera that looks at the middle of the box of the cells and the ground under them.
+// Where a camera stands: metres east and north of the grid's middle, height above sea level.
+struct Eye {
+    double x_m = 0, y_m = 0, height_m = 0;
+};
+
+// Looks at the middle of the box of the cells and the ground under them, from outside, unless it
+// has a place of its own.
 struct Camera {
     double azimuth_deg = 180;  // from where it looks: 180 is from the south, north is up; finite
-    double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground; 0..90
+    double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground; 0..90,
+                               // with a place of its own to 180, which is straight up
     double zoom = 1;           // 1: the whole grid fits into the image; 0.01..1000
+    double field_of_view_deg = 0;  // across the image at zoom 1; 0: orthographic; else 1..150
+    std::optional<Eye> eye = std::nullopt;  // needs a field of view
 };
 
 struct Scene {
@@ -26,6 +36,7 @@ struct Scene {
     Camera camera;
     int slices = 256;                    // parallel to the image plane; 8..4096
     double vertical_exaggeration = 5;    // stated in the picture; 0.1..100
+    bool curved_earth = false;           // volumes: the ground falls away from the grid's middle
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // colour bar, title, time, rings

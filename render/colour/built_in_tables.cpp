@@ -9,8 +9,11 @@ namespace {
 
 using level2::Moment;
 
-// Values of this size are beyond every quantisation: where an open class begins.
-constexpr float below_all = -512;
+// Where open classes begin: below every value that a radar sends. Not lower, for a volume's table
+// sorts values into 256 bins from there on.
+constexpr float least_velocity = -64;
+constexpr float least_zdr = -13;
+constexpr float least_height = -10;
 constexpr Rgba8 folded_colour = {0x77, 0x00, 0x7D, 255};
 
 struct ColourClass {
@@ -65,10 +68,21 @@ ColourTable nws_reflectivity_table() {
 
 ColourTable nws_velocity_table() {
     constexpr ColourClass classes[] = {
-        {below_all, 0x02FC02}, {-33, 0x01E401},  {-25.5, 0x01C501}, {-18.5, 0x07AC04},
-        {-13.5, 0x068F03},     {-10, 0x047202},  {-5, 0x7C977B},    {-0.5, 0x808080},
-        {0.5, 0x987777},       {5, 0x890000},    {10, 0xA20000},    {13.5, 0xB90000},
-        {18.5, 0xD80000},      {25.5, 0xEF0000}, {33, 0xFE0000},
+        {least_velocity, 0x02FC02},
+        {-33, 0x01E401},
+        {-25.5, 0x01C501},
+        {-18.5, 0x07AC04},
+        {-13.5, 0x068F03},
+        {-10, 0x047202},
+        {-5, 0x7C977B},
+        {-0.5, 0x808080},
+        {0.5, 0x987777},
+        {5, 0x890000},
+        {10, 0xA20000},
+        {13.5, 0xB90000},
+        {18.5, 0xD80000},
+        {25.5, 0xEF0000},
+        {33, 0xFE0000},
     };
     ColourTable table = of_moment("nws-velocity", Moment::vel, classes, 40);
     table.bar_begin = -40.0F;
@@ -83,7 +97,7 @@ ColourTable nws_spectrum_width_table() {
 
 ColourTable nws_zdr_table() {
     constexpr ColourClass classes[] = {
-        {below_all, 0x404040}, {-2, 0x9C9C9C}, {-0.5, 0xC9C9C9}, {0, 0x8C78B4}, {0.25, 0x000098},
+        {least_zdr, 0x404040}, {-2, 0x9C9C9C}, {-0.5, 0xC9C9C9}, {0, 0x8C78B4}, {0.25, 0x000098},
         {0.5, 0x2398D3},       {1, 0x44FFD2},  {1.5, 0x57DB56},  {2, 0xFFFF60}, {2.5, 0xFF9045},
         {3, 0xDA0000},         {4, 0xAE0000},  {5, 0xF782BE},    {6, 0xFFFFFF},
     };
@@ -122,13 +136,11 @@ ColourTable nws_vil_table() {
 
 ColourTable phi_table() {
     constexpr ColourClass classes[] = {
-        {below_all, 0x6A3D9A}, {30, 0x3F51B5},  {60, 0x1E88E5},  {90, 0x00ACC1},
-        {120, 0x00897B},       {150, 0x43A047}, {180, 0x9CCC65}, {210, 0xFFEB3B},
-        {240, 0xFFB300},       {270, 0xFB6A1A}, {300, 0xE53935}, {330, 0xAD1457},
+        {0, 0x6A3D9A},   {30, 0x3F51B5},  {60, 0x1E88E5},  {90, 0x00ACC1},
+        {120, 0x00897B}, {150, 0x43A047}, {180, 0x9CCC65}, {210, 0xFFEB3B},
+        {240, 0xFFB300}, {270, 0xFB6A1A}, {300, 0xE53935}, {330, 0xAD1457},
     };
-    ColourTable table = of_moment("phi", Moment::phi, classes, 360);
-    table.bar_begin = 0.0F;
-    return table;
+    return of_moment("phi", Moment::phi, classes, 360);
 }
 
 ColourTable cfp_table() {
@@ -144,9 +156,20 @@ ColourTable cfp_table() {
 // from yellow. The steps are about equal along a path through Lab.
 ColourTable height_table() {
     constexpr ColourClass classes[] = {
-        {below_all, 0x003482}, {0.5, 0x144D94}, {1, 0x27649E},  {1.5, 0x3379A8}, {2, 0x658799},
-        {3, 0x798D8F},         {4, 0x899386},   {5, 0x98997B},  {6, 0xAAA26D},   {8, 0xC0AD58},
-        {10, 0xDEC44F},        {12, 0xFFE170},  {15, 0xFFEEBE}, {18, 0xFFF9ED},
+        {least_height, 0x003482},
+        {0.5, 0x144D94},
+        {1, 0x27649E},
+        {1.5, 0x3379A8},
+        {2, 0x658799},
+        {3, 0x798D8F},
+        {4, 0x899386},
+        {5, 0x98997B},
+        {6, 0xAAA26D},
+        {8, 0xC0AD58},
+        {10, 0xDEC44F},
+        {12, 0xFFE170},
+        {15, 0xFFEEBE},
+        {18, 0xFFF9ED},
     };
     ColourTable table = of_product("height", "km", classes, 20);
     table.bar_begin = 0.0F;
@@ -165,9 +188,18 @@ ColourTable safe_reflectivity_table() {
 // Blue towards the radar, orange away from it, grey at rest; lighter with speed.
 ColourTable safe_velocity_table() {
     constexpr ColourClass classes[] = {
-        {below_all, 0xC4EFFF}, {-33, 0x8FD7FE}, {-25.5, 0x42B0F1}, {-18.5, 0x4892C8},
-        {-10, 0x55799F},       {-5, 0x606C7C},  {-0.5, 0x636363},  {0.5, 0x846659},
-        {5, 0xAB694A},         {10, 0xCF793C},  {18.5, 0xF69A39},  {25.5, 0xFFC972},
+        {least_velocity, 0xC4EFFF},
+        {-33, 0x8FD7FE},
+        {-25.5, 0x42B0F1},
+        {-18.5, 0x4892C8},
+        {-10, 0x55799F},
+        {-5, 0x606C7C},
+        {-0.5, 0x636363},
+        {0.5, 0x846659},
+        {5, 0xAB694A},
+        {10, 0xCF793C},
+        {18.5, 0xF69A39},
+        {25.5, 0xFFC972},
         {33, 0xFFE6B0},
     };
     ColourTable table = of_moment("safe-velocity", Moment::vel, classes, 40);
@@ -177,7 +209,7 @@ ColourTable safe_velocity_table() {
 
 ColourTable safe_zdr_table() {
     constexpr ColourClass classes[] = {
-        {below_all, 0x013288}, {-2, 0x474B8C}, {-0.5, 0x5D5B8A}, {0, 0x716786}, {0.25, 0x846E7F},
+        {least_zdr, 0x013288}, {-2, 0x474B8C}, {-0.5, 0x5D5B8A}, {0, 0x716786}, {0.25, 0x846E7F},
         {0.5, 0x957478},       {1, 0xAA7D6F},  {1.5, 0xC38862},  {2, 0xDA9D58}, {2.5, 0xF9B947},
         {3, 0xFFD07D},         {4, 0xFFE1A8},  {5, 0xFFEFCB},    {6, 0xFFFBEA},
     };
@@ -201,8 +233,8 @@ enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, heig
 
 std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {
     std::vector<ExtinctionPoint> points;
-    const int first = static_cast<int>(std::floor(std::clamp(lowest, -32.0F, 94.0F)));
-    for (int dbz = first; dbz <= 95; ++dbz) {
+    const int first = static_cast<int>(std::floor(std::clamp(lowest, -32.0F, 79.0F)));
+    for (int dbz = first; dbz <= 80; ++dbz) {
         const double haze = 0.012 * std::pow(10.0, (dbz - 5) / 40.0);
         const double core = 0.12 * std::pow(10.0, (dbz - 50) / 10.0);
         points.push_back({static_cast<float>(dbz), haze + core});
@@ -221,20 +253,26 @@ std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
         case Moment::ref:
             return reflectivity_extinction(lowest);
         case Moment::vel:
-            return {{below_all, 0.5}, {-50, 0.5}, {-30, 0.2}, {-10, 0.03},
-                    {0, 0.006},       {10, 0.03}, {30, 0.2},  {50, 0.5}};
+            return {{least_velocity, 0.5},
+                    {-50, 0.5},
+                    {-30, 0.2},
+                    {-10, 0.03},
+                    {0, 0.006},
+                    {10, 0.03},
+                    {30, 0.2},
+                    {50, 0.5}};
         case Moment::sw:
             return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
         case Moment::zdr:
-            return {{below_all, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
+            return {{least_zdr, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
         case Moment::phi:
-            return {{below_all, 0.015}};
+            return {{0, 0.015}};
         case Moment::rho:
             return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
         case Moment::cfp:
             return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
     }
-    return {{below_all, 0.015}};
+    return {{0, 0.015}};
 }
 
 const std::vector<ColourTable>& built_in_tables() {

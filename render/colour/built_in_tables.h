@@ -3,7 +3,7 @@
 //   nws-reflectivity    dBZ     15 classes of 5 dB from 5 dBZ, the last open above
 //   nws-velocity        m/s     by speed either way: green towards the radar, red away from it,
 //                               bounds 5, 10, 13.5, 18.5, 25.5, 33 m/s for 10, 20, 26, 36, 50, 64
-//                               knots; greys below 5 m/s, open at both ends
+//                               knots; greys below 5 m/s, from -64 m/s, open above
 //   nws-spectrum-width  m/s     bounds 2, 4, 6, 8, 10 m/s for 4, 8, 12, 16, 20 knots
 //   nws-zdr, nws-rho    dB, 1   the 16 levels of the dual-polarisation products
 //   nws-echo-top        km      classes of 1.5 km for 5,000 feet
@@ -50,7 +50,7 @@ inline constexpr double least_safe_sides = 15;
 // How opaque a moment's values are in a volume, per km of the drawn scene.
 //   REF   the sum of a haze, which keeps weak echo in sight, and of a steep part, which makes cores
 //         solid: 0.012 * 10^((v - 5 dBZ) / 40 dB) + 0.12 * 10^((v - 50 dBZ) / 10 dB), at every
-//         decibel from `lowest` to 95 dBZ
+//         decibel from `lowest` to 80 dBZ
 //   VEL   by speed: what hardly moves is a haze, so that jets and couplets stand out
 //   SW, CFP   rise with the value        ZDR  hail and debris faint, large drops dense
 //   PHI   one faint haze: a phase is nowhere "more"   RHO  faint; what is not rain is denser

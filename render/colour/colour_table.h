@@ -39,7 +39,7 @@ struct ColourTable {
     std::string unit;               // "dBZ"; empty: a number without one
     std::vector<ColourStop> stops;  // at least one
     float end = 0;  // where the last class ends in a colour bar; above the last stop
-    // Where a colour bar begins, if not with the first class: that one is open below.
+    // Where a colour bar begins, if not with the first class, which reaches down far.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly

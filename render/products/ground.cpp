@@ -17,21 +17,14 @@ std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
     return static_cast<std::ptrdiff_t>(iy) * spec.nx + static_cast<std::ptrdiff_t>(ix);
 }
 
-// Calls shade(column, x, y) for every pixel over the grid. A ground point is linear in the pixel,
-// so three of them give all.
+// Calls shade(column, x, y) for every pixel over the grid.
 template <class Shade>
 Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, int threads, Shade shade) {
     Image image(geometry.width(), geometry.height(), shades::page);
-    const auto origin = geometry.ground({0.5, 0.5});
-    const auto right = geometry.ground({1.5, 0.5});
-    const auto down = geometry.ground({0.5, 1.5});
-    if (!origin || !right || !down) return image;
     for_each_piece(image.height, threads, [&](int y) {
         for (int x = 0; x < image.width; ++x) {
-            const GroundPoint p = {
-                origin->x_m + x * (right->x_m - origin->x_m) + y * (down->x_m - origin->x_m),
-                origin->y_m + x * (right->y_m - origin->y_m) + y * (down->y_m - origin->y_m)};
-            const std::ptrdiff_t column = column_at(spec, p);
+            const auto p = geometry.ground({x + 0.5, y + 0.5});
+            const std::ptrdiff_t column = p ? column_at(spec, *p) : -1;
             if (column >= 0) image.set(x, y, shade(static_cast<std::size_t>(column), x, y));
         }
     });

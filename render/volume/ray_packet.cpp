@@ -21,8 +21,26 @@ using Ints = hn::RebindToSigned<Floats>;
 using FloatVec = hn::Vec<Floats>;
 using IntVec = hn::Vec<Ints>;
 
-constexpr float opaque_enough = 0.001F;      // a ray ends when less light than this comes through
-constexpr float largest_alpha = 0.9999999F;  // whose logarithm is finite
+constexpr float opaque_enough = 0.001F;  // a ray ends when less light than this comes through
+
+// 1 - exp(-depth) for depths of 0 and more, to 2e-7. Not the library's, whose fused operations give
+// other bits on other targets.
+HWY_INLINE FloatVec opacity_of(FloatVec depth) {
+    const Floats f;
+    const Ints i;
+    constexpr float log2_e = 1.44269504F;
+    // exp(-depth) = 2^-whole * 2^-part, part within -1/2 to 1/2.
+    const FloatVec exponent = hn::Min(hn::Mul(depth, hn::Set(f, log2_e)), hn::Set(f, 120.0F));
+    const IntVec whole = hn::ConvertTo(i, hn::Add(exponent, hn::Set(f, 0.5F)));
+    const FloatVec part = hn::Sub(hn::ConvertTo(f, whole), exponent);
+    constexpr float series[] = {1.5403530e-4F, 1.3333558e-3F, 9.6181291e-3F, 5.5504109e-2F,
+                                2.4022651e-1F, 6.9314718e-1F, 1.0F};  // ln(2)^n / n!
+    FloatVec power = hn::Set(f, series[0]);
+    for (std::size_t n = 1; n < std::size(series); ++n)
+        power = hn::Add(hn::Mul(power, part), hn::Set(f, series[n]));
+    const IntVec scale = hn::ShiftLeft<23>(hn::Sub(hn::Set(i, 127), whole));
+    return hn::Sub(hn::Set(f, 1.0F), hn::Mul(power, hn::BitCast(f, scale)));
+}
 
 // What the rays find at a slice: a bin of the transfer function and the share of valued cells.
 struct Samples {
@@ -127,6 +145,7 @@ HWY_INLINE bool no_values(const Corners& corners) {
     return hn::AllFalse(i, hn::Gt(largest, hn::Set(i, grid::first_value_code - 1)));
 }
 
+template <bool curved>
 class Caster {
   public:
     Caster(const PacketVolume& volume, const RayPacket& rays, float* rgba)
@@ -153,7 +172,7 @@ class Caster {
                 sample(static_cast<float>(k + 1), samples[back]);
                 last_done = k;
                 add_step(samples[back ^ 1], samples[back], static_cast<float>(k));
-                if (opaque_ == packet_rays) return finish();
+                if (all_opaque_) return finish();
             }
         }
         finish();
@@ -173,12 +192,17 @@ class Caster {
             const FloatVec clipped =
                 hn::Min(hn::Max(hn::Set(f, t), hn::LoadU(f, rays_.enter + ray)),
                         hn::LoadU(f, rays_.leave + ray));
-            const auto position = [&](const float* start, float step) {
-                return hn::Add(hn::LoadU(f, start + ray), hn::Mul(clipped, hn::Set(f, step)));
+            const auto position = [&](const float* start, const float* step) {
+                return hn::Add(hn::LoadU(f, start + ray),
+                               hn::Mul(clipped, hn::LoadU(f, step + ray)));
             };
-            const Between x = between(position(rays_.x, rays_.step_x), volume_.last_x);
-            const Between y = between(position(rays_.y, rays_.step_y), volume_.last_y);
-            z_of[part] = between(level_of(position(rays_.z, rays_.step_z)), volume_.last_z);
+            const FloatVec px = position(rays_.x, rays_.step_x);
+            const FloatVec py = position(rays_.y, rays_.step_y);
+            FloatVec pz = position(rays_.z, rays_.step_z);
+            if constexpr (curved) pz = hn::Add(pz, drop(px, py));
+            const Between x = between(px, volume_.last_x);
+            const Between y = between(py, volume_.last_y);
+            z_of[part] = between(level_of(pz), volume_.last_z);
             x_weight[part] = x.weight;
             y_weight[part] = y.weight;
             store_addresses(x, y, z_of[part], ray, at);
@@ -192,11 +216,20 @@ class Caster {
         }
         if (no_values(corners)) {
             std::fill(samples.valued, samples.valued + packet_rays, 0.0F);
+            std::fill(samples.bin, samples.bin + packet_rays, 0);
             return;
         }
         for (int part = 0; part < packet_rays / lanes; ++part) {
             mix(corners, part * lanes, x_weight[part], y_weight[part], z_of[part].weight, samples);
         }
+    }
+
+    HWY_INLINE FloatVec drop(FloatVec x, FloatVec y) const {
+        const Floats f;
+        const FloatVec dx = hn::Sub(x, hn::Set(f, volume_.curve->middle_x));
+        const FloatVec dy = hn::Sub(y, hn::Set(f, volume_.curve->middle_y));
+        return hn::Add(hn::Mul(hn::Set(f, volume_.curve->curve_x), hn::Mul(dx, dx)),
+                       hn::Mul(hn::Set(f, volume_.curve->curve_y), hn::Mul(dy, dy)));
     }
 
     HWY_INLINE FloatVec level_of(FloatVec z) const {
@@ -267,41 +300,50 @@ class Caster {
     // The step from slice k to the next; an end without a value takes that of the other.
     HWY_INLINE void add_step(const Samples& front, const Samples& back, float k) {
         const Floats f;
+        HWY_ALIGN float length[packet_rays];
+        bool any = false;
         for (std::size_t part = 0; part < packet_rays; part += hn::Lanes(f)) {
             const FloatVec valued =
                 hn::Add(hn::Load(f, front.valued + part), hn::Load(f, back.valued + part));
             const FloatVec from = hn::Max(hn::Set(f, k), hn::LoadU(f, rays_.enter + part));
             const FloatVec to = hn::Min(hn::Set(f, k + 1), hn::LoadU(f, rays_.leave + part));
-            const auto active =
-                hn::And(hn::And(hn::Gt(valued, hn::Zero(f)), hn::Lt(from, to)),
-                        hn::Ge(hn::LoadU(f, through_ + part), hn::Set(f, opaque_enough)));
-            if (hn::AllFalse(f, active)) continue;
-            HWY_ALIGN float lengths[packet_rays];
-            hn::Store(hn::IfThenElseZero(active, hn::Sub(to, from)), f, lengths);
-            for (std::size_t lane = 0; lane < hn::Lanes(f); ++lane) {
-                if (lengths[lane] > 0) add_ray(front, back, part + lane, lengths[lane]);
-            }
+            const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
+            const FloatVec share = hn::Mul(hn::Set(f, 0.5F), valued);
+            const FloatVec counts =
+                hn::Mul(hn::Mul(inside, share), hn::LoadU(f, rays_.length + part));
+            hn::Store(counts, f, length + part);
+            any = any || !hn::AllFalse(f, hn::Gt(counts, hn::Zero(f)));
         }
+        if (any) add_entries(front, back, length);
     }
 
-    HWY_INLINE void add_ray(const Samples& front, const Samples& back, std::size_t ray,
-                            float length) {
-        const TransferEntry& entry =
-            volume_.transfer->entry(front.valued[ray] > 0 ? front.bin[ray] : back.bin[ray],
-                                    back.valued[ray] > 0 ? back.bin[ray] : front.bin[ray]);
-        if (entry.alpha <= 0) return;
-        float share = through_[ray] * 0.5F * (front.valued[ray] + back.valued[ray]);
-        // Only where the ray enters and leaves the box: the opacity of a part of a step.
-        if (length < 1) {
-            const float alpha = std::min(entry.alpha, largest_alpha);
-            share *= -std::expm1(length * std::log1p(-alpha)) / alpha;
+    HWY_INLINE void add_entries(const Samples& front, const Samples& back, const float* length) {
+        const Floats f;
+        const TransferEntry* entries[packet_rays];
+        HWY_ALIGN float depth[packet_rays];
+        for (int ray = 0; ray < packet_rays; ++ray) {
+            const int one = front.valued[ray] > 0 ? front.bin[ray] : back.bin[ray];
+            const int other = back.valued[ray] > 0 ? back.bin[ray] : front.bin[ray];
+            entries[ray] = &volume_.transfer->entry(one, other);
+            depth[ray] = entries[ray]->depth * length[ray];
         }
-        float* pixel = rgba_ + ray * 4;
-        pixel[0] += share * entry.red;
-        pixel[1] += share * entry.green;
-        pixel[2] += share * entry.blue;
-        through_[ray] -= share * entry.alpha;
-        if (through_[ray] < opaque_enough) ++opaque_;
+        HWY_ALIGN float seen[packet_rays];
+        bool all_opaque = true;
+        for (std::size_t part = 0; part < packet_rays; part += hn::Lanes(f)) {
+            const FloatVec through = hn::Load(f, through_ + part);
+            const FloatVec taken = hn::Mul(through, opacity_of(hn::Load(f, depth + part)));
+            const FloatVec left = hn::Sub(through, taken);
+            hn::Store(taken, f, seen + part);
+            hn::Store(left, f, through_ + part);
+            all_opaque = all_opaque && hn::AllTrue(f, hn::Lt(left, hn::Set(f, opaque_enough)));
+        }
+        all_opaque_ = all_opaque;
+        for (int ray = 0; ray < packet_rays; ++ray) {
+            float* pixel = rgba_ + ray * 4;
+            pixel[0] += seen[ray] * entries[ray]->red;
+            pixel[1] += seen[ray] * entries[ray]->green;
+            pixel[2] += seen[ray] * entries[ray]->blue;
+        }
     }
 
     void finish() {
@@ -312,13 +354,17 @@ class Caster {
     const PacketVolume& volume_;
     const RayPacket& rays_;
     float* rgba_;
-    float through_[packet_rays];
-    int opaque_ = 0;  // rays that have ended
+    HWY_ALIGN float through_[packet_rays];
+    bool all_opaque_ = false;
 };
 
 void cast_one_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
                      std::size_t words, float* rgba) {
-    Caster(volume, rays, rgba).cast(mask, words);
+    if (volume.curve != nullptr) {
+        Caster<true>(volume, rays, rgba).cast(mask, words);
+    } else {
+        Caster<false>(volume, rays, rgba).cast(mask, words);
+    }
 }
 
 }  // namespace stormcellar::render::HWY_NAMESPACE

@@ -17,6 +17,7 @@ namespace stormcellar::render {
 inline constexpr int packet_rays = 8;
 
 // Bricks are addressed in runs: 16 codes along z, the same x, y and brick.
+struct CurvedLevels;
 struct PacketVolume {
     const std::byte* codes = nullptr;
     int code_bytes = 1;
@@ -24,6 +25,7 @@ struct PacketVolume {
     std::int32_t last_x = 0, last_y = 0, last_z = 0;      // cells
     const LevelPosition* levels = nullptr;                // none: z of a ray is a level
     const TransferFunction* transfer = nullptr;
+    const CurvedLevels* curve = nullptr;  // none: the earth is flat
 
     // `levels` and `transfer` must outlive this.
     PacketVolume(const grid::BrickView& view, const LevelPosition& levels,
@@ -32,13 +34,20 @@ struct PacketVolume {
     [[nodiscard]] static bool can_address(const grid::BrickView& view);
 };
 
-// Parallel rays in cell positions: position = start + t * step, t counting slices from the near
-// end. The third axis is a level, or with PacketVolume::levels a height of drawn space. Ray i is
-// inside the box from enter[i] to leave[i]; with enter >= leave it sees nothing.
+// Rays in cell positions: position = start + t * step, t counting slices from the near end. The
+// third axis is a level, or with PacketVolume::levels a height of drawn space; with a curved earth
+// it is lower by curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 than what it stands for.
+// Ray i is inside the box from enter[i] to leave[i]; with enter >= leave it sees nothing.
 struct RayPacket {
     float x[packet_rays], y[packet_rays], z[packet_rays];
+    float step_x[packet_rays], step_y[packet_rays], step_z[packet_rays];
+    float length[packet_rays];  // of a step, in reference steps of the transfer function
     float enter[packet_rays], leave[packet_rays];
-    float step_x, step_y, step_z;
+};
+
+// The earth's curve in cell positions; none: flat.
+struct CurvedLevels {
+    float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
 };
 
 // Red, green, blue (premultiplied) and alpha of each ray. Only steps whose bit is set are sampled.

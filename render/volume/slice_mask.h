@@ -11,6 +11,7 @@
 
 #include "grid/brick_view.h"
 #include "render/view_geometry.h"
+#include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
 
@@ -18,8 +19,9 @@ inline constexpr int tile_edge = 8;  // pixels
 
 class SliceMask {
   public:
+    // The geometry must outlive this.
     SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
-              std::uint32_t first_visible_code);
+              const TransferFunction& transfer);
 
     [[nodiscard]] int tiles_across() const { return tiles_across_; }
     [[nodiscard]] int tiles_down() const { return tiles_down_; }
@@ -34,7 +36,10 @@ class SliceMask {
     struct Box {
         Vec3 low, high;                   // drawn space
         double left, right, top, bottom;  // pixels
+        double tile_half_m;               // half a tile's width where it is farthest
     };
+    void add_brick(const grid::GridSpec& spec, int bx, int by, int bz);
+    void place_in_picture(Box& box) const;
     void mark(const Box& box, int tile_row, int tile, std::uint64_t* words) const;
 
     const ViewGeometry& geometry_;

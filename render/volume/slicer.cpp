@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "render/volume/level_position.h"
@@ -13,6 +14,40 @@ namespace stormcellar::render {
 namespace {
 
 static_assert(tile_edge == packet_rays, "a packet is a row of a tile");
+
+// The part of a ray, in steps, that is inside the box.
+struct Stretch {
+    double first = 0, last = 0;
+
+    // Keeps where c t^2 + b t + a <= 0; c >= 0.
+    void keep_below(double a, double b, double c) {
+        if (c > 0) {
+            const double inside = b * b - 4 * a * c;
+            if (!(inside > 0)) return empty();
+            const double q = -0.5 * (b + std::copysign(std::sqrt(inside), b));
+            const double one = q / c;
+            const double other = q == 0 ? 0 : a / q;
+            return keep(std::min(one, other), std::max(one, other));
+        }
+        if (b == 0) return a > 0 ? empty() : void();
+        b > 0 ? keep(first, -a / b) : keep(-a / b, last);
+    }
+    // Keeps the first stretch where c t^2 + b t + a >= 0; c >= 0.
+    void keep_above(double a, double b, double c) {
+        Stretch below = *this;
+        below.keep_below(a, b, c);
+        if (!(below.first < below.last)) {
+            if (a + first * (b + first * c) < 0) empty();
+            return;
+        }
+        below.first > first ? keep(first, below.first) : keep(below.last, last);
+    }
+    void keep(double from, double to) {
+        first = std::max(first, from);
+        last = std::min(last, to);
+    }
+    void empty() { last = first - 1; }
+};
 
 // Turns pixels into rays in cell positions, clipped to the box of the cells.
 class RayMaker {
@@ -27,47 +62,55 @@ class RayMaker {
           first_x_m_(spec.x_from_middle_m(0)),
           first_y_m_(spec.y_from_middle_m(0)),
           z_slope_(levels.is_uniform() ? levels.slope() : 1),
-          z_offset_(levels.is_uniform() ? levels.offset() : 0),
-          low_{-geometry.half_x_m(), -geometry.half_y_m(),
-               geometry.bottom_m() * geometry.exaggeration()},
-          high_{geometry.half_x_m(), geometry.half_y_m(),
-                geometry.top_m() * geometry.exaggeration()} {}
+          z_offset_(levels.is_uniform() ? levels.offset() : 0) {}
 
     // The rays of 8 pixels side by side; those beyond `width` see nothing.
     [[nodiscard]] RayPacket packet(int left, int y, int width) const {
         RayPacket rays{};
-        const Vec3& forward = geometry_.forward();
-        rays.step_x = static_cast<float>(forward[0] * step_m_ / width_m_);
-        rays.step_y = static_cast<float>(forward[1] * step_m_ / height_m_);
-        rays.step_z = static_cast<float>(forward[2] * step_m_ * z_slope_);
         for (int i = 0; i < packet_rays; ++i) {
-            const Vec3 start = geometry_.point({left + i + 0.5, y + 0.5}, geometry_.near_m());
+            const Pixel pixel = {left + i + 0.5, y + 0.5};
+            const Vec3 start = geometry_.point(pixel, geometry_.near_m());
+            const Vec3 along = geometry_.along(pixel);
+            rays.step_x[i] = static_cast<float>(along[0] * step_m_ / width_m_);
+            rays.step_y[i] = static_cast<float>(along[1] * step_m_ / height_m_);
+            rays.step_z[i] = static_cast<float>(along[2] * step_m_ * z_slope_);
             rays.x[i] = static_cast<float>((start[0] - first_x_m_) / width_m_);
             rays.y[i] = static_cast<float>((start[1] - first_y_m_) / height_m_);
             rays.z[i] = static_cast<float>(z_offset_ + start[2] * z_slope_);
-            if (left + i < width) clip(start, rays.enter[i], rays.leave[i]);
+            rays.length[i] = static_cast<float>(std::hypot(along[0], along[1], along[2]));
+            if (left + i < width) clip(start, along, rays.enter[i], rays.leave[i]);
         }
         return rays;
     }
 
+    // None where the earth is drawn flat.
+    [[nodiscard]] std::optional<CurvedLevels> curve() const {
+        if (geometry_.drop_per_m2() == 0) return std::nullopt;
+        const double factor = geometry_.drop_per_m2() * geometry_.exaggeration() * z_slope_;
+        return CurvedLevels{static_cast<float>(factor * width_m_ * width_m_),
+                            static_cast<float>(factor * height_m_ * height_m_),
+                            static_cast<float>(-first_x_m_ / width_m_),
+                            static_cast<float>(-first_y_m_ / height_m_)};
+    }
+
   private:
-    void clip(const Vec3& start, float& enter, float& leave) const {
-        double first = 0;
-        double last = slices_;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double along = geometry_.forward()[axis] * step_m_;
-            if (along == 0) {
-                if (start[axis] < low_[axis] || start[axis] > high_[axis]) last = -1;
-                continue;
-            }
-            const double a = (low_[axis] - start[axis]) / along;
-            const double b = (high_[axis] - start[axis]) / along;
-            first = std::max(first, std::min(a, b));
-            last = std::min(last, std::max(a, b));
-        }
-        if (!(first < last)) return;
-        enter = static_cast<float>(first);
-        leave = static_cast<float>(last);
+    void clip(const Vec3& start, const Vec3& along, float& enter, float& leave) const {
+        const Vec3 step = {along[0] * step_m_, along[1] * step_m_, along[2] * step_m_};
+        Stretch inside{0, static_cast<double>(slices_)};
+        inside.keep_below(start[0] - geometry_.half_x_m(), step[0], 0);
+        inside.keep_below(-start[0] - geometry_.half_x_m(), -step[0], 0);
+        inside.keep_below(start[1] - geometry_.half_y_m(), step[1], 0);
+        inside.keep_below(-start[1] - geometry_.half_y_m(), -step[1], 0);
+        // Heights above the curved sea level are a polynomial of the step.
+        const double curve = geometry_.drop_per_m2() * geometry_.exaggeration();
+        const double a = start[2] + curve * (start[0] * start[0] + start[1] * start[1]);
+        const double b = step[2] + 2 * curve * (start[0] * step[0] + start[1] * step[1]);
+        const double c = curve * (step[0] * step[0] + step[1] * step[1]);
+        inside.keep_below(a - geometry_.top_m() * geometry_.exaggeration(), b, c);
+        inside.keep_above(a - geometry_.bottom_m() * geometry_.exaggeration(), b, c);
+        if (!(inside.first < inside.last)) return;
+        enter = static_cast<float>(inside.first);
+        leave = static_cast<float>(inside.last);
     }
 
     const ViewGeometry& geometry_;
@@ -75,7 +118,6 @@ class RayMaker {
     double step_m_;
     double width_m_, height_m_, first_x_m_, first_y_m_;
     double z_slope_, z_offset_;
-    Vec3 low_, high_;
 };
 
 void cast_tile(const PacketVolume& volume, const RayMaker& maker, int tile, int tile_row,
@@ -113,17 +155,23 @@ std::uint8_t mixed(float front, float through, std::uint8_t back) {
 
 }  // namespace
 
-Layer slice_volume(const grid::BrickView& view, const ColourTable& table,
-                   const ViewGeometry& geometry, int slices, double opacity, int threads) {
-    Layer layer{geometry.width(), geometry.height(), {}};
+VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
+                           const ViewGeometry& geometry, const VolumeOptions& options)
+    : geometry_(geometry),
+      options_(options),
+      transfer_(table, quantization, options.opacity,
+                (geometry.far_m() - geometry.near_m()) / options.slices, options.integration) {}
+
+Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
+    Layer layer{geometry_.width(), geometry_.height(), {}};
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    const double step_m = (geometry.far_m() - geometry.near_m()) / slices;
-    const TransferFunction transfer(table, view.quantization, opacity, step_m);
-    const LevelPosition levels(*view.spec, geometry.exaggeration());
-    const PacketVolume volume(view, levels, transfer);
-    const RayMaker maker(*view.spec, geometry, levels, slices);
-    const SliceMask mask(view, geometry, slices, transfer.first_visible_code());
+    const LevelPosition levels(*view.spec, geometry_.exaggeration());
+    const RayMaker maker(*view.spec, geometry_, levels, options_.slices);
+    const auto curve = maker.curve();
+    PacketVolume volume(view, levels, transfer_);
+    if (curve) volume.curve = &*curve;
+    const SliceMask mask(view, geometry_, options_.slices, transfer_);
     for_each_piece(mask.tiles_down(), threads,
                    [&](int tile_row) { cast_band(volume, maker, mask, tile_row, layer); });
     return layer;

@@ -7,13 +7,14 @@
 //            tapers to nothing over one cell towards cells without a value, whatever their state,
 //            and no state ever lends a colour. Half a cell beyond the outermost cell centres the
 //            value is that of the cell.
-//   step     the TransferFunction's entry for the values at its two ends, times the mean of their
-//            shares; where the box cuts a step, its opacity is corrected to the part inside. An end
-//            without any value takes that of the other end. Colours mix in sRGB, as drawn.
-//   skipped  stretches of a ray in bricks whose largest value is clear (exact), and what lies
+//   step     the TransferFunction's entry for the values at its two ends; its optical depth is
+//            multiplied by the mean of their shares and by the length of the ray's way through it,
+//            where the box cuts the step too. An end without any value takes that of the other.
+//            Colours mix in sRGB, as drawn.
+//   skipped  stretches of a ray in bricks whose range of values is clear (exact), and what lies
 //            behind an opacity of 0.999 (changes no channel by more than 0.26 of 255).
-// Accuracy: first order in the step; tests compare with a slow ray marcher in double precision.
-// The same bits for any number of threads.
+// Accuracy: docs/rendering.md has the measured order of convergence of each Integration; the
+// oracle is render/volume/reference_marcher.h. The same bits for any number of threads.
 #pragma once
 
 #include <vector>
@@ -22,6 +23,7 @@
 #include "render/colour/colour_table.h"
 #include "render/image.h"
 #include "render/view_geometry.h"
+#include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
 
@@ -31,10 +33,28 @@ struct Layer {
     std::vector<float> rgba;
 };
 
-// `slices` at least 1, opacity > 0.
-[[nodiscard]] Layer slice_volume(const grid::BrickView& view, const ColourTable& table,
-                                 const ViewGeometry& geometry, int slices, double opacity,
-                                 int threads);
+struct VolumeOptions {
+    int slices = 256;  // at least 1
+    Integration integration = Integration::second_order;
+    double opacity = 1;  // scales the table's extinction; above 0
+};
+
+// Draws grids of one quantisation in one view: what they share is made once.
+// Thread contract: immutable; draw() may run on many threads.
+class VolumeSlicer {
+  public:
+    // The geometry must outlive this.
+    VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
+                 const ViewGeometry& geometry, const VolumeOptions& options);
+
+    // Of the geometry's grid.
+    [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
+
+  private:
+    const ViewGeometry& geometry_;
+    VolumeOptions options_;
+    TransferFunction transfer_;
+};
 
 // layer over background, which is opaque and has the same size at (left, top) of the image.
 void composite_over(const Layer& layer, Image& background, int left, int top);

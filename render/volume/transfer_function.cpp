@@ -6,72 +6,158 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double class_slack = 1.0 / 64;  // bins
+constexpr double bin_slack = 1.0 / 64;  // bins
+constexpr auto bins = static_cast<std::size_t>(TransferFunction::bin_count);
 
-// Running sums over the bins of extinction, and of extinction times colour.
-struct Sums {
-    double extinction = 0;
-    std::array<double, 3> colour{};
+// What each bin looks like: optical depth of the reference step, and colour.
+struct Bins {
+    std::array<double, bins> depth{};
+    std::array<std::array<double, bins>, 3> colour{};
 };
 
-std::vector<Sums> sums_of(const ColourTable& table, double opacity) {
-    std::vector<Sums> sums(TransferFunction::bin_count + 1);
-    for (std::size_t i = 0; i < TransferFunction::bin_count; ++i) {
-        const double dbz =
-            TransferFunction::first_bin_dbz + TransferFunction::bin_dbz * static_cast<double>(i);
-        const double extinction = extinction_per_m(table, dbz, opacity);
-        const Rgba8 colour = colour_of(table, static_cast<float>(dbz)).value_or(Rgba8{0, 0, 0, 0});
-        sums[i + 1] = sums[i];
-        sums[i + 1].extinction += extinction;
-        for (std::size_t c = 0; c < 3; ++c)
-            sums[i + 1].colour[c] += extinction * colour[c] / 255;
-    }
-    return sums;
+using Entries = std::vector<TransferEntry>;
+
+TransferEntry entry_of(double red, double green, double blue, double depth) {
+    return {static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue),
+            static_cast<float>(depth)};
 }
 
-// The bins from `low` up to and with `high`, each for the same share of the step.
-TransferEntry entry_of(const std::vector<Sums>& sums, std::size_t low, std::size_t high,
-                       double step_m) {
-    const double bins = static_cast<double>(high - low + 1);
-    const double extinction = sums[high + 1].extinction - sums[low].extinction;
-    if (extinction <= 0) return {};
-    const double alpha = -std::expm1(-extinction / bins * step_m);
-    const auto colour = [&](std::size_t c) {
-        return static_cast<float>(alpha * (sums[high + 1].colour[c] - sums[low].colour[c]) /
-                                  extinction);
-    };
-    return {colour(0), colour(1), colour(2), static_cast<float>(alpha)};
+void fill_riemann(const Bins& look, Entries& entries) {
+    for (std::size_t i = 0; i < bins; ++i) {
+        const auto entry =
+            entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
+        std::fill_n(entries.begin() + static_cast<std::ptrdiff_t>(i * bins), bins, entry);
+    }
+}
+
+// Sums over the bins: whole ones between the ends, half of each end.
+void fill_first_order(const Bins& look, Entries& entries) {
+    for (std::size_t i = 0; i < bins; ++i) {
+        double depth = 0;
+        std::array<double, 3> colour{};
+        const auto add = [&](std::size_t bin, double share) {
+            depth += share * look.depth[bin];
+            for (std::size_t c = 0; c < 3; ++c)
+                colour[c] += share * look.depth[bin] * look.colour[c][bin];
+        };
+        add(i, 1);
+        for (std::size_t j = i; j < bins; ++j) {
+            if (j == i + 1) {  // from one whole bin to two halves
+                add(i, -0.5);
+                add(j, 0.5);
+            } else if (j > i + 1) {
+                add(j - 1, 0.5);
+                add(j, 0.5);
+            }
+            if (depth <= 0) continue;
+            const double length = j == i ? 1 : static_cast<double>(j - i);
+            const TransferEntry entry =
+                entry_of(colour[0] / depth, colour[1] / depth, colour[2] / depth, depth / length);
+            entries[i * bins + j] = entry;
+            entries[j * bins + i] = entry;
+        }
+    }
+}
+
+// All steps over `distance` bins at once: front to back through half a bin, whole ones, and half a
+// bin again, each of its share of the step. `rising`: the nearer end has the lower bin.
+void integrate_steps(const Bins& look, std::size_t distance, bool rising, Entries& entries) {
+    const double piece = 1.0 / static_cast<double>(distance);
+    std::array<double, bins> opacity{}, half_opacity{};
+    for (std::size_t i = 0; i < bins; ++i) {
+        half_opacity[i] = -std::expm1(-0.5 * piece * look.depth[i]);
+        opacity[i] = -std::expm1(-piece * look.depth[i]);
+    }
+    const std::size_t count = bins - distance;
+    std::array<double, bins> through{}, depth{};
+    std::array<std::array<double, bins>, 3> colour{};
+    through.fill(1);
+    for (std::size_t m = 0; m <= distance; ++m) {
+        const std::size_t at = rising ? m : distance - m;  // from the lower of the two bins
+        const bool is_end = m == 0 || m == distance;
+        const auto& alpha = is_end ? half_opacity : opacity;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double seen = through[i] * alpha[i + at];
+            for (std::size_t c = 0; c < 3; ++c)
+                colour[c][i] += seen * look.colour[c][i + at];
+            through[i] -= seen;
+            depth[i] += (is_end ? 0.5 : 1.0) * look.depth[i + at];
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double seen = 1 - through[i];
+        if (!(seen > 0)) continue;
+        const std::size_t place = rising ? i * bins + i + distance : (i + distance) * bins + i;
+        entries[place] = entry_of(colour[0][i] / seen, colour[1][i] / seen, colour[2][i] / seen,
+                                  depth[i] * piece);
+    }
+}
+
+void fill_second_order(const Bins& look, Entries& entries) {
+    for (std::size_t i = 0; i < bins; ++i) {
+        if (look.depth[i] <= 0) continue;
+        entries[i * bins + i] =
+            entry_of(look.colour[0][i], look.colour[1][i], look.colour[2][i], look.depth[i]);
+    }
+    for (std::size_t distance = 1; distance < bins; ++distance) {
+        integrate_steps(look, distance, true, entries);
+        integrate_steps(look, distance, false, entries);
+    }
 }
 
 }  // namespace
 
-TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
-                                   double opacity, double step_m)
-    : entries_(static_cast<std::size_t>(bin_count) * bin_count) {
-    const double step = static_cast<double>(quantization.step);
-    const double code_zero_dbz =
-        static_cast<double>(quantization.first_value) - step * grid::first_value_code;
-    bin_slope_ = static_cast<float>(step / bin_dbz);
-    bin_offset_ = static_cast<float>((code_zero_dbz - first_bin_dbz) / bin_dbz + class_slack);
+std::string_view integration_name(Integration integration) {
+    switch (integration) {
+        case Integration::riemann:
+            return "riemann";
+        case Integration::first_order:
+            return "pre-integrated";
+        case Integration::second_order:
+            break;
+    }
+    return "pre-integrated-2";
+}
 
-    const std::vector<Sums> sums = sums_of(table, opacity);
-    std::size_t first_visible_bin = 0;
-    while (first_visible_bin < bin_count && sums[first_visible_bin + 1].extinction <= 0) {
-        ++first_visible_bin;
+// A stop's bin begins at the stop where a whole number of bins fits between any two.
+void TransferFunction::choose_bins(const ColourTable& table) {
+    const auto& stops = table.stops;
+    lowest_ = static_cast<double>(std::max(table.lowest(), table.extinction.front().value));
+    const auto highest =
+        static_cast<double>(std::max(stops.back().from, table.extinction.back().value));
+    const double range = std::max(highest - lowest_, 1e-6);
+    double gap = range;
+    for (std::size_t i = 1; i < stops.size(); ++i)
+        gap = std::min(gap, static_cast<double>(stops[i].from - stops[i - 1].from));
+    // One bin for what is clear below, one for what begins at the highest value.
+    const double finest = range / (bin_count - 2);
+    const double bins_a_gap = std::floor(gap / finest * (1 + 1e-9));
+    bin_width_ = bins_a_gap >= 1 ? gap / bins_a_gap : finest;
+}
+
+TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
+                                   double opacity, double step_m, Integration integration)
+    : entries_(bins * bins), visible_below_(bins + 1) {
+    choose_bins(table);
+    const auto step = static_cast<double>(quantization.step);
+    const double code_zero =
+        static_cast<double>(quantization.first_value) - step * grid::first_value_code;
+    bin_slope_ = static_cast<float>(step / bin_width_);
+    bin_offset_ = static_cast<float>((code_zero - lowest_) / bin_width_ + 1 + bin_slack);
+
+    Bins look;
+    for (int i = 1; i < bin_count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        look.depth[at] = extinction_per_m(table, value_of(i), opacity) * step_m;
+        const auto colour = colour_of(table, static_cast<float>(value_of(i)));
+        for (std::size_t c = 0; c < 3 && colour; ++c)
+            look.colour[c][at] = (*colour)[c] / 255.0;
     }
-    for (std::size_t high = first_visible_bin; high < bin_count; ++high) {
-        for (std::size_t low = 0; low <= high; ++low) {
-            const TransferEntry entry = entry_of(sums, low, high, step_m);
-            entries_[low * bin_count + high] = entry;
-            entries_[high * bin_count + low] = entry;
-        }
-    }
-    const std::uint32_t past = std::uint32_t{quantization.largest_code()} + 1;
-    first_visible_code_ = grid::first_value_code;
-    while (first_visible_code_ < past &&
-           bin(static_cast<float>(first_visible_code_)) < static_cast<int>(first_visible_bin)) {
-        ++first_visible_code_;
-    }
+    for (std::size_t i = 0; i < bins; ++i)
+        visible_below_[i + 1] = visible_below_[i] + (look.depth[i] > 0 ? 1 : 0);
+    if (integration == Integration::riemann) fill_riemann(look, entries_);
+    if (integration == Integration::first_order) fill_first_order(look, entries_);
+    if (integration == Integration::second_order) fill_second_order(look, entries_);
 }
 
 }  // namespace stormcellar::render

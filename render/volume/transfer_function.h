@@ -1,18 +1,24 @@
 // render/volume/transfer_function.h -- a colour table made ready for steps through a volume.
 //
-// A path of length s through an extinction k (ColourTable::extinction) has the opacity
-// 1 - exp(-k s); in terms of the opacity a of a reference step ds0 that is 1 - (1 - a)^(s / ds0).
-// Lengths are those of the drawn scene, with heights exaggerated.
+// A path of length s through an extinction k (ColourTable::extinction) has the optical depth k s
+// and the opacity 1 - exp(-k s). Lengths are those of the drawn scene, with heights exaggerated.
 //
-// The table holds, for each pair of values at the two ends of a step, the colour and opacity of
-// all values between them, so that a step that crosses a class shows each class for its share.
-// What a step's near part hides of its far part is left out: first order in the step.
+// Values are sorted into bins: all of a bin look like its middle. Bin 0 is clear: what lies below
+// the table or its first extinction. The others are equally wide, so wide that the last holds the
+// table's highest stop, and where that is possible so that each stop begins a bin. For each pair of
+// bins at the two ends of a step the table holds what the step looks like from its first end:
+//   riemann       of the first end's value alone. First order in the step
+//   first_order   of all values between the two, mixed by their extinction: what the near part of
+//                 the step hides of its far part is left out. First order, with a small factor
+//   second_order  of all values between, in their order: the integral over a straight change from
+//                 one end to the other (Engel, Kraus, Ertl 2001). Second order
 // Thread contract: immutable.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "grid/brick_view.h"
@@ -20,23 +26,24 @@
 
 namespace stormcellar::render {
 
-// Colours are premultiplied by alpha.
+enum class Integration { riemann, first_order, second_order };
+// "riemann", "pre-integrated", "pre-integrated-2".
+[[nodiscard]] std::string_view integration_name(Integration integration);
+
+// What a step of the reference length looks like where its whole width holds values. A step of
+// another length, or of another share, has the same colour and that multiple of the depth.
 struct TransferEntry {
-    float red = 0, green = 0, blue = 0;  // 0..1
-    float alpha = 0;                     // 0..1
+    float red = 0, green = 0, blue = 0;  // 0..1, not premultiplied
+    float depth = 0;                     // optical depth
 };
 
 class TransferFunction {
   public:
-    // Values are sorted into bins of half a decibel, whose lower ends include those of the classes;
-    // all values of a bin look like its lower end.
     static constexpr int bin_count = 256;
-    static constexpr double first_bin_dbz = -32;
-    static constexpr double bin_dbz = 0.5;
 
     // For steps of `step_m` in the drawn scene.
     TransferFunction(const ColourTable& table, const grid::Quantization& quantization,
-                     double opacity, double step_m);
+                     double opacity, double step_m, Integration integration);
 
     // The bin of a code, which may be broken (the mean of several), is the whole part of
     // bin_offset + bin_slope * code, bounded. It is never below the right one by rounding: values
@@ -47,18 +54,28 @@ class TransferFunction {
         return static_cast<int>(
             std::clamp(bin_offset_ + bin_slope_ * code, 0.0F, bin_count - 1.0F));
     }
-    // A step with these bins at its ends; the order does not matter.
+    // The value that a bin looks like; of bin 0 none.
+    [[nodiscard]] double value_of(int bin) const { return lowest_ + (bin - 0.5) * bin_width_; }
+    [[nodiscard]] double bin_width() const { return bin_width_; }
+    // A step from one bin to another, the nearer first.
     [[nodiscard]] const TransferEntry& entry(int bin, int other_bin) const {
         return entries_[static_cast<std::size_t>(bin) * bin_count +
                         static_cast<std::size_t>(other_bin)];
     }
-    // Codes below this one are clear. One more than the largest when all are.
-    [[nodiscard]] std::uint32_t first_visible_code() const { return first_visible_code_; }
+    // Whether any value between those of two codes, both included, is not clear.
+    [[nodiscard]] bool shows(std::uint16_t least_code, std::uint16_t largest_code) const {
+        const auto first = static_cast<std::size_t>(bin(least_code));
+        const auto last = static_cast<std::size_t>(bin(largest_code));
+        return visible_below_[last + 1] > visible_below_[first];
+    }
 
   private:
-    std::vector<TransferEntry> entries_;
+    void choose_bins(const ColourTable& table);
+
+    double lowest_ = 0, bin_width_ = 1;
     float bin_offset_ = 0, bin_slope_ = 0;
-    std::uint32_t first_visible_code_ = 0;
+    std::vector<TransferEntry> entries_;
+    std::vector<int> visible_below_;  // how many bins below this one are not clear
 };
 
 }  // namespace stormcellar::render

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "tests/render/reference_marcher.h"
+#include "render/volume/reference_marcher.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {
@@ -22,20 +22,29 @@ std::array<double, 4> pixel_of(const Layer& layer, int x, int y) {
             static_cast<double>(layer.rgba[at + 2]), static_cast<double>(layer.rgba[at + 3])};
 }
 
+Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slices, double opacity,
+            int threads, Integration integration = Integration::second_order) {
+    return VolumeSlicer(nws_reflectivity(), view.quantization, geometry,
+                        {slices, integration, opacity})
+        .draw(view, threads);
+}
+
 // Closed form: a slab of one value, H high, seen at tilt t has the opacity 1 - exp(-k H e / cos t)
-// wherever a ray crosses it from top to bottom.
+// wherever a ray crosses it from top to bottom. Its value is the middle of a bin.
 TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     const grid::GridSpec spec = small_spec(200, 16);
-    const auto bricks = bricks_of(make_grid_of(spec, [](int, int, int) { return valued(42.0); }));
+    constexpr double dbz = 41.875 + 0.5 * 0.3125;
+    const grid::Quantization exact{1, dbz, 1};
+    const auto bricks =
+        grid::BrickGrid::from(make_grid_of(spec, [](int, int, int) { return valued(dbz); }), exact);
     for (const double tilt : {0.0, 20.0, 40.0}) {
         for (const int slices : {8, 64, 1000}) {
             for (const double opacity : {0.03, 0.4}) {
                 const ViewGeometry geometry(spec, {200, tilt, 1}, 2, 90, 70);
-                const Layer layer =
-                    slice_volume(bricks.view(), nws_reflectivity(), geometry, slices, opacity, 1);
+                const Layer layer = slice(bricks.view(), geometry, slices, opacity, 1);
                 const double path_m = 16 * 500 * 2 / std::cos(tilt / 57.29577951308232);
                 const double alpha =
-                    1 - std::exp(-extinction_per_m(nws_reflectivity(), 42, opacity) * path_m);
+                    1 - std::exp(-extinction_per_m(nws_reflectivity(), dbz, opacity) * path_m);
                 const auto colour = pixel_of(layer, 45, 35);
                 EXPECT_NEAR(colour[3], alpha, 2e-5) << tilt << " " << slices;
                 EXPECT_NEAR(colour[0] / colour[3], 0xE5 / 255.0, 1e-4);
@@ -60,8 +69,7 @@ void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
         for (const Camera& camera : {Camera{180, 55, 1}, Camera{180, 0, 1}, Camera{90, 60, 1},
                                      Camera{0, 30, 1}, Camera{315, 80, 1}, Camera{37, 90, 1}}) {
             const ViewGeometry geometry(spec, camera, 3, 300, 260);
-            const Layer layer =
-                slice_volume(bricks.view(), nws_reflectivity(), geometry, 400, 0.2, 1);
+            const Layer layer = slice(bricks.view(), geometry, 400, 0.2, 1);
             double sum = 0;
             double x = 0;
             double y = 0;
@@ -98,11 +106,12 @@ struct Difference {
 // The slicer against the reference at every few pixels.
 Difference against_reference(const grid::BrickView& view, const ViewGeometry& geometry,
                              const Layer& layer, int steps, double opacity) {
+    const ReferenceMarcher reference(view, nws_reflectivity(), geometry, opacity);
     Difference difference;
     int count = 0;
     for (int y = 3; y < layer.height; y += 11) {
         for (int x = 3; x < layer.width; x += 11) {
-            const auto slow = reference_ray(view, geometry, {x + 0.5, y + 0.5}, steps, opacity);
+            const auto slow = reference.ray({x + 0.5, y + 0.5}, steps);
             const auto fast = pixel_of(layer, x, y);
             for (std::size_t c = 0; c < 4; ++c) {
                 const double off = std::abs(slow[c] - fast[c]);
@@ -128,8 +137,7 @@ TEST(Slicer, AgreesWithTheReferenceMarcherOnAStorm) {
             const auto bricks = bricks_of(grid, code_bytes);
             for (const Camera& camera : {Camera{180, 55, 1}, Camera{130, 80, 1.5}}) {
                 const ViewGeometry geometry(spec, camera, 8, 200, 150);
-                const Layer layer =
-                    slice_volume(bricks.view(), nws_reflectivity(), geometry, 1024, 1, 2);
+                const Layer layer = slice(bricks.view(), geometry, 1024, 1, 2);
                 const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 1);
                 EXPECT_LT(difference.rms, 0.002);
                 EXPECT_LT(difference.worst, 0.03);
@@ -144,7 +152,7 @@ TEST(Slicer, MoreSlicesComeNearerToTheReference) {
     const ViewGeometry geometry(spec, {180, 55, 1}, 8, 200, 150);
     double previous = 1;
     for (const int slices : {32, 128, 512}) {
-        const Layer layer = slice_volume(bricks.view(), nws_reflectivity(), geometry, slices, 1, 2);
+        const Layer layer = slice(bricks.view(), geometry, slices, 1, 2);
         const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 1);
         EXPECT_LT(difference.rms, previous / 2) << slices;
         previous = difference.rms;
@@ -167,7 +175,7 @@ TEST(Slicer, SkippingEmptyBricksChangesNothing) {
     for (const Camera& camera : {Camera{180, 0, 1}, Camera{90, 90, 1}, Camera{180, 55, 1},
                                  Camera{222, 71, 0.8}, Camera{10, 33, 6}}) {
         const ViewGeometry geometry(spec, camera, 4, 160, 120);
-        const Layer layer = slice_volume(bricks.view(), nws_reflectivity(), geometry, 2048, 0.5, 2);
+        const Layer layer = slice(bricks.view(), geometry, 2048, 0.5, 2);
         const auto difference = against_reference(bricks.view(), geometry, layer, 4096, 0.5);
         EXPECT_LT(difference.rms, 0.004) << camera.azimuth_deg;
         EXPECT_LT(difference.worst, 0.06) << camera.azimuth_deg;
@@ -182,8 +190,8 @@ TEST(Slicer, NothingIsDrawnForCellsWithoutAValue) {
         const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int, int) -> Cell {
             return ix % 16 == 0 ? valued(0) : Cell{status, 0};
         }));
-        const Layer layer = slice_volume(bricks.view(), nws_reflectivity(),
-                                         ViewGeometry(spec, {180, 45, 1}, 8, 64, 48), 64, 1, 1);
+        const Layer layer =
+            slice(bricks.view(), ViewGeometry(spec, {180, 45, 1}, 8, 64, 48), 64, 1, 1);
         for (const float channel : layer.rgba)
             ASSERT_EQ(channel, 0);
     }
@@ -197,8 +205,8 @@ TEST(Slicer, EdgesFadeInTheEchosOwnColour) {
         const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int, int) -> Cell {
             return ix < 20 ? valued(52) : Cell{status, 0};
         }));
-        const Layer layer = slice_volume(bricks.view(), nws_reflectivity(),
-                                         ViewGeometry(spec, {180, 0, 1}, 1, 400, 400), 64, 0.3, 1);
+        const Layer layer =
+            slice(bricks.view(), ViewGeometry(spec, {180, 0, 1}, 1, 400, 400), 64, 0.3, 1);
         double previous = 1;
         int fading = 0;
         for (int x = 190; x < 215; ++x) {
@@ -220,10 +228,9 @@ TEST(Slicer, TheSameBitsForAnyNumberOfThreads) {
     const grid::GridSpec spec = small_spec(100, 32, 4000, 500);
     const auto bricks = bricks_of(storm_grid(spec));
     const ViewGeometry geometry(spec, {163, 48, 1.3}, 8, 333, 222);
-    const Layer one = slice_volume(bricks.view(), nws_reflectivity(), geometry, 200, 1, 1);
+    const Layer one = slice(bricks.view(), geometry, 200, 1, 1);
     for (const int threads : {2, 3, 8}) {
-        EXPECT_EQ(slice_volume(bricks.view(), nws_reflectivity(), geometry, 200, 1, threads).rgba,
-                  one.rgba);
+        EXPECT_EQ(slice(bricks.view(), geometry, 200, 1, threads).rgba, one.rgba);
     }
 }
 
@@ -231,10 +238,10 @@ TEST(Slicer, TheSameBitsForEverySimdTarget) {
     const grid::GridSpec spec = small_spec(100, 32, 4000, 500);
     const auto bricks = bricks_of(storm_grid(spec));
     const ViewGeometry geometry(spec, {163, 48, 1.3}, 8, 333, 222);
-    const Layer best = slice_volume(bricks.view(), nws_reflectivity(), geometry, 200, 1, 1);
+    const Layer best = slice(bricks.view(), geometry, 200, 1, 1);
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
-        const Layer layer = slice_volume(bricks.view(), nws_reflectivity(), geometry, 200, 1, 1);
+        const Layer layer = slice(bricks.view(), geometry, 200, 1, 1);
         hwy::SetSupportedTargetsForTest(0);
         EXPECT_EQ(layer.rgba, best.rgba) << hwy::TargetName(target);
     }
