@@ -5,6 +5,8 @@
 #include "render/map/map_lines.h"
 #include "render/products/column_summary.h"
 #include "render/products/ground.h"
+#include "render/products/product.h"
+#include "render/products/section.h"
 #include "render/shades.h"
 #include "render/volume/slicer.h"
 
@@ -14,16 +16,16 @@ namespace {
 Status check(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
     if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "no grid to draw");
     if (auto valid = grid::validate(*view.spec); !valid) return valid;
-    if (facts.moment != level2::Moment::ref) {
-        return fail(ErrorCode::unsupported, "only reflectivity (REF) can be drawn, not {}",
-                    level2::moment_name(facts.moment));
+    if (facts.moment != scene.moment) {
+        return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
+                    level2::moment_name(facts.moment), level2::moment_name(scene.moment));
     }
     return validate(scene);
 }
 
 // A map is the view straight down with north up.
 ViewGeometry geometry_of(const grid::GridSpec& spec, const Scene& scene, int width, int height) {
-    if (scene.product == Product::composite) {
+    if (is_map(scene.product)) {
         return {spec, Camera{180, 0, scene.camera.zoom}, 1, width, height};
     }
     return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
@@ -37,25 +39,42 @@ struct Frame {
 };
 
 // The picture with its lines, without the labels round it.
-Image draw_picture(const grid::BrickView& view, const Scene& scene, const ViewGeometry& geometry,
-                   const Frame& frame, int threads) {
+Result<Image> draw_picture(const grid::BrickView& view, const Scene& scene,
+                           const ViewGeometry& geometry, const Frame& frame, int threads) {
     const auto columns = summarize_columns(view, threads);
     const double scale = frame.layout.scale;
     const bool volume = scene.product == Product::volume;
-    const Image base =
-        volume ? paint_ground(*view.spec, columns, geometry, scale, threads)
-               : paint_composite(view, nws_reflectivity(), columns, geometry, scale, threads);
+    const ColourTable& colours = colours_of(scene);
+    Image base;
+    if (volume) {
+        base = paint_ground(*view.spec, columns, geometry, scale, threads);
+    } else {
+        const auto field = map_field(view, scene, columns, threads);
+        if (!field) return pass_on(field);
+        base = paint_field(*view.spec, *field, colours, geometry, scale, threads);
+    }
     Canvas canvas(base);
     draw_border(canvas, frame.lines);
     if (scene.labels) draw_rings(canvas, frame.fonts, frame.lines);
     Image picture = canvas.image();
     if (volume) {
-        const VolumeSlicer slicer(nws_reflectivity(), view.quantization, geometry,
+        const VolumeSlicer slicer(colours, view.quantization, geometry,
                                   {scene.slices, Integration::second_order, scene.opacity});
         const Layer layer = slicer.draw(view, threads);
         composite_over(layer, picture, 0, 0);
     }
     return picture;
+}
+
+Image draw_section_picture(const grid::BrickView& view, const Scene& scene, const Frame& frame,
+                           int threads) {
+    const LabelLayout& layout = frame.layout;
+    const SectionPlace place =
+        section_place(layout.width, layout.height, layout.scale, scene.labels);
+    const Section section =
+        cut_section(view, scene.moment, *scene.section, place.width, place.height, threads);
+    return draw_section(section, colours_of(scene), place, layout.width, layout.height,
+                        layout.scale, scene.labels ? &frame.fonts : nullptr);
 }
 
 }  // namespace
@@ -80,17 +99,19 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     frame.lines.geometry = &geometry;
     frame.lines.spec = view.spec;
     frame.lines.sites = &facts.sites;
-    frame.lines.camera = scene.product == Product::composite ? Camera{180, 0, 1} : scene.camera;
+    frame.lines.camera = is_map(scene.product) ? Camera{180, 0, 1} : scene.camera;
     frame.lines.heights = scene.product == Product::volume;
     frame.lines.scale = frame.layout.scale;
 
-    Image picture = draw_picture(view, scene, geometry, frame, threads);
-    if (!scene.labels) return picture;
+    const bool section = scene.product == Product::section;
+    auto picture = section ? Result<Image>(draw_section_picture(view, scene, frame, threads))
+                           : draw_picture(view, scene, geometry, frame, threads);
+    if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
-    canvas.place(picture, frame.layout.left, frame.layout.top);
+    canvas.place(*picture, frame.layout.left, frame.layout.top);
     frame.lines.left = frame.layout.left;
     frame.lines.top = frame.layout.top;
-    draw_marks(canvas, frame.fonts, frame.lines);
+    if (!section) draw_marks(canvas, frame.fonts, frame.lines);
     draw_labels(canvas, frame.fonts, frame.layout);
     return canvas.image();
 }

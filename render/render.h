@@ -1,6 +1,6 @@
 // render/render.h -- one grid and a scene -> one picture, with its labels.
 //
-// Draws the product (slicer or composite), then range rings, site marks, colour bar, title and
+// Draws the product (volume, map or section), then range rings, site marks, colour bar, title and
 // time over it. The same input gives the same pixels for any number of threads.
 #pragma once
 
@@ -24,6 +24,7 @@ struct FrameFacts {
     bool partial = false;
 };
 
+// bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads);
 

@@ -6,8 +6,9 @@
 
 #include "base/station_table.h"
 #include "base/version.h"
-#include "render/colour/colour_table.h"
+#include "render/colour/colour_bar.h"
 #include "render/products/ground.h"
+#include "render/products/product.h"
 #include "render/shades.h"
 
 namespace stormcellar::render {
@@ -47,11 +48,6 @@ std::string title_of(const FrameFacts& facts) {
     return title;
 }
 
-std::string product_title(const Scene& scene) {
-    return scene.product == Product::volume ? "Reflectivity, 3D volume"
-                                            : "Composite reflectivity (column maximum)";
-}
-
 std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_spacing_m) {
     std::string text;
     if (scene.product == Product::volume) {
@@ -60,6 +56,8 @@ std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_s
                          : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
                                        direction_name(scene.camera.azimuth_deg), tilt);
         text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
+    } else if (scene.product == Product::section) {
+        return "Vertical section from A to B";
     } else {
         text = "Map, north up";
     }
@@ -149,38 +147,28 @@ void lay_out_footer(Builder& builder, const Scene& scene, const std::string& tex
                 {10, false, shades::quiet_text});
 }
 
-struct LegendRow {
-    std::string text;
-    Rgba8 colour;
-    bool hatched;
-};
-
 std::vector<LegendRow> legend_of(const Scene& scene) {
-    if (scene.product == Product::composite) {
-        return {{"no echo or < 5 dBZ", shades::seen, false},
-                {"range folded", nws_reflectivity().range_folded, false},
-                {"not seen", shades::not_seen, true}};
-    }
+    if (scene.product != Product::volume) return product_legend(scene);
     const std::string height = fmt::format("{:g} km", low_coverage_m / 1000);
     return {{"seen below " + height, shades::seen, false},
             {"seen above " + height, shades::seen_aloft, false},
             {"not seen", shades::not_seen, true}};
 }
 
-void lay_out_bar(Builder& builder, Rect bar) {
-    const auto& stops = nws_reflectivity().stops;
-    const std::size_t classes = stops.size();
-    const double height = bar.height / static_cast<double>(classes);
+void lay_out_bar(Builder& builder, const ColourTable& table, Rect bar) {
     const double size = 10;
-    const std::size_t every = height >= 1.15 * builder.scaled(size) ? 1 : 2;
-    for (std::size_t i = 0; i < classes; ++i) {
+    const int most_ticks =
+        std::max(2, static_cast<int>(bar.height / (1.15 * builder.scaled(size))));
+    const ColourBar colours = colour_bar(table, most_ticks);
+    const auto at = [&](double share) { return std::round(bar.bottom() - share * bar.height); };
+    for (const BarBlock& block : colours.blocks) {
         // Whole pixels, so that no seam shows between the blocks.
-        const double low = std::round(bar.bottom() - static_cast<double>(i) * height);
-        const double high = std::round(bar.bottom() - static_cast<double>(i + 1) * height);
-        builder.block({bar.x, high, bar.width, low - high}, stops[i].colour);
-        if (i % every != 0) continue;
-        builder.put(fmt::format("{:g}", stops[i].from), bar.right() + builder.scaled(6),
-                    low + 0.3 * builder.scaled(size), builder.scaled(30),
+        const double high = at(block.high);
+        builder.block({bar.x, high, bar.width, at(block.low) - high}, block.colour);
+    }
+    for (const BarTick& tick : colours.ticks) {
+        builder.put(tick.text, bar.right() + builder.scaled(6),
+                    at(tick.at) + 0.3 * builder.scaled(size), builder.scaled(34),
                     {size, false, shades::text});
     }
 }
@@ -196,7 +184,7 @@ void lay_out_panel(Builder& builder, const Scene& scene, Rect panel) {
     double y = panel.bottom() - builder.scaled(4);
     if (volume) {
         builder.put("are clear", x, y, room, {9.5, false, shades::quiet_text});
-        builder.put("no echo and < 5 dBZ", x, y - builder.scaled(12), room,
+        builder.put(clear_text(scene, "and"), x, y - builder.scaled(12), room,
                     {9.5, false, shades::quiet_text});
         y -= builder.scaled(30);
     }
@@ -214,10 +202,12 @@ void lay_out_panel(Builder& builder, const Scene& scene, Rect panel) {
         builder.put("Coverage (ground)", x, y, room, {10, true, shades::quiet_text});
         y -= row;
     }
-    builder.put("dBZ", x, panel.y + builder.scaled(14), room, {11, true, shades::text});
+    builder.put(bar_heading(scene), x, panel.y + builder.scaled(14), room,
+                {11, true, shades::text});
     const double bar_top = panel.y + builder.scaled(24);
-    lay_out_bar(builder, {std::round(x), bar_top, std::round(builder.scaled(20)),
-                          std::max(15.0, y + builder.scaled(2) - bar_top)});
+    lay_out_bar(builder, colours_of(scene),
+                {std::round(x), bar_top, std::round(builder.scaled(20)),
+                 std::max(15.0, y + builder.scaled(2) - bar_top)});
 }
 
 }  // namespace

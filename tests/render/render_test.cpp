@@ -127,7 +127,7 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
     velocity.moment = level2::Moment::vel;
     const auto moment = render_frame(bricks.view(), velocity, Scene{}, 1);
     ASSERT_FALSE(moment);
-    EXPECT_EQ(moment.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(moment.error().code, ErrorCode::bad_argument);
     EXPECT_THAT(moment.error().message, testing::HasSubstr("VEL"));
 
     Scene scene;
