@@ -13,24 +13,6 @@
 namespace stormcellar::render {
 namespace {
 
-Status check(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
-    if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "no grid to draw");
-    if (auto valid = grid::validate(*view.spec); !valid) return valid;
-    if (facts.moment != scene.moment) {
-        return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
-                    level2::moment_name(facts.moment), level2::moment_name(scene.moment));
-    }
-    return validate(scene);
-}
-
-// A map is the view straight down with north up.
-ViewGeometry geometry_of(const grid::GridSpec& spec, const Scene& scene, int width, int height) {
-    if (is_map(scene.product)) {
-        return {spec, Camera{180, 0, scene.camera.zoom}, 1, width, height};
-    }
-    return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
-}
-
 // Where the picture is, and how its lines and letters are drawn.
 struct Frame {
     LabelLayout layout;
@@ -79,9 +61,27 @@ Image draw_section_picture(const grid::BrickView& view, const Scene& scene, cons
 
 }  // namespace
 
+Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
+    if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "no grid to draw");
+    if (auto valid = grid::validate(*view.spec); !valid) return valid;
+    if (facts.moment != scene.moment) {
+        return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
+                    level2::moment_name(facts.moment), level2::moment_name(scene.moment));
+    }
+    return validate(scene);
+}
+
+ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, int width,
+                              int height) {
+    if (is_map(scene.product)) {
+        return {spec, Camera{180, 0, scene.camera.zoom}, 1, width, height};
+    }
+    return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
+}
+
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
                            int threads) {
-    if (auto valid = check(view, facts, scene); !valid) return pass_on(valid);
+    if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
     Frame frame;
     frame.lines.ring_spacing_m = drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m);
     frame.layout.width = scene.width;
@@ -95,7 +95,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         frame.layout = *layout;
     }
     const ViewGeometry geometry =
-        geometry_of(*view.spec, scene, frame.layout.width, frame.layout.height);
+        picture_geometry(*view.spec, scene, frame.layout.width, frame.layout.height);
     frame.lines.geometry = &geometry;
     frame.lines.spec = view.spec;
     frame.lines.sites = &facts.sites;

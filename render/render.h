@@ -12,6 +12,7 @@
 #include "grid/brick_view.h"
 #include "render/image.h"
 #include "render/scene.h"
+#include "render/view_geometry.h"
 
 namespace stormcellar::render {
 
@@ -27,5 +28,12 @@ struct FrameFacts {
 // bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads);
+
+// What render_frame() asks of them before it draws.
+[[nodiscard]] Status check_frame(const grid::BrickView& view, const FrameFacts& facts,
+                                 const Scene& scene);
+// How a volume or a map is seen in a picture of this size; a map straight down with north up.
+[[nodiscard]] ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene,
+                                            int width, int height);
 
 }  // namespace stormcellar::render
