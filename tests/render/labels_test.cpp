@@ -50,7 +50,8 @@ TEST(Labels, NothingOverlapsAtAnySize) {
                                          {400, 1000}, {1280, 720}, {1920, 1080}, {3840, 2160},
                                          {8192, 300}, {1080, 1920}};
     for (const auto& [width, height] : sizes) {
-        for (const Product product : {Product::volume, Product::composite}) {
+        for (const Product product :
+             {Product::volume, Product::composite, Product::section, Product::echo_top}) {
             for (const auto& facts : {facts_for("KTLX", 1, false), facts_for(long_name, 1, true),
                                       facts_for("plains", 7, true), facts_for("x", 0, false)}) {
                 SCOPED_TRACE(testing::Message() << width << "x" << height << " " << facts.domain);
