@@ -14,6 +14,11 @@ bool shows_heights_seen(Product product) {
     return product == Product::lowest_seen || product == Product::highest_seen;
 }
 
+// Values below the table's first class, 0, do not exist.
+bool is_never_negative(Moment moment) {
+    return moment == Moment::sw || moment == Moment::phi || moment == Moment::cfp;
+}
+
 }  // namespace
 
 Result<FlatField> map_field(const grid::BrickView& view, const Scene& scene,
@@ -92,7 +97,9 @@ std::string bar_heading(const Scene& scene) {
 
 std::string clear_text(const Scene& scene, std::string_view conjunction) {
     const ColourTable& table = colours_of(scene);
-    if (table.bar_begin) return "no echo";
+    const bool takes_all =
+        table.bar_begin || (is_never_negative(scene.moment) && !(table.lowest() > 0));
+    if (takes_all) return "no echo";
     const std::string unit = unit_shown(scene);
     return fmt::format("no echo {} < {:g}{}{}", conjunction, table.lowest(),
                        unit.empty() ? "" : " ", unit);

@@ -73,7 +73,7 @@ class Axes {
         const std::string from = "A  " + place_text(section_.line.from);
         const std::string to = place_text(section_.line.to) + "  B";
         put(from, left_, baseline, 0, true);
-        // Where both do not fit, the second stands without its letter's place.
+        // Where both do not fit, the second is left out.
         const double room = right_ - left_;
         const double size = 10 * scale_;
         if (fonts_.width(from + to, size, true) + 12 * scale_ <= room) {
