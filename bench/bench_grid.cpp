@@ -37,6 +37,7 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "bench/volume_site.h"
 #include "export/grid_netcdf.h"
 #include "grid/gridder.h"
 #include "level2/decode.h"
@@ -79,19 +80,6 @@ Result<level2::Volume> decode_ref(const fs::path& file, const Bytes& bytes, int 
     auto decoded = level2::decode(bytes, options);
     if (!decoded) return pass_on(decoded);
     return std::move(decoded->volume);
-}
-
-// As the volume says, else (message 1 says nothing) as the station table does.
-Result<grid::SitePosition> site_of(const level2::Volume& volume) {
-    if (const auto antenna = level2::antenna_position(volume)) {
-        return grid::SitePosition{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                                  antenna->altitude_m};
-    }
-    if (const auto station = find_station(volume.station)) {
-        return grid::SitePosition{volume.station, station->latitude_deg, station->longitude_deg,
-                                  station->antenna_altitude_m};
-    }
-    return fail(ErrorCode::not_found, "no position");
 }
 
 // Least seconds of each phase.

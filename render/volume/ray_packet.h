@@ -16,12 +16,15 @@ namespace stormcellar::render {
 
 inline constexpr int packet_rays = 8;
 
-// Bricks are addressed in runs: 16 codes along z, the same x, y and brick.
-struct CurvedLevels;
+// The earth's curve in cell positions.
+struct CurvedLevels {
+    float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
+};
+
 struct PacketVolume {
     const std::byte* codes = nullptr;
     int code_bytes = 1;
-    std::int32_t brick_stride_x = 0, brick_stride_y = 0;  // runs from brick to brick
+    std::int32_t brick_stride_x = 0, brick_stride_y = 0;  // codes from brick to brick
     std::int32_t last_x = 0, last_y = 0, last_z = 0;      // cells
     const LevelPosition* levels = nullptr;                // none: z of a ray is a level
     const TransferFunction* transfer = nullptr;
@@ -30,7 +33,7 @@ struct PacketVolume {
     // `levels` and `transfer` must outlive this.
     PacketVolume(const grid::BrickView& view, const LevelPosition& levels,
                  const TransferFunction& transfer);
-    // Whether every run of the view has a number that fits.
+    // Whether every code of the view has a number that fits.
     [[nodiscard]] static bool can_address(const grid::BrickView& view);
 };
 
@@ -43,11 +46,6 @@ struct RayPacket {
     float step_x[packet_rays], step_y[packet_rays], step_z[packet_rays];
     float length[packet_rays];  // of a step, in reference steps of the transfer function
     float enter[packet_rays], leave[packet_rays];
-};
-
-// The earth's curve in cell positions; none: flat.
-struct CurvedLevels {
-    float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
 };
 
 // Red, green, blue (premultiplied) and alpha of each ray. Only steps whose bit is set are sampled.

@@ -2,8 +2,9 @@
 //
 // The picture is divided into square tiles. A bit for each tile and step (between two slices) says
 // whether any point of that step under any pixel of the tile may find a visible value. Bits err to
-// the safe side only.
-// Thread contract: SliceMask is immutable; fill_band() may run on many threads.
+// the safe side only. What may be visible is told by the bricks' least and largest codes, and
+// inside a brick by those of its 8 blocks of 8 x 8 x 8 cells. Thread contract: immutable;
+// fill_band() may run on many threads.
 #pragma once
 
 #include <cstdint>
@@ -32,15 +33,24 @@ class SliceMask {
     bool fill_band(int tile_row, std::vector<std::uint64_t>& words) const;
 
   private:
-    // What a visible brick may colour: its cells and all between them and their neighbours.
+    // What visible cells may colour: they and all between them and their neighbours.
     struct Box {
-        Vec3 low, high;                   // drawn space
-        double left, right, top, bottom;  // pixels
-        double tile_half_m;               // half a tile's width where it is farthest
+        Vec3 low, high;  // drawn space, widened by what a tile spans where the box is farthest
+        int first_tile, last_tile, first_row, last_row;
     };
-    void add_brick(const grid::GridSpec& spec, int bx, int by, int bz);
-    void place_in_picture(Box& box) const;
-    void mark(const Box& box, int tile_row, int tile, std::uint64_t* words) const;
+    // How far the rays go along each axis: reciprocals of a step, and whether they move at all.
+    struct Direction {
+        Vec3 per_step;
+        bool moves[3];
+    };
+    struct Cells;
+    void add_brick(const grid::BrickView& view, const TransferFunction& transfer, int bx, int by,
+                   int bz);
+    void add_cells(const grid::GridSpec& spec, const Cells& cells);
+    [[nodiscard]] bool place_in_picture(Box& box) const;
+    [[nodiscard]] Direction direction(const Vec3& along) const;
+    void mark(const Box& box, const Vec3& start, const Direction& direction,
+              std::uint64_t* words) const;
 
     const ViewGeometry& geometry_;
     int slices_;

@@ -37,6 +37,9 @@ struct VolumeOptions {
     int slices = 256;  // at least 1
     Integration integration = Integration::second_order;
     double opacity = 1;  // scales the table's extinction; above 0
+    // Where cells are larger than pixels: between rays whose channels differ by no more than this
+    // (of 1) the picture is interpolated. 0: a ray for each pixel.
+    double pixel_tolerance = 0;
 };
 
 // Draws grids of one quantisation in one view: what they share is made once.
