@@ -64,10 +64,11 @@ ColourBar colour_bar(const ColourTable& table, int most_ticks) {
                               over(colour, shades::seen)});
     }
     const double step = round_step(range, std::max(1, most_ticks - 1));
-    for (double at = std::ceil(low / step - 1e-9) * step; at <= low + range * (1 + 1e-9);
-         at += step) {
-        const double rounded = std::abs(at) < step / 1e6 ? 0 : at;
-        bar.ticks.push_back({(at - low) / range, fmt::format("{:.6g}", rounded)});
+    const auto first = static_cast<long>(std::ceil(low / step - 1e-9));
+    const auto last = static_cast<long>(std::floor((low + range) / step + 1e-9));
+    for (long i = first; i <= last; ++i) {
+        const double at = static_cast<double>(i) * step;
+        bar.ticks.push_back({(at - low) / range, fmt::format("{:.6g}", at)});
     }
     return bar;
 }

@@ -48,7 +48,7 @@ Result<LevelPair> levels_about(const grid::GridSpec& spec, double height_m) {
     const HeightRange range = height_range(spec);
     if (!is_within(height_m, range.bottom_m, range.top_m)) {
         return fail(ErrorCode::bad_argument,
-                    "no cells at a height of {:g} km: those of the grid lie from {:g} to {:g} km",
+                    "no cells at a height of {} km: those of the grid lie from {:g} to {:g} km",
                     height_m / 1000, range.bottom_m / 1000, range.top_m / 1000);
     }
     const auto& levels = spec.levels_m;

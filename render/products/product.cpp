@@ -64,7 +64,7 @@ std::string moment_title(Moment moment) {
 }
 
 std::string product_title(const Scene& scene) {
-    const std::string title = moment_title(scene.moment);
+    std::string title = moment_title(scene.moment);
     switch (scene.product) {
         case Product::volume:
             return title + ", 3D volume";

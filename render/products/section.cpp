@@ -14,8 +14,6 @@
 namespace stormcellar::render {
 namespace {
 
-using grid::CellStatus;
-
 // The two numbers about a place along an axis and the share of the second. None beyond the cells.
 struct Neighbours {
     int first = 0, second = 0;
