@@ -83,6 +83,15 @@ double effort(const Chain& chain, const Choice& choice) {
     return sum_over(chain, choice, 0, [](const auto& part) { return part.effort; });
 }
 
+ErrorSize left_off(const Chain& chain, const Choice& choice) {
+    ErrorSize sum;
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        for (std::size_t k = choice.rungs[i]; k < chain.steps[i].effects.size(); ++k)
+            sum += chain.steps[i].effects[k].predicted;
+    }
+    return sum;
+}
+
 RungRange allowed_rungs(const Step& step) {
     RungRange range{0, step.effects.size()};
     for (std::size_t i = step.effects.size(); i > 0; --i) {

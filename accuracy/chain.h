@@ -51,6 +51,9 @@ struct Choice {
 // The same sum of efforts, the cheapest choice counting as 0.
 [[nodiscard]] double effort(const Chain& chain, const Choice& choice);
 
+// The sum of the predicted sizes of the effects above the choice's rungs.
+[[nodiscard]] ErrorSize left_off(const Chain& chain, const Choice& choice);
+
 // The rungs that the effects' settings leave to choose from, both included.
 struct RungRange {
     std::size_t least = 0;

@@ -4,7 +4,7 @@
 // The five volumes of sequence-kbgm, gridded over 300 x 300 x 11.5 km in three sizes, drawn at 796
 // x 532 from 20 degrees off the vertical, each frame a new time step from its file. For each size,
 // number of slices, method (render/volume/transfer_function.h; "smooth": pre-integrated, and
-// interpolated between rays within 4 of 255 levels) and number of threads one row:
+// interpolated between rays within 2 of 255 levels) and number of threads one row:
 //   volume    columns x rows x levels
 //   slices    parallel to the picture
 //   method    riemann, pre-integrated, pre-integrated-2 or smooth
@@ -47,7 +47,7 @@ constexpr std::array<Method, 4> methods = {{
     {"riemann", Integration::riemann, 0},
     {"pre-integrated", Integration::first_order, 0},
     {"pre-integrated-2", Integration::second_order, 0},
-    {"smooth", Integration::first_order, 4.0 / 255},
+    {"smooth", Integration::first_order, 2.0 / 255},
 }};
 
 struct Phases {

@@ -75,16 +75,6 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     return {};
 }
 
-// Sizes that others add to their own: what any choice errs by against the chain's exact form.
-accuracy::ErrorSize left_off(const accuracy::Chain& chain, const accuracy::Choice& choice) {
-    accuracy::ErrorSize sum;
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        for (std::size_t k = choice.rungs[i]; k < chain.steps[i].effects.size(); ++k)
-            sum += chain.steps[i].effects[k].predicted;
-    }
-    return sum;
-}
-
 // How many columns bound the 99th percentile, and not only its neighbourhood's greatest: 900 that
 // hold as many errors as they may need just exist (accuracy/quantile_bound.h), thrice as many find
 // it well. How much columns hold is asked of a sample that is not used again.
@@ -119,7 +109,7 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
     if (!budget) {
         accuracy::Candidate candidate;
         candidate.choice = default_choice(chain, scene.spec(), scene.options().beam_width_deg);
-        candidate.left_off = left_off(chain, candidate.choice);
+        candidate.left_off = accuracy::left_off(chain, candidate.choice);
         candidate.cost_s = accuracy::cost_s(chain, candidate.choice);
         return GridPlan{accuracy::make_plan(chain, {}, candidate, accuracy::Outcome::met),
                         scene_choice(chain, candidate.choice)};
@@ -143,7 +133,7 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
         if (!cells) return pass_on(cells);
         const SampledErrors errors = scene.compare(*cells, *exact, *sample);
         accuracy::Measured measured;
-        measured.position_m = left_off(chain, choice).position_m;
+        measured.position_m = accuracy::left_off(chain, choice).position_m;
         measured.value = errors.p99_bound();
         measured.status = errors.status;
         return measured;

@@ -8,20 +8,11 @@
 namespace stormcellar::pipeline {
 namespace {
 
-accuracy::ErrorSize left_off(const accuracy::Chain& chain, const accuracy::Choice& choice) {
-    accuracy::ErrorSize sum;
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        for (std::size_t k = choice.rungs[i]; k < chain.steps[i].effects.size(); ++k)
-            sum += chain.steps[i].effects[k].predicted;
-    }
-    return sum;
-}
-
 accuracy::Plan default_plan(const MosaicScene& scene, const accuracy::Chain& chain) {
     accuracy::Candidate candidate;
     candidate.choice = default_mosaic_choice(
         chain, scene.domain(), grid::beam_width_of(scene.volumes().front().site.icao));
-    candidate.left_off = left_off(chain, candidate.choice);
+    candidate.left_off = accuracy::left_off(chain, candidate.choice);
     candidate.cost_s = accuracy::cost_s(chain, candidate.choice);
     return accuracy::make_plan(chain, {}, candidate, accuracy::Outcome::met);
 }
@@ -55,7 +46,7 @@ Result<MosaicPlan> plan_mosaic(MosaicScene& scene, accuracy::Chain chain,
         if (!found) return pass_on(found);
         const auto summary = found->summary();
         accuracy::Measured measured;
-        measured.position_m = left_off(chain, choice).position_m;
+        measured.position_m = accuracy::left_off(chain, choice).position_m;
         measured.value = summary ? summary->p99 : 0;
         measured.status = found->status;
         return measured;

@@ -50,12 +50,16 @@ ReferenceMarcher::ReferenceMarcher(const grid::BrickView& view, const ColourTabl
     }
 }
 
-ReferenceMarcher::Sample ReferenceMarcher::sample(const Vec3& point) const {
+bool ReferenceMarcher::is_inside(const Vec3& point) const {
     const double height = geometry_.height_at(point);
-    if (std::abs(point[0]) > geometry_.half_x_m() || std::abs(point[1]) > geometry_.half_y_m() ||
-        height < geometry_.bottom_m() || height > geometry_.top_m()) {
-        return {};
-    }
+    return std::abs(point[0]) <= geometry_.half_x_m() &&
+           std::abs(point[1]) <= geometry_.half_y_m() && height >= geometry_.bottom_m() &&
+           height <= geometry_.top_m();
+}
+
+ReferenceMarcher::Sample ReferenceMarcher::sample(const Vec3& point) const {
+    if (!is_inside(point)) return {};
+    const double height = geometry_.height_at(point);
     const Pair x = pair_at((point[0] - spec_.x_from_middle_m(0)) / spec_.cell_width_m(), spec_.nx);
     const Pair y = pair_at((point[1] - spec_.y_from_middle_m(0)) / spec_.cell_height_m(), spec_.ny);
     const Pair z = pair_at(level_position(spec_.levels_m, height), spec_.nz());
@@ -84,8 +88,12 @@ std::array<double, 4> ReferenceMarcher::ray(Pixel pixel, int steps) const {
                                    geometry_.point(pixel, geometry_.near_m() + step));
     std::array<double, 4> colour{};
     double through = 1;
+    bool above_ground = false;
     for (int k = 0; k < steps && through > 1e-6; ++k) {
         const Vec3 point = geometry_.point(pixel, geometry_.near_m() + (k + 0.5) * step);
+        const bool below = geometry_.height_at(point) < geometry_.bottom_m();
+        if (above_ground && below) break;
+        above_ground = above_ground || (!below && is_inside(point));
         const Sample found = sample(point);
         if (found.share <= 0) continue;
         const auto shown = colour_of(table_, static_cast<float>(found.value));

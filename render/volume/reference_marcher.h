@@ -4,6 +4,7 @@
 // but with none of its tables: each sample's value looks up the colour table itself. Steps are
 // taken at their middles, so the error falls with the square of their length where colours are
 // smooth, and with the length where they are stepped.
+// A ray that falls below the box has met the earth, which hides what lies beyond its curve.
 // Cost: four bytes of memory a cell, some 20 ns a step.
 // Thread contract: immutable; ray() may run on many threads.
 #pragma once
@@ -34,6 +35,8 @@ class ReferenceMarcher {
     [[nodiscard]] Sample sample(const Vec3& point) const;
 
   private:
+    [[nodiscard]] bool is_inside(const Vec3& point) const;
+
     const ViewGeometry& geometry_;
     const ColourTable table_;
     const grid::GridSpec spec_;

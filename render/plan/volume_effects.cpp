@@ -1,0 +1,88 @@
+#include "render/plan/volume_effects.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace stormcellar::render {
+namespace {
+
+constexpr int fewest_slices = 32;
+constexpr int most_slices = 2048;
+// In a scale of its own: a slice counts one, whatever the scene.
+constexpr double effort_of_a_slice = 1e-3;
+constexpr double effort_of_a_table = 1e-3;
+constexpr double effort_of_every_pixel = 2e-2;
+
+enum StepNumber : std::size_t { slices_step, integration_step, pixels_step };
+
+accuracy::Effect effect(std::string name, std::string what, std::string rung, double effort) {
+    accuracy::Effect made;
+    made.name = std::move(name);
+    made.what = std::move(what);
+    made.rung = std::move(rung);
+    made.effort = effort;
+    return made;
+}
+
+accuracy::Step slices() {
+    accuracy::Step step{"slices", fmt::format("{} slices", fewest_slices), {}};
+    for (int count = 2 * fewest_slices; count <= most_slices; count *= 2) {
+        step.effects.push_back(
+            effect(fmt::format("slices_{}", count),
+                   fmt::format("What lies between {} slices is seen by {}.", count / 2, count),
+                   fmt::format("{} slices", count), effort_of_a_slice * count / 2));
+    }
+    return step;
+}
+
+}  // namespace
+
+accuracy::Chain volume_chain() {
+    accuracy::Chain chain;
+    chain.steps.push_back(slices());
+    chain.steps.push_back(
+        {"integration",
+         "the nearer value of each step",
+         {effect("value_span", "A step crosses all values between its two ends.",
+                 "all values of each step", effort_of_a_table),
+          effect("step_attenuation", "The near part of a step hides its far part.",
+                 "all values of each step in their order", effort_of_a_table)}});
+    chain.steps.push_back({"pixels",
+                           "interpolated where the picture is straight",
+                           {effect("every_pixel", "The picture bends between two rays.",
+                                   "a ray for each pixel", effort_of_every_pixel)}});
+    return chain;
+}
+
+VolumeChoice volume_choice(const accuracy::Chain& chain, const accuracy::Choice& choice) {
+    static_cast<void>(chain);
+    constexpr std::array integrations = {Integration::riemann, Integration::first_order,
+                                         Integration::second_order};
+    VolumeChoice made;
+    made.slices = fewest_slices << choice.rungs[slices_step];
+    made.integration = integrations[choice.rungs[integration_step]];
+    made.every_pixel = choice.rungs[pixels_step] == 1;
+    return made;
+}
+
+accuracy::Choice rungs_of(const accuracy::Chain& chain, const VolumeChoice& choice) {
+    accuracy::Choice made;
+    made.rungs.resize(chain.steps.size());
+    std::size_t& rung = made.rungs[slices_step];
+    while (fewest_slices << rung < choice.slices && rung < chain.steps[slices_step].effects.size())
+        ++rung;
+    made.rungs[integration_step] = static_cast<std::size_t>(choice.integration);
+    made.rungs[pixels_step] = choice.every_pixel ? 1 : 0;
+    return made;
+}
+
+accuracy::Choice exact_volume_choice(const accuracy::Chain& chain) {
+    accuracy::Choice made;
+    for (const accuracy::Step& step : chain.steps)
+        made.rungs.push_back(step.effects.size());
+    return made;
+}
+
+}  // namespace stormcellar::render

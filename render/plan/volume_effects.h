@@ -1,0 +1,41 @@
+// render/plan/volume_effects.h -- the ladder of a volume's picture: its steps, rungs and effects.
+//
+//   slices       32 ... 2048, each effect twice as many as before: slices_64, slices_128, ...
+//   integration  the nearer value of each step; value_span: all values between its ends;
+//                step_attenuation: in their order, the near hiding the far
+//   pixels       interpolated between rays where the picture is straight; every_pixel: a ray each
+// Camera, exaggeration, the earth's curve and light are the scene's own: they say what is to be
+// seen. Sizes are colours (CIEDE2000). The exact form has every effect on; how far 2048 slices
+// still are from infinitely many is in docs/accuracy.md. Thread contract: values and pure
+// functions.
+#pragma once
+
+#include "accuracy/chain.h"
+#include "render/scene.h"
+#include "render/volume/slicer.h"
+
+namespace stormcellar::render {
+
+// Names a rung of each step.
+struct VolumeChoice {
+    int slices = 256;
+    Integration integration = Integration::second_order;
+    bool every_pixel = true;
+
+    bool operator==(const VolumeChoice&) const = default;
+};
+
+// Between rays that are not cast: two of 255 levels.
+inline constexpr double interpolated_tolerance = 2.0 / 255;
+
+// All settings automatic; sizes and costs are 0 until predict() (render/plan/volume_plan.h).
+[[nodiscard]] accuracy::Chain volume_chain();
+
+// Errors: none; the chain is one of volume_chain().
+[[nodiscard]] VolumeChoice volume_choice(const accuracy::Chain& chain,
+                                         const accuracy::Choice& choice);
+// The rungs of a choice; its slices are rounded up to a rung.
+[[nodiscard]] accuracy::Choice rungs_of(const accuracy::Chain& chain, const VolumeChoice& choice);
+[[nodiscard]] accuracy::Choice exact_volume_choice(const accuracy::Chain& chain);
+
+}  // namespace stormcellar::render

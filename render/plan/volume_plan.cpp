@@ -1,0 +1,127 @@
+#include "render/plan/volume_plan.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "accuracy/candidate.h"
+#include "accuracy/governor.h"
+#include "render/colour/colour_difference.h"
+#include "render/shades.h"
+
+namespace stormcellar::render {
+namespace {
+
+using accuracy::Chain;
+using accuracy::Choice;
+
+Result<double> difference(const Image& one, const Image& other) {
+    const auto found = image_difference(one, other);
+    if (!found) return pass_on(found);
+    return found->percentile_99;
+}
+
+Choice with_rung(Choice choice, std::size_t step, std::size_t rung) {
+    choice.rungs[step] = rung;
+    return choice;
+}
+
+}  // namespace
+
+VolumeScene::VolumeScene(const grid::BrickView& view, const ColourTable& table, const Scene& scene,
+                         int width, int height, int threads)
+    : view_(view),
+      table_(table),
+      scene_(scene),
+      width_(width),
+      height_(height),
+      threads_(threads) {}
+
+const VolumeScene::Drawn& VolumeScene::draw(const VolumeChoice& choice) {
+    const std::array<int, 3> key = {choice.slices, static_cast<int>(choice.integration),
+                                    choice.every_pixel ? 1 : 0};
+    if (const auto known = drawn_.find(key); known != drawn_.end()) return known->second;
+    const auto start = std::chrono::steady_clock::now();
+    const ViewGeometry geometry(*view_.spec, scene_.camera, scene_.vertical_exaggeration, width_,
+                                height_, scene_.curved_earth);
+    const VolumeSlicer slicer(table_, view_.quantization, geometry,
+                              {choice.slices, choice.integration, scene_.opacity,
+                               choice.every_pixel ? 0 : interpolated_tolerance});
+    Drawn drawn{Image(width_, height_, shades::page), 0};
+    composite_over(slicer.draw(view_, threads_), drawn.picture, 0, 0);
+    drawn.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return drawn_.emplace(key, std::move(drawn)).first->second;
+}
+
+Status predict(VolumeScene& scene, Chain& chain) {
+    const Choice exact = exact_volume_choice(chain);
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        for (std::size_t k = 0; k < chain.steps[i].effects.size(); ++k) {
+            accuracy::Effect& effect = chain.steps[i].effects[k];
+            const auto& without = scene.draw(volume_choice(chain, with_rung(exact, i, k)));
+            const auto& with = scene.draw(volume_choice(chain, with_rung(exact, i, k + 1)));
+            const auto size = difference(without.picture, with.picture);
+            if (!size) return pass_on(size);
+            effect.predicted.image_de = *size;
+            effect.cost_s = std::max(0.0, with.seconds - without.seconds);
+        }
+    }
+    Choice cheapest = exact;
+    for (std::size_t& rung : cheapest.rungs)
+        rung = 0;
+    chain.cheapest_cost_s = scene.draw(volume_choice(chain, cheapest)).seconds;
+    return {};
+}
+
+Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
+                               const std::optional<accuracy::Budget>& budget,
+                               const VolumeChoice& by_default) {
+    if (budget && (budget->position_m || budget->value)) {
+        return fail(ErrorCode::bad_argument,
+                    "a picture's tolerance is a colour difference (\"dE 2\") or a time");
+    }
+    if (auto done = predict(scene, chain); !done) return pass_on(done);
+    if (!budget) {
+        accuracy::Candidate candidate;
+        candidate.choice = rungs_of(chain, by_default);
+        candidate.left_off = accuracy::left_off(chain, candidate.choice);
+        candidate.cost_s = accuracy::cost_s(chain, candidate.choice);
+        return VolumePlan{accuracy::make_plan(chain, {}, candidate, accuracy::Outcome::met),
+                          by_default};
+    }
+    const Image& exact = scene.draw(volume_choice(chain, exact_volume_choice(chain))).picture;
+    const auto measure = [&](const Choice& choice) -> Result<accuracy::Measured> {
+        const auto off = difference(scene.draw(volume_choice(chain, choice)).picture, exact);
+        if (!off) return pass_on(off);
+        accuracy::Measured measured;
+        measured.image_de = *off;
+        return measured;
+    };
+    auto plan = accuracy::govern(chain, *budget, measure);
+    if (!plan) return pass_on(plan);
+    const VolumeChoice choice = volume_choice(chain, plan->choice);
+    return VolumePlan{std::move(*plan), choice};
+}
+
+Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene, const Chain& chain) {
+    const Choice exact = exact_volume_choice(chain);
+    const Image& truth = scene.draw(volume_choice(chain, exact)).picture;
+    std::vector<accuracy::LadderRow> rows;
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        for (std::size_t k = 0; k < chain.steps[i].rung_count(); ++k) {
+            const auto& drawn = scene.draw(volume_choice(chain, with_rung(exact, i, k)));
+            const auto off = difference(drawn.picture, truth);
+            if (!off) return pass_on(off);
+            accuracy::LadderRow row;
+            row.step = chain.steps[i].name;
+            row.rung = k;
+            row.name = chain.steps[i].rung_name(k);
+            row.time_s = drawn.seconds;
+            row.image_p99_de = *off;
+            rows.push_back(std::move(row));
+        }
+    }
+    accuracy::mark_pareto(rows);
+    return rows;
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,178 @@
+// The planner of pictures is honest, over scenes of real volumes and of a simulated storm:
+//   what it left off, forced on, changes the picture by less than the budget;
+//   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
+//   scene for each effect;
+//   the picture it chose is within the budget of the exact chain's.
+#include "render/plan/volume_plan.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "grid/column_geometry.h"
+#include "grid/gridder.h"
+#include "level2/decode.h"
+#include "render/colour/colour_difference.h"
+#include "tests/render/synthetic_storm.h"
+#include "tests/testing/data.h"
+#include "tests/testing/forced_choice.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr double stated_part = 0.1;
+constexpr int width = 160, height = 110;
+
+struct PlannedScene {
+    const char* file;  // none: the simulated storm
+    double spacing_m;
+    const char* budget;
+    Scene scene;
+};
+
+Scene seen(const Camera& camera, double exaggeration, double opacity = 1) {
+    Scene scene;
+    scene.camera = camera;
+    scene.vertical_exaggeration = exaggeration;
+    scene.opacity = opacity;
+    return scene;
+}
+
+Camera perspective(double azimuth_deg, double tilt_deg, double field_of_view_deg) {
+    Camera camera{azimuth_deg, tilt_deg, 1};
+    camera.field_of_view_deg = field_of_view_deg;
+    return camera;
+}
+
+const std::vector<PlannedScene>& scenes() {
+    static const std::vector<PlannedScene> all = {
+        {"sequence-kbgm/KBGM20050822_024414.gz", 3000, "dE 2", seen({180, 20, 1}, 5)},
+        {"sequence-kbgm/KBGM20050822_024414.gz", 3000, "dE 0.4", seen({180, 55, 1}, 5)},
+        {"volumes/KLIX20050828_180149.gz", 3000, "dE 5", seen({200, 60, 1}, 8)},
+        {"volumes/KLIX20050828_180149.gz", 3000, "dE 0.8", seen(perspective(150, 70, 60), 8, 6)},
+        {"volumes/KOKX20080109_141449.gz", 4000, "dE 3", seen({120, 75, 1.5}, 10, 3)},
+        {nullptr, 4000, "dE 1", seen({180, 85, 1}, 8)},
+        {"sequence-kbgm/KBGM20050822_024414.gz", 10000, "dE 2", seen({180, 20, 3}, 5)},
+        {"volumes/KLIX20050828_180149.gz", 5000, "dE 2", seen({180, 60, 1}, 8, 40)},
+    };
+    return all;
+}
+
+grid::BrickGrid bricks_for(const PlannedScene& planned) {
+    if (planned.file == nullptr) {
+        return bricks_of(storm_grid(small_spec(150, 24, planned.spacing_m, 700)));
+    }
+    level2::DecodeOptions options;
+    options.fallback_station =
+        std::string(planned.file).substr(std::string(planned.file).find('/') + 1, 4);
+    options.selection.moments = {level2::Moment::ref};
+    const auto decoded = level2::decode_file(*testing::data_directory() / planned.file, options);
+    const auto at = level2::antenna_position(decoded->volume);
+    const grid::SitePosition site =
+        at ? grid::SitePosition{"KXXX", at->latitude_deg, at->longitude_deg, at->altitude_m}
+           : grid::SitePosition{"KXXX", 42, -76, 500};
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    spec.spacing_m = planned.spacing_m;
+    spec.nx = spec.ny = static_cast<int>(460e3 / planned.spacing_m);
+    const auto columns = grid::make_column_geometry(site, spec);
+    const auto grid = grid::make_grid(decoded->volume, site, **columns, {});
+    return grid::BrickGrid::from(*grid, grid::default_quantization(level2::Moment::ref));
+}
+
+struct Prepared {
+    grid::BrickGrid bricks;
+    VolumeScene scene;
+    accuracy::Chain chain = volume_chain();
+    accuracy::Budget budget;
+    std::optional<VolumePlan> plan;
+
+    explicit Prepared(const PlannedScene& planned)
+        : bricks(bricks_for(planned)),
+          scene(bricks.view(), nws_reflectivity(), planned.scene, width, height, 2),
+          budget(*accuracy::parse_budget(planned.budget)) {
+        plan = *plan_volume(scene, chain, budget, {});
+    }
+    double difference(const accuracy::Choice& one, const accuracy::Choice& other) {
+        const Image first = scene.draw(volume_choice(chain, one)).picture;
+        return image_difference(first, scene.draw(volume_choice(chain, other)).picture)
+            ->percentile_99;
+    }
+};
+
+// Made once for all tests: each draws some 15 pictures.
+Prepared& prepared(std::size_t number) {
+    static std::map<std::size_t, std::unique_ptr<Prepared>> all;
+    auto& one = all[number];
+    if (!one) one = std::make_unique<Prepared>(scenes()[number]);
+    return *one;
+}
+
+class PictureHonesty : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(PictureHonesty, WhatIsLeftOffIsLessThanTheBudget) {
+    STORMCELLAR_NEED_DATA();
+    Prepared& scene = prepared(GetParam());
+    const accuracy::Plan& plan = scene.plan->plan;
+    ASSERT_TRUE(plan.meets_budget) << plan.shortfall;
+    SCOPED_TRACE(plan.description);
+    accuracy::Choice all = plan.choice;
+    for (const accuracy::Decision& decision : plan.decisions) {
+        if (decision.on) continue;
+        const auto one = testing::forced(plan, scene.chain, decision.effect, true);
+        for (std::size_t i = 0; i < all.rungs.size(); ++i)
+            all.rungs[i] = std::max(all.rungs[i], one.rungs[i]);
+        EXPECT_LE(scene.difference(plan.choice, one), *scene.budget.image_de) << decision.effect;
+    }
+    EXPECT_LE(scene.difference(plan.choice, all), *scene.budget.image_de);
+}
+
+TEST_P(PictureHonesty, ThePictureIsWithinTheBudgetOfTheExactOne) {
+    STORMCELLAR_NEED_DATA();
+    Prepared& scene = prepared(GetParam());
+    EXPECT_LE(scene.difference(scene.plan->plan.choice, exact_volume_choice(scene.chain)),
+              *scene.budget.image_de)
+        << scene.plan->plan.description;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PictureHonesty, ::testing::Range(std::size_t{0}, scenes().size()));
+
+TEST(PictureHonesty, EveryEffectMattersSomewhere) {
+    STORMCELLAR_NEED_DATA();
+    std::map<std::string, double> largest;  // part of the budget, of an effect that was on
+    for (const accuracy::Step& step : volume_chain().steps) {
+        for (const accuracy::Effect& effect : step.effects)
+            largest[effect.name] = 0;
+    }
+    for (std::size_t number = 0; number < scenes().size(); ++number) {
+        Prepared& scene = prepared(number);
+        const accuracy::Plan& plan = scene.plan->plan;
+        for (const accuracy::Decision& decision : plan.decisions) {
+            if (!decision.on) continue;
+            const auto without = testing::forced(plan, scene.chain, decision.effect, false);
+            largest[decision.effect] =
+                std::max(largest[decision.effect],
+                         scene.difference(plan.choice, without) / *scene.budget.image_de);
+        }
+    }
+    // With 2,048 slices no step is thick enough to hide its own far part: so it is never called
+    // for.
+    EXPECT_EQ(largest["step_attenuation"], 0);
+    largest.erase("step_attenuation");
+    for (const auto& [effect, part] : largest)
+        EXPECT_GT(part, stated_part) << effect;
+}
+
+TEST(PictureHonesty, StepsHideThemselvesWhereTheyAreThick) {
+    STORMCELLAR_NEED_DATA();
+    Prepared& opaque = prepared(scenes().size() - 1);
+    accuracy::Choice few = exact_volume_choice(opaque.chain);
+    few.rungs[0] = 0;
+    EXPECT_GT(opaque.difference(
+                  few, testing::forced(opaque.plan->plan, opaque.chain, "step_attenuation", false)),
+              1);
+}
+
+}  // namespace
+}  // namespace stormcellar::render
