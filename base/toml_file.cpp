@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "base/file_system.h"
+#include "base/floating_point.h"
 #include "base/printable.h"
 
 namespace stormcellar {
@@ -173,6 +174,14 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
     return std::nullopt;
 }
 
+std::optional<bool> TomlTable::flag(std::string_view key) {
+    const toml::node* node = document_->find(index_, key);
+    if (node == nullptr) return std::nullopt;
+    if (const auto* value = node->as_boolean()) return value->get();
+    document_->complain_kind(index_, key, "true or false", *node);
+    return std::nullopt;
+}
+
 std::optional<double> TomlTable::number(std::string_view key, TomlRange range) {
     const toml::node* node = document_->find(index_, key);
     if (node == nullptr) return std::nullopt;
@@ -181,7 +190,7 @@ std::optional<double> TomlTable::number(std::string_view key, TomlRange range) {
         return std::nullopt;
     }
     const double value = number_of(*node);
-    if (value >= range.least && value <= range.most) return value;
+    if (is_within(value, range.least, range.most)) return value;
     complain(key,
              fmt::format("{} is out of range, must be {} to {}", value, range.least, range.most));
     return std::nullopt;

@@ -55,6 +55,7 @@ class TomlTable {
   public:
     // Each gives none when the key is absent or, with a complaint noted, not of the kind.
     std::optional<std::string> text(std::string_view key);
+    std::optional<bool> flag(std::string_view key);
     std::optional<double> number(std::string_view key, TomlRange range);
     std::optional<int> whole_number(std::string_view key, TomlRange range);
     std::optional<std::vector<double>> numbers(std::string_view key);

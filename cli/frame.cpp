@@ -1,4 +1,5 @@
 // stormcellar frame: one still picture of a grid in the cache.
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -13,6 +14,9 @@
 #include "cli/picture.h"
 #include "cli/scene_options.h"
 #include "render/png_file.h"
+#include "render/products/probe.h"
+#include "render/products/product.h"
+#include "render/products/section.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -20,40 +24,44 @@ namespace {
 struct FrameOptions {
     std::string cache;
     std::string domain;
-    std::string time;  // empty: the latest
-    std::string output;
+    std::string time;      // empty: the latest
+    std::string output;    // empty: nothing is drawn, only probed
+    std::string probe;     // "X,Y"
+    std::string probe_at;  // "LAT,LON"
     bool json = false;
     SceneOptions scene;
 };
 
 // The newest grid of the domain at or before the time; none when there is no such grid.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
-                                                   const FrameOptions& options) {
+                                                   const FrameOptions& options,
+                                                   level2::Moment moment) {
     std::optional<UtcTime> until;
     if (!options.time.empty()) {
         const auto time = parse_utc(options.time, now_utc());
         if (!time) return pass_on(time);
         until = *time;
     }
-    const auto entries = store.list(options.domain, level2::Moment::ref, std::nullopt, until);
+    const auto entries = store.list(options.domain, moment, std::nullopt, until);
     if (!entries) return pass_on(entries);
     if (entries->empty()) return std::optional<cache::StoreEntry>{};
     return std::optional{entries->back()};
 }
 
-int report_nothing(const cache::Store& store, const FrameOptions& options) {
+int report_nothing(const cache::Store& store, const FrameOptions& options, level2::Moment moment) {
     return report_no_grid(
-        store, options.domain,
+        store, options.domain, moment,
         options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
 }
 
 std::vector<std::pair<std::string, std::string>> texts_of(const cache::GridDescription& grid,
-                                                          const FrameOptions& options) {
+                                                          const FrameOptions& options,
+                                                          const render::Scene& scene) {
     return {{"Title", fmt::format("{} {}", options.domain, format_utc(grid.time))},
-            {"Description", ascii(fmt::format("reflectivity, {}; gridded by {}, {}; from {}",
-                                              options.scene.product, grid.provenance.method,
-                                              grid.provenance.beam_model,
-                                              fmt::join(grid.provenance.source_files, " ")))},
+            {"Description",
+             ascii(fmt::format("{}; gridded by {}, {}; from {}", render::product_title(scene),
+                               grid.provenance.method, grid.provenance.beam_model,
+                               fmt::join(grid.provenance.source_files, " ")))},
             {"Software", fmt::format("stormcellar {}", software_version)}};
 }
 
@@ -61,26 +69,103 @@ struct Timing {
     double read_s = 0, render_s = 0, write_s = 0, total_s = 0;
 };
 
+using Json = nlohmann::ordered_json;
+
+Json json_or_null(const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+}
+
+Json json_of(const render::Probe& probe) {
+    const bool valued = probe.status == grid::CellStatus::value;
+    Json json{{"latitude_deg", probe.place.latitude_deg},
+              {"longitude_deg", probe.place.longitude_deg},
+              {"status", grid::cell_status_name(probe.status)},
+              {"value", valued ? Json(probe.value) : Json()},
+              {"unit", probe.unit},
+              {"at_least", probe.at_least},
+              {"height_m", json_or_null(probe.height_m)},
+              {"lowest_seen_m", json_or_null(probe.lowest_seen_m)},
+              {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
+    if (probe.distance_m) json["distance_m"] = *probe.distance_m;
+    return json;
+}
+
+// A line for the place, one for what is there, one for how far the column was seen.
+void print_probe(const render::Probe& probe, const FrameOptions& options,
+                 const render::Scene& scene, const cache::GridDescription& grid) {
+    fmt::print("{} {}, {}\n", printable(options.domain), format_utc(grid.time),
+               render::product_title(scene));
+    fmt::print("place  {}", render::place_text(probe.place));
+    if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
+    fmt::print("\nvalue  {}", render::probe_text(probe));
+    if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
+    if (probe.lowest_seen_m) {
+        fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
+                   *probe.highest_seen_m / 1000);
+    } else {
+        fmt::print("\nseen   at no height\n");
+    }
+}
+
+using MaybeProbe = std::optional<render::Probe>;
+
 void report_frame(const FrameOptions& options, const render::Scene& scene,
-                  const cache::GridDescription& grid, const Timing& timing) {
+                  const cache::GridDescription& grid, const Timing& timing,
+                  const MaybeProbe& probe) {
     if (!options.json) {
+        if (probe) print_probe(*probe, options, scene, grid);
+        if (options.output.empty()) return;
         fmt::print(stderr, "{}: {} {}, {}, {} x {} pixels, {:.0f} ms\n", printable(options.output),
                    printable(options.domain), format_utc(grid.time), options.scene.product,
                    scene.width, scene.height, timing.total_s * 1e3);
         return;
     }
-    const nlohmann::ordered_json json{{"output", options.output},
-                                      {"domain", options.domain},
-                                      {"time", format_utc(grid.time)},
-                                      {"product", options.scene.product},
-                                      {"width", scene.width},
-                                      {"height", scene.height},
-                                      {"partial", grid.provenance.partial},
-                                      {"read_s", timing.read_s},
-                                      {"render_s", timing.render_s},
-                                      {"write_s", timing.write_s},
-                                      {"total_s", timing.total_s}};
-    fmt::print("{}\n", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    Json json;
+    if (!options.output.empty()) json["output"] = options.output;
+    json["domain"] = options.domain;
+    json["time"] = format_utc(grid.time);
+    json["product"] = options.scene.product;
+    json["moment"] = options.scene.moment;
+    json["width"] = scene.width;
+    json["height"] = scene.height;
+    json["partial"] = grid.provenance.partial;
+    if (probe) json["probe"] = json_of(*probe);
+    json["read_s"] = timing.read_s;
+    json["render_s"] = timing.render_s;
+    json["write_s"] = timing.write_s;
+    json["total_s"] = timing.total_s;
+    fmt::print("{}\n", json.dump(1, ' ', false, Json::error_handler_t::replace));
+}
+
+Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
+                              const cache::GridFile& file) {
+    const auto facts = facts_of(options.domain, file.description());
+    const int threads = thread_count(options.scene);
+    const auto as_maybe = [](Result<render::Probe> probe) -> Result<MaybeProbe> {
+        if (!probe) return pass_on(probe);
+        return MaybeProbe{std::move(*probe)};
+    };
+    if (!options.probe.empty()) {
+        const auto pixel = numbers_of("--probe", options.probe, 2);
+        if (!pixel) return pass_on(pixel);
+        const auto is_pixel = [](double at) {
+            return at >= 0 && at < 8192 && std::floor(at) == at;
+        };
+        if (!is_pixel((*pixel)[0]) || !is_pixel((*pixel)[1])) {
+            return fail(ErrorCode::bad_argument, "--probe needs two whole numbers, not '{}'",
+                        options.probe);
+        }
+        return as_maybe(render::probe_pixel(file.view(), facts, scene,
+                                            static_cast<int>((*pixel)[0]),
+                                            static_cast<int>((*pixel)[1]), threads));
+    }
+    if (!options.probe_at.empty()) {
+        const auto place = numbers_of("--probe-at", options.probe_at, 2);
+        if (!place) return pass_on(place);
+        return as_maybe(
+            render::probe_place(file.view(), facts, scene, {(*place)[0], (*place)[1]}, threads));
+    }
+    return MaybeProbe{};
 }
 
 Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scene,
@@ -93,7 +178,7 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     if (!picture) return pass_on(picture);
     if (Status whole = file.check_whole(); !whole) return pass_on(whole);
     timing.render_s = seconds_since(start) - timing.read_s;
-    const auto bytes = render::encode_png(*picture, texts_of(file.description(), options));
+    const auto bytes = render::encode_png(*picture, texts_of(file.description(), options, scene));
     if (!bytes) return pass_on(bytes);
     if (auto written = write_file_atomically(real_file_system(), options.output, *bytes);
         !written) {
@@ -104,27 +189,43 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     return timing;
 }
 
+Status check_options(const FrameOptions& options) {
+    const bool probes = !options.probe.empty() || !options.probe_at.empty();
+    if (!options.probe.empty() && !options.probe_at.empty()) {
+        return fail(ErrorCode::bad_argument, "--probe and --probe-at exclude each other");
+    }
+    if (options.output.empty()) {
+        if (probes) return {};
+        return fail(ErrorCode::bad_argument, "nothing to do: -o, --probe or --probe-at is needed");
+    }
+    if (!options.output.ends_with(".png")) {
+        return fail(ErrorCode::bad_argument, "{}: a frame is written as .png", options.output);
+    }
+    return check_target(options.output);
+}
+
 int run_frame(const FrameOptions& options) {
     const auto start = Clock::now();
-    if (!options.output.ends_with(".png")) {
-        return report_error({ErrorCode::bad_argument,
-                             fmt::format("{}: a frame is written as .png", options.output)});
-    }
-    if (const Status writable = check_target(options.output); !writable) {
-        return report_error(writable.error());
-    }
+    if (const Status fine = check_options(options); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
     const auto store = cache::Store::open_for_reading(options.cache);
     if (!store) return report_error(store.error());
-    const auto entry = find_grid(*store, options);
+    const auto entry = find_grid(*store, options, scene->moment);
     if (!entry) return report_error(entry.error());
-    if (!*entry) return report_nothing(*store, options);
+    if (!*entry) return report_nothing(*store, options, scene->moment);
     const auto file = cache::GridFile::open((*entry)->path);
     if (!file) return report_error(file.error());
-    const auto timing = make_frame(options, *scene, *file, start);
-    if (!timing) return report_error(timing.error());
-    report_frame(options, *scene, file->description(), *timing);
+    const auto probe = probe_grid(options, *scene, *file);
+    if (!probe) return report_error(probe.error());
+    if (const Status whole = file->check_whole(); !whole) return report_error(whole.error());
+    Timing timing{seconds_since(start), 0, 0, seconds_since(start)};
+    if (!options.output.empty()) {
+        const auto drawn = make_frame(options, *scene, *file, start);
+        if (!drawn) return report_error(drawn.error());
+        timing = *drawn;
+    }
+    report_frame(options, *scene, file->description(), timing, *probe);
     return exit_done;
 }
 
@@ -138,7 +239,12 @@ Command add_frame(CLI::App& app) {
         ->required();
     frame->add_option("--time", options->time,
                       "UTC, or relative as -1h: the grid at or next before it (default: latest)");
-    frame->add_option("-o,--output", options->output, "The picture, .png")->required();
+    frame->add_option("-o,--output", options->output,
+                      "The picture, .png; needed unless something is probed");
+    frame->add_option("--probe", options->probe,
+                      "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
+    frame->add_option("--probe-at", options->probe_at,
+                      "LAT,LON: say what is at that place (maps and volumes)");
     frame->add_flag("--json", options->json, "Say what was done as one JSON document");
     add_scene_options(*frame, options->scene);
     return {frame, [options] { return run_frame(*options); }};

@@ -19,6 +19,7 @@
 #include "cli/scene_options.h"
 #include "render/animation/animation.h"
 #include "render/map/map_layer.h"
+#include "render/products/product.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -192,11 +193,12 @@ Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
 
 // What the file says of itself. The first grid stands for the method of all.
 std::vector<std::pair<std::string, std::string>> metadata_of(
-    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options) {
+    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
+    const render::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> metadata{
         {"Title", fmt::format("{} {} to {}", ascii(options.domain),
                               format_utc(entries.front().time), format_utc(entries.back().time))}};
-    std::string description = fmt::format("reflectivity, {}", options.scene.product);
+    std::string description = render::product_title(scene);
     if (const auto first = cache::GridFile::open(entries.front().path)) {
         const auto& provenance = first->description().provenance;
         description += fmt::format("; gridded by {}, {}; stations {}", provenance.method,
@@ -224,6 +226,7 @@ void print_report(const LoopOptions& options, const render::Scene& scene,
     print_json({{"outputs", options.outputs},
                 {"domain", options.domain},
                 {"product", options.scene.product},
+                {"moment", options.scene.moment},
                 {"from", format_utc(report.from)},
                 {"to", format_utc(report.to)},
                 {"frames", report.frames},
@@ -262,14 +265,15 @@ int run_loop(LoopOptions options) {
     if (!range) return report_error(range.error());
     const auto store = cache::Store::open_for_reading(options.cache);
     if (!store) return report_error(store.error());
-    auto entries = store->list(options.domain, level2::Moment::ref, range->from, range->to);
+    auto entries = store->list(options.domain, scene->moment, range->from, range->to);
     if (!entries) return report_error(entries.error());
     if (options.last > 0 && entries->size() > options.last) {
         entries->erase(entries->begin(),
                        entries->end() - static_cast<std::ptrdiff_t>(options.last));
     }
-    if (entries->empty()) return report_no_grid(*store, options.domain, range_text(options));
-    options.animation.metadata = metadata_of(*entries, options);
+    if (entries->empty())
+        return report_no_grid(*store, options.domain, scene->moment, range_text(options));
+    options.animation.metadata = metadata_of(*entries, options, *scene);
 
     Interrupt interrupt;
     const auto report = make_loop(*entries, options, *scene, interrupt.flag(), start);

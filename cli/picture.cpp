@@ -12,14 +12,37 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-int report_no_grid(const cache::Store& store, const std::string& domain, const std::string& when) {
-    const auto domains = store.domains();
-    const std::string known = !domains || domains->empty()
-                                  ? std::string{"the cache is empty"}
-                                  : fmt::format("domains are {}", fmt::join(*domains, ", "));
+namespace {
+
+// Of which the domain keeps grids, whenever they are from.
+std::vector<std::string_view> moments_kept(const cache::Store& store, const std::string& domain) {
+    std::vector<std::string_view> kept;
+    for (const level2::Moment moment : level2::all_moments) {
+        const auto entries = store.list(domain, moment, std::nullopt, std::nullopt);
+        if (entries && !entries->empty()) kept.push_back(level2::moment_name(moment));
+    }
+    return kept;
+}
+
+}  // namespace
+
+int report_no_grid(const cache::Store& store, const std::string& domain, level2::Moment moment,
+                   const std::string& when) {
+    const auto kept = moments_kept(store, domain);
+    const std::string_view name = level2::moment_name(moment);
+    std::string why;
+    if (!kept.empty() && std::find(kept.begin(), kept.end(), name) == kept.end()) {
+        why = fmt::format("no {} of domain '{}' is kept; it keeps {}", name, domain,
+                          fmt::join(kept, ", "));
+    } else {
+        const auto domains = store.domains();
+        why = fmt::format("no grid of domain '{}'{}; {}", domain, when,
+                          !domains || domains->empty()
+                              ? std::string{"the cache is empty"}
+                              : fmt::format("domains are {}", fmt::join(*domains, ", ")));
+    }
     fmt::print(stderr, "stormcellar: {}\n",
-               printable(fmt::format("{}: no grid of domain '{}'{}; {}", store.directory().native(),
-                                     domain, when, known)));
+               printable(fmt::format("{}: {}", store.directory().native(), why)));
     return exit_nothing_matched;
 }
 

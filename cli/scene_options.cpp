@@ -6,13 +6,32 @@
 #include <CLI/CLI.hpp>
 
 #include "base/local_time.h"
+#include "base/number_list.h"
+#include "render/colour/colour_file.h"
 
 namespace stormcellar::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     render::Scene& scene = options.scene;
     const std::string group = "Picture";
-    app.add_option("--product", options.product, "Volume or composite (column maximum)")
+    app.add_option("--product", options.product,
+                   "volume, composite (column maximum), cappi, section, echotop, vil, lowest-seen "
+                   "or highest-seen")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--moment", options.moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--colours", options.colours,
+                   "A colour table by name, or a .pal or .toml file (default: the moment's)")
+        ->group(group);
+    app.add_option("--height-km", options.height_km, "Of a CAPPI, above sea level")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--section", options.section,
+                   "LAT,LON,LAT,LON: the two ends of a vertical section")
+        ->group(group);
+    app.add_option("--echo-top-dbz", scene.echo_top_dbz, "The threshold of echo tops")
         ->group(group)
         ->capture_default_str();
     app.add_option("--width", scene.width, "Pixels")->group(group)->capture_default_str();
@@ -54,10 +73,38 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     }
     render::Scene scene = options.scene;
     scene.product = *product;
+    const auto moment = level2::moment_from_name(options.moment);
+    if (!moment) {
+        return fail(ErrorCode::bad_argument,
+                    "unknown moment '{}': known are REF, VEL, SW, ZDR, PHI, RHO, CFP",
+                    options.moment);
+    }
+    scene.moment = *moment;
+    scene.cappi_height_m = options.height_km * 1e3;
+    if (!options.section.empty()) {
+        const auto ends = numbers_of("--section", options.section, 4);
+        if (!ends) return pass_on(ends);
+        scene.section = render::SectionLine{{(*ends)[0], (*ends)[1]}, {(*ends)[2], (*ends)[3]}};
+    } else if (scene.product == render::Product::section) {
+        return fail(ErrorCode::bad_argument, "a section needs --section LAT,LON,LAT,LON");
+    }
+    if (!options.colours.empty()) {
+        auto colours = render::colours_from(options.colours);
+        if (!colours) return pass_on(colours);
+        scene.colours = std::move(*colours);
+    }
     scene.range_ring_spacing_m = options.range_ring_spacing_km * 1e3;
     scene.labels = !options.no_labels;
     if (auto valid = render::validate(scene); !valid) return pass_on(valid);
     return scene;
+}
+
+Result<std::vector<double>> numbers_of(const std::string& option, const std::string& text,
+                                       std::size_t count) {
+    auto numbers = parse_numbers(text, ',');
+    if (numbers && numbers->size() == count) return std::move(*numbers);
+    return fail(ErrorCode::bad_argument, "{} needs {} numbers with commas between them, not '{}'",
+                option, count, text);
 }
 
 int thread_count(const SceneOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "base/utc_time.h"
@@ -17,19 +18,28 @@ namespace stormcellar::cli {
 
 struct SceneOptions {
     std::string product = "volume";
-    render::Scene scene;  // what the options set; take it by scene_of()
+    std::string moment = "REF";
+    std::string colours;   // empty: the product's or the moment's
+    double height_km = 3;  // of a CAPPI
+    std::string section;   // "LAT,LON,LAT,LON"
+    render::Scene scene;   // what the options set; take it by scene_of()
     double range_ring_spacing_km = 50;
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
 };
 
-// Puts --product, --width, --height, --azimuth, --tilt, --zoom, --slices, --exaggeration,
+// Puts --product, --moment, --colours, --height-km, --section, --echo-top-dbz, --width, --height,
+// --azimuth, --tilt, --zoom, --slices, --exaggeration,
 // --opacity, --ring-spacing-km, --no-labels and --threads on a subcommand. `options` must outlive
 // the parse.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
 // The scene asked for, validated; bad_argument names the option that makes no sense.
 [[nodiscard]] Result<render::Scene> scene_of(const SceneOptions& options);
+
+// So many numbers with commas between them, as in "35.3,-97.3"; bad_argument names the option.
+[[nodiscard]] Result<std::vector<double>> numbers_of(const std::string& option,
+                                                     const std::string& text, std::size_t count);
 
 [[nodiscard]] int thread_count(const SceneOptions& options);
 

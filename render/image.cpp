@@ -1,6 +1,7 @@
 #include "render/image.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stormcellar::render {
 namespace {
@@ -12,6 +13,16 @@ std::size_t pixel_offset(const Image& image, int x, int y) {
 }
 
 }  // namespace
+
+Rgba8 over(const Rgba8& colour, const Rgba8& below) {
+    Rgba8 mixed = below;
+    const double alpha = colour[3] / 255.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        mixed[c] = static_cast<std::uint8_t>(
+            std::lround(below[c] + alpha * (static_cast<double>(colour[c]) - below[c])));
+    }
+    return mixed;
+}
 
 Image::Image(int w, int h, Rgba8 fill)
     : width(w), height(h), rgba(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 4) {

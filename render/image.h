@@ -10,6 +10,9 @@ namespace stormcellar::render {
 
 using Rgba8 = std::array<std::uint8_t, 4>;  // not premultiplied, sRGB
 
+// A colour over an opaque one.
+[[nodiscard]] Rgba8 over(const Rgba8& colour, const Rgba8& below);
+
 // Row 0 is the top. Opaque unless stated otherwise.
 struct Image {
     int width = 0, height = 0;

@@ -7,29 +7,13 @@
 #include "render/map/map_marks.h"
 #include "render/products/column_summary.h"
 #include "render/products/ground.h"
+#include "render/products/product.h"
+#include "render/products/section.h"
 #include "render/shades.h"
 #include "render/volume/slicer.h"
 
 namespace stormcellar::render {
 namespace {
-
-Status check(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
-    if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "no grid to draw");
-    if (auto valid = grid::validate(*view.spec); !valid) return valid;
-    if (facts.moment != level2::Moment::ref) {
-        return fail(ErrorCode::unsupported, "only reflectivity (REF) can be drawn, not {}",
-                    level2::moment_name(facts.moment));
-    }
-    return validate(scene);
-}
-
-// A map is the view straight down with north up.
-ViewGeometry geometry_of(const grid::GridSpec& spec, const Scene& scene, int width, int height) {
-    if (scene.product == Product::composite) {
-        return {spec, Camera{180, 0, scene.camera.zoom}, 1, width, height};
-    }
-    return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
-}
 
 // Where the picture is, and how its lines and letters are drawn.
 struct Frame {
@@ -40,14 +24,20 @@ struct Frame {
 };
 
 // The picture with its lines, without the labels round it.
-Image draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
-                   const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
-                   int threads) {
+Result<Image> draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
+                           const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
+                           int threads) {
     const double scale = frame.layout.scale;
     const bool volume = scene.product == Product::volume;
-    const Image base =
-        volume ? paint_ground(*view.spec, columns, geometry, scale, threads)
-               : paint_composite(view, nws_reflectivity(), columns, geometry, scale, threads);
+    const ColourTable& colours = colours_of(scene);
+    Image base;
+    if (volume) {
+        base = paint_ground(*view.spec, columns, geometry, scale, threads);
+    } else {
+        const auto field = map_field(view, scene, columns, threads);
+        if (!field) return pass_on(field);
+        base = paint_field(*view.spec, *field, colours, geometry, scale, threads);
+    }
     Canvas canvas(base);
     draw_border(canvas, frame.lines);
     if (scene.labels) {
@@ -57,7 +47,7 @@ Image draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>
     }
     Image picture = canvas.image();
     if (volume) {
-        const VolumeSlicer slicer(nws_reflectivity(), view.quantization, geometry,
+        const VolumeSlicer slicer(colours, view.quantization, geometry,
                                   {scene.slices, Integration::second_order, scene.opacity});
         const Layer layer = slicer.draw(view, threads);
         composite_over(layer, picture, 0, 0);
@@ -65,11 +55,40 @@ Image draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>
     return picture;
 }
 
+Image draw_section_picture(const grid::BrickView& view, const Scene& scene, const Frame& frame,
+                           int threads) {
+    const LabelLayout& layout = frame.layout;
+    const SectionPlace place =
+        section_place(layout.width, layout.height, layout.scale, scene.labels);
+    const Section section =
+        cut_section(view, scene.moment, *scene.section, place.width, place.height, threads);
+    return draw_section(section, colours_of(scene), place, layout.width, layout.height,
+                        layout.scale, scene.labels ? &frame.fonts : nullptr);
+}
+
 }  // namespace
+
+Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene) {
+    if (view.spec == nullptr) return fail(ErrorCode::bad_argument, "no grid to draw");
+    if (auto valid = grid::validate(*view.spec); !valid) return valid;
+    if (facts.moment != scene.moment) {
+        return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
+                    level2::moment_name(facts.moment), level2::moment_name(scene.moment));
+    }
+    return validate(scene);
+}
+
+ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, int width,
+                              int height) {
+    if (is_map(scene.product)) {
+        return {spec, Camera{180, 0, scene.camera.zoom}, 1, width, height};
+    }
+    return {spec, scene.camera, scene.vertical_exaggeration, width, height, scene.curved_earth};
+}
 
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
                            int threads, MapKeeper* keeper) {
-    if (auto valid = check(view, facts, scene); !valid) return pass_on(valid);
+    if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto columns = summarize_columns(view, threads);
     Frame frame;
     frame.lines.ring_spacing_m = drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m);
@@ -79,15 +98,14 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         auto fonts = Fonts::load();
         if (!fonts) return pass_on(fonts);
         frame.fonts = *fonts;
-        auto layout =
-            lay_out_labels(frame.fonts, scene, facts,
-                           {legend_of(scene, facts.moment, nws_reflectivity()),
-                            frame.lines.ring_spacing_m, coverage_of(columns, *view.spec)});
+        auto layout = lay_out_labels(
+            frame.fonts, scene, facts,
+            {legend_of(scene), frame.lines.ring_spacing_m, coverage_of(columns, *view.spec)});
         if (!layout) return pass_on(layout);
         frame.layout = *layout;
     }
     const ViewGeometry geometry =
-        geometry_of(*view.spec, scene, frame.layout.width, frame.layout.height);
+        picture_geometry(*view.spec, scene, frame.layout.width, frame.layout.height);
     frame.lines.geometry = &geometry;
     frame.lines.spec = view.spec;
     frame.lines.sites = &facts.sites;
@@ -102,13 +120,15 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         frame.marks = plan_marks(frame.fonts, frame.lines);
     }
 
-    Image picture = draw_picture(view, columns, scene, geometry, frame, threads);
-    if (!scene.labels) return picture;
+    const bool section = scene.product == Product::section;
+    auto picture = section ? Result<Image>(draw_section_picture(view, scene, frame, threads))
+                           : draw_picture(view, columns, scene, geometry, frame, threads);
+    if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
-    canvas.place(picture, frame.layout.left, frame.layout.top);
+    canvas.place(*picture, frame.layout.left, frame.layout.top);
     frame.lines.left = frame.layout.left;
     frame.lines.top = frame.layout.top;
-    draw_marks(canvas, frame.fonts, frame.lines, frame.marks);
+    if (!section) draw_marks(canvas, frame.fonts, frame.lines, frame.marks);
     draw_labels(canvas, frame.fonts, frame.layout);
     return canvas.image();
 }

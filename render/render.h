@@ -1,6 +1,6 @@
 // render/render.h -- one grid and a scene -> one picture, with its labels.
 //
-// Draws the product (slicer or composite), then range rings, site marks, colour bar, title and
+// Draws the product (volume, map or section), then range rings, site marks, colour bar, title and
 // time over it. The same input gives the same pixels for any number of threads.
 #pragma once
 
@@ -14,6 +14,7 @@
 #include "grid/brick_view.h"
 #include "render/image.h"
 #include "render/scene.h"
+#include "render/view_geometry.h"
 
 namespace stormcellar::render {
 
@@ -36,8 +37,16 @@ struct FrameFacts {
 
 // A loop hands the same keeper to each of its frames: the map is then prepared once. The pixels
 // are the same with it or without.
+// bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          MapKeeper* keeper = nullptr);
+
+// What render_frame() asks of them before it draws.
+[[nodiscard]] Status check_frame(const grid::BrickView& view, const FrameFacts& facts,
+                                 const Scene& scene);
+// How a volume or a map is seen in a picture of this size; a map straight down with north up.
+[[nodiscard]] ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene,
+                                            int width, int height);
 
 }  // namespace stormcellar::render

@@ -6,13 +6,18 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "grid/site_frame.h"
 #include "level2/volume.h"
+#include "render/colour/colour_table.h"
 
 namespace stormcellar::render {
 
-enum class Product { volume, composite };
+// render/products/flat_field.h says what each is; section: render/products/section.h.
+enum class Product { volume, composite, cappi, section, echo_top, vil, lowest_seen, highest_seen };
 [[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
 [[nodiscard]] std::string_view product_name(Product product);
+// A map of the grid's columns, seen from above: all but volume and section.
+[[nodiscard]] bool is_map(Product product);
 
 // Where a camera stands: metres east and north of the grid's middle, height above sea level.
 struct Eye {
@@ -30,9 +35,19 @@ struct Camera {
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
 };
 
+// A vertical section goes along the geodesic between two places.
+struct SectionLine {
+    grid::GeoPoint from, to;  // latitudes -90..90, longitudes -180..360; 1..5000 km apart
+};
+
 struct Scene {
     Product product = Product::volume;
-    int width = 796, height = 532;  // pixels; 16..8192
+    level2::Moment moment = level2::Moment::ref;        // of the grid; echo_top and vil need REF
+    std::optional<ColourTable> colours = std::nullopt;  // none: see colours_of()
+    double cappi_height_m = 3000;                       // above sea level; -1..60 km
+    std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
+    double echo_top_dbz = 18.5;                         // -30..80
+    int width = 796, height = 532;                      // pixels; 16..8192
     Camera camera;
     int slices = 256;                    // parallel to the image plane; 8..4096
     double vertical_exaggeration = 5;    // stated in the picture; 0.1..100
@@ -43,5 +58,10 @@ struct Scene {
 };
 // bad_argument names the first field that is outside its range; NaN is outside every range.
 [[nodiscard]] Status validate(const Scene& scene);
+
+// The scene's table, or else the product's, or else the moment's.
+[[nodiscard]] const ColourTable& colours_of(const Scene& scene);
+// Of what the product shows: "dBZ", "km"; empty for a number without one.
+[[nodiscard]] std::string unit_shown(const Scene& scene);
 
 }  // namespace stormcellar::render

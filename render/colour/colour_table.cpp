@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "base/floating_point.h"
 
 namespace stormcellar::render {
 namespace {
@@ -10,36 +14,43 @@ std::uint8_t blend(std::uint8_t from, std::uint8_t to, double share) {
     return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
 }
 
-double reflectivity_extinction(double dbz) {
-    const double haze = 0.012 * std::pow(10.0, (dbz - 5) / 40);
-    const double core = 0.12 * std::pow(10.0, (dbz - 50) / 10);
-    return haze + core;
-}
-
-ColourTable make_nws_reflectivity() {
-    constexpr float class_width = 5;
-    constexpr Rgba8 classes[] = {
-        {0x04, 0xE9, 0xE7, 255}, {0x01, 0x9F, 0xF4, 255}, {0x03, 0x00, 0xF4, 255},
-        {0x02, 0xFD, 0x02, 255}, {0x01, 0xC5, 0x01, 255}, {0x00, 0x8E, 0x00, 255},
-        {0xFD, 0xF8, 0x02, 255}, {0xE5, 0xBC, 0x00, 255}, {0xFD, 0x95, 0x00, 255},
-        {0xFD, 0x00, 0x00, 255}, {0xD4, 0x00, 0x00, 255}, {0xBC, 0x00, 0x00, 255},
-        {0xF8, 0x00, 0xFD, 255}, {0x98, 0x54, 0xC6, 255}, {0xFD, 0xFD, 0xFD, 255},
-    };
-    ColourTable table;
-    table.name = "nws-reflectivity";
-    table.unit = "dBZ";
-    table.end = class_width;
-    for (const Rgba8& colour : classes) {
-        table.stops.push_back({table.end, colour, colour});
-        table.end += class_width;
-    }
-    table.range_folded = {0x77, 0x00, 0x7D, 255};
-    for (int dbz = 5; dbz <= 80; ++dbz)
-        table.extinction.push_back({static_cast<float>(dbz), reflectivity_extinction(dbz)});
-    return table;
-}
-
 }  // namespace
+
+Status validate(const ColourTable& table) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::bad_argument, "{}", why);
+    };
+    if (table.stops.empty()) return refuse("has no colours");
+    if (table.stops.size() > most_stops) return refuse("has more than 4096 colours");
+    if (table.extinction.empty()) return refuse("has no opacity");
+    const auto follows = [](float before, float after) {
+        return std::isfinite(after) && std::isgreater(after, before);
+    };
+    float before = -std::numeric_limits<float>::infinity();
+    for (const ColourStop& stop : table.stops) {
+        if (!follows(before, stop.from)) return refuse("has values that do not rise");
+        before = stop.from;
+    }
+    if (!follows(before, table.end)) return refuse("ends before its last colour");
+    if (table.bar_begin && !is_within(*table.bar_begin, table.lowest(), table.end)) {
+        return refuse("has a colour bar that begins outside its values");
+    }
+    before = -std::numeric_limits<float>::infinity();
+    for (const ExtinctionPoint& point : table.extinction) {
+        if (!follows(before, point.value))
+            return refuse("has opacities at values that do not rise");
+        before = point.value;
+        if (!is_within(point.per_km, 0.0, 1e6)) {
+            return refuse("has an opacity per km that is not 0 to 1000000");
+        }
+    }
+    return {};
+}
+
+bool is_stepped(const ColourTable& table) {
+    return std::all_of(table.stops.begin(), table.stops.end(),
+                       [](const ColourStop& stop) { return stop.colour == stop.until; });
+}
 
 std::optional<Rgba8> colour_of(const ColourTable& table, float value) {
     if (!std::isgreaterequal(value, table.lowest())) return std::nullopt;
@@ -67,11 +78,6 @@ double extinction_per_m(const ColourTable& table, double value, double opacity) 
     const double share = (value - static_cast<double>(below.value)) /
                          static_cast<double>(after->value - below.value);
     return opacity * std::lerp(below.per_km, after->per_km, share) / 1000;
-}
-
-const ColourTable& nws_reflectivity() {
-    static const ColourTable table = make_nws_reflectivity();
-    return table;
 }
 
 }  // namespace stormcellar::render

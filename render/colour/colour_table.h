@@ -11,10 +11,12 @@
 // Thread contract: plain data; functions are pure.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "level2/volume.h"
 #include "render/image.h"
 
@@ -37,22 +39,31 @@ struct ColourTable {
     std::string unit;               // "dBZ"; empty: a number without one
     std::vector<ColourStop> stops;  // at least one
     float end = 0;  // where the last class ends in a colour bar; above the last stop
+    // Where a colour bar begins, if not with the first class, which reaches down far.
+    std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly
 
     [[nodiscard]] float lowest() const { return stops.front().from; }
 };
 
+// More than any display shows apart; bounds what files may ask for.
+inline constexpr std::size_t most_stops = 4096;
+
+// bad_argument, in words that follow the name of a table, unless there are 1 to most_stops stops
+// that rise strictly, the bar's ends lie about them, there is an extinction of values that rise
+// strictly, and all numbers are finite and no extinction is negative.
+[[nodiscard]] Status validate(const ColourTable& table);
+
+// Whether no colour blends: the table shows classes.
+[[nodiscard]] bool is_stepped(const ColourTable& table);
+
 // None below the first stop and for NaN.
 [[nodiscard]] std::optional<Rgba8> colour_of(const ColourTable& table, float value);
 // Per metre of the drawn scene, times `opacity`; 0 for what has no colour.
 [[nodiscard]] double extinction_per_m(const ColourTable& table, double value, double opacity);
 
-// The colours of the National Weather Service for reflectivity: 15 classes of 5 dB, from 5 dBZ; the
-// last is open above. Range folded 77007d. Source: the WSR-88D products' standard colours.
-// Extinction is the sum of a haze, which keeps weak echo in sight, and of a steep part, which makes
-// cores solid: 0.012 * 10^((v - 5 dBZ) / 40 dB) + 0.12 * 10^((v - 50 dBZ) / 10 dB) per km, given at
-// every decibel.
+// The colours of the National Weather Service for reflectivity (render/colour/built_in_tables.h).
 [[nodiscard]] const ColourTable& nws_reflectivity();
 
 }  // namespace stormcellar::render

@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "render/round_step.h"
+#include "render/shades.h"
+
 namespace stormcellar::render {
 namespace {
-
-bool is_stepped(const ColourTable& table) {
-    return std::all_of(table.stops.begin(), table.stops.end(),
-                       [](const ColourStop& stop) { return stop.colour == stop.until; });
-}
 
 void add_block(ColourBar& bar, const Rect& box, double low_y, double high_y, Rgba8 colour) {
     if (low_y <= high_y) return;
@@ -35,25 +33,19 @@ ColourBar stepped_bar(const ColourTable& table, const Rect& box, double least_ti
         const double high = std::round(box.bottom() - static_cast<double>(i + 1) * height);
         if (low > high) {
             // Neighbours of one colour stay apart: each class is there.
-            bar.blocks.push_back({{box.x, high, box.width, low - high}, table.stops[i].colour});
+            bar.blocks.push_back(
+                {{box.x, high, box.width, low - high}, over(table.stops[i].colour, shades::seen)});
         }
-        if (i % every == 0) bar.ticks.push_back({low, fmt::format("{:g}", table.stops[i].from)});
+        const bool reaches_far = i == 0 && table.bar_begin;
+        if (i % every == 0 && !reaches_far)
+            bar.ticks.push_back({low, fmt::format("{:g}", table.stops[i].from)});
     }
     return bar;
 }
 
-// 1, 2 or 5 times a power of ten.
-double round_step(double least) {
-    const double power = std::pow(10, std::floor(std::log10(least)));
-    for (const double digit : {1.0, 2.0, 5.0}) {
-        if (digit * power >= least * (1 - 1e-9)) return digit * power;
-    }
-    return 10 * power;
-}
-
 ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tick) {
     ColourBar bar;
-    const double lowest = static_cast<double>(table.lowest());
+    const double lowest = static_cast<double>(table.bar_begin.value_or(table.lowest()));
     const double span = std::max(1e-6, static_cast<double>(table.end) - lowest);
     const double top = std::round(box.y);
     const double bottom = std::round(box.bottom());
@@ -62,9 +54,10 @@ ColourBar smooth_bar(const ColourTable& table, const Rect& box, double least_tic
         const double value = lowest + span * (row + 0.5) / rows;
         const auto colour = colour_of(table, static_cast<float>(value));
         add_block(bar, box, bottom - row, bottom - row - 1,
-                  colour.value_or(table.stops.front().colour));
+                  over(colour.value_or(table.stops.front().colour), shades::seen));
     }
-    const double step = round_step(span * std::min(1.0, least_tick / std::max(1.0, box.height)));
+    const double step =
+        round_step(span, std::max(1, static_cast<int>(box.height / std::max(1.0, least_tick))));
     const auto first = static_cast<int>(std::ceil(lowest / step - 1e-6));
     const auto last = static_cast<int>(std::floor((lowest + span) / step + 1e-6));
     for (int i = first; i <= last; ++i) {

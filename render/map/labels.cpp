@@ -11,6 +11,7 @@
 #include "render/map/base_map.h"
 #include "render/map/colour_bar.h"
 #include "render/products/ground.h"
+#include "render/products/product.h"
 #include "render/shades.h"
 
 namespace stormcellar::render {
@@ -58,6 +59,8 @@ std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_s
                          : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
                                        direction_name(scene.camera.azimuth_deg), tilt);
         text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
+    } else if (scene.product == Product::section) {
+        return "Vertical section from A to B";
     } else {
         text = "Map, north up";
     }
@@ -228,7 +231,7 @@ void lay_out_panel(Builder& builder, const Legend& legend, Rect panel) {
         y -= row;
     }
     if (legend.table == nullptr) return;
-    builder.put(legend.table->unit, x, panel.y + builder.scaled(14), room,
+    builder.put(legend.bar_heading, x, panel.y + builder.scaled(14), room,
                 {11, true, shades::text});
     const double bar_top = std::round(panel.y + builder.scaled(24));
     lay_out_bar(builder, *legend.table,

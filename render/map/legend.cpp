@@ -3,58 +3,68 @@
 #include <fmt/format.h>
 
 #include "render/products/ground.h"
+#include "render/products/product.h"
 #include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {
 
-// "no echo and < 5 dBZ"
-std::string unseen_words(const ColourTable& table, std::string_view between) {
-    return fmt::format("no echo {} < {:g}{}{}", between, table.lowest(),
-                       table.unit.empty() ? "" : " ", table.unit);
+using level2::Moment;
+
+// Values below the table's first class, 0, do not exist.
+bool is_never_negative(Moment moment) {
+    return moment == Moment::sw || moment == Moment::phi || moment == Moment::cfp;
 }
 
-}  // namespace
-
-std::string_view moment_words(level2::Moment moment) {
-    switch (moment) {
-        case level2::Moment::ref:
-            return "Reflectivity";
-        case level2::Moment::vel:
-            return "Radial velocity";
-        case level2::Moment::sw:
-            return "Spectrum width";
-        case level2::Moment::zdr:
-            return "Differential reflectivity";
-        case level2::Moment::phi:
-            return "Differential phase";
-        case level2::Moment::rho:
-            return "Correlation coefficient";
-        case level2::Moment::cfp:
-            return "Clutter filter power";
-    }
-    return level2::moment_name(moment);
+// "no echo and < 5 dBZ" of a table that begins there; "no echo" of one that takes all values.
+std::string clear_words(const Scene& scene, std::string_view between) {
+    const ColourTable& table = colours_of(scene);
+    const bool takes_all =
+        table.bar_begin || (is_never_negative(scene.moment) && !(table.lowest() > 0));
+    if (takes_all) return "no echo";
+    const std::string unit = unit_shown(scene);
+    return fmt::format("no echo {} < {:g}{}{}", between, table.lowest(), unit.empty() ? "" : " ",
+                       unit);
 }
 
-Legend legend_of(const Scene& scene, level2::Moment moment, const ColourTable& table) {
-    Legend legend;
-    legend.table = &table;
-    if (scene.product == Product::composite) {
-        std::string words(moment_words(moment));
-        words.front() = static_cast<char>(words.front() - 'A' + 'a');
-        legend.product = fmt::format("Composite {} (column maximum)", words);
-        legend.rows = {{unseen_words(table, "or"), shades::seen, false},
-                       {"range folded", table.range_folded, false},
-                       {"not seen", shades::not_seen, true}};
-        return legend;
-    }
+void add_volume_rows(const Scene& scene, Legend& legend) {
     const std::string height = fmt::format("{:g} km", low_coverage_m / 1000);
-    legend.product = fmt::format("{}, 3D volume", moment_words(moment));
     legend.heading = "Coverage (ground)";
     legend.rows = {{"seen below " + height, shades::seen, false},
                    {"seen above " + height, shades::seen_aloft, false},
                    {"not seen", shades::not_seen, true}};
-    legend.notes = {unseen_words(table, "and"), "are clear"};
+    legend.notes = {clear_words(scene, "and"), "are clear"};
+}
+
+void add_flat_rows(const Scene& scene, Legend& legend) {
+    const bool heights_seen =
+        scene.product == Product::lowest_seen || scene.product == Product::highest_seen;
+    if (scene.product == Product::echo_top) {
+        legend.rows.push_back({"dotted: at least", shades::page, false});
+        legend.rows.push_back(
+            {fmt::format("no echo or < {:g} dBZ", scene.echo_top_dbz), shades::seen, false});
+    } else if (!heights_seen) {
+        legend.rows.push_back({clear_words(scene, "or"), shades::seen, false});
+    }
+    if (!heights_seen) {
+        legend.rows.push_back({"range folded", colours_of(scene).range_folded, false});
+    }
+    legend.rows.push_back({"not seen", shades::not_seen, true});
+}
+
+}  // namespace
+
+Legend legend_of(const Scene& scene) {
+    Legend legend;
+    legend.product = product_title(scene);
+    legend.table = &colours_of(scene);
+    legend.bar_heading = unit_shown(scene);
+    if (legend.bar_heading.empty()) legend.bar_heading = level2::moment_name(scene.moment);
+    if (scene.product == Product::volume) {
+        add_volume_rows(scene, legend);
+    } else {
+        add_flat_rows(scene, legend);
+    }
     return legend;
 }
 

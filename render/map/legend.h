@@ -3,10 +3,8 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "level2/volume.h"
 #include "render/colour/colour_table.h"
 #include "render/scene.h"
 
@@ -21,15 +19,13 @@ struct LegendRow {
 struct Legend {
     std::string product;                 // "Composite reflectivity (column maximum)"
     std::string heading;                 // over the rows; may be empty
-    std::vector<LegendRow> rows;         // from the top down
+    std::vector<LegendRow> rows;         // from the top down: what is not in the colour bar
     std::vector<std::string> notes;      // in small print below
+    std::string bar_heading;             // the unit, else the moment's name
     const ColourTable* table = nullptr;  // of the colour bar; none: no bar
 };
 
-// "Radial velocity"
-[[nodiscard]] std::string_view moment_words(level2::Moment moment);
-
-// Of the products of render/scene.h. `table` must outlive the legend.
-[[nodiscard]] Legend legend_of(const Scene& scene, level2::Moment moment, const ColourTable& table);
+// Of a valid scene, whose table must outlive the legend.
+[[nodiscard]] Legend legend_of(const Scene& scene);
 
 }  // namespace stormcellar::render

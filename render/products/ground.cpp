@@ -1,20 +1,22 @@
 #include "render/products/ground.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
 #include "render/colour/colour_table.h"
+#include "render/round_step.h"
 #include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {
 
-// The column under a ground point; -1 beyond the grid.
-std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
-    const double ix = std::floor(p.x_m / spec.cell_width_m() + 0.5 * spec.nx);
-    const double iy = std::floor(p.y_m / spec.cell_height_m() + 0.5 * spec.ny);
-    if (!(ix >= 0 && ix < spec.nx && iy >= 0 && iy < spec.ny)) return -1;
-    return static_cast<std::ptrdiff_t>(iy) * spec.nx + static_cast<std::ptrdiff_t>(ix);
+// Dots of a value that is "at least" so much.
+bool is_dot(int x, int y, double scale) {
+    const int period = std::max(4, static_cast<int>(std::lround(6 * scale)));
+    const int size = std::max(1, static_cast<int>(std::lround(2 * scale)));
+    const int shift = (y / period) % 2 == 0 ? 0 : period / 2;
+    return (x + shift) % period < size && y % period < size;
 }
 
 // Calls shade(column, x, y) for every pixel over the grid.
@@ -33,6 +35,13 @@ Image paint(const grid::GridSpec& spec, const ViewGeometry& geometry, int thread
 
 }  // namespace
 
+std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
+    const double ix = std::floor(p.x_m / spec.cell_width_m() + 0.5 * spec.nx);
+    const double iy = std::floor(p.y_m / spec.cell_height_m() + 0.5 * spec.ny);
+    if (!(ix >= 0 && ix < spec.nx && iy >= 0 && iy < spec.ny)) return -1;
+    return static_cast<std::ptrdiff_t>(iy) * spec.nx + static_cast<std::ptrdiff_t>(ix);
+}
+
 Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>& columns,
                    const ViewGeometry& geometry, double scale, int threads) {
     return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
@@ -42,23 +51,29 @@ Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>&
     });
 }
 
-Image paint_composite(const grid::BrickView& view, const ColourTable& table,
-                      const std::vector<ColumnSummary>& columns, const ViewGeometry& geometry,
-                      double scale, int threads) {
-    return paint(*view.spec, geometry, threads, [&](std::size_t column, int x, int y) {
-        const ColumnSummary& summary = columns[column];
-        switch (summary.status()) {
-            case grid::CellStatus::value:
-                return colour_of(table, view.quantization.value_of(summary.max_code))
-                    .value_or(shades::seen);
-            case grid::CellStatus::range_folded:
-                return table.range_folded;
-            case grid::CellStatus::no_echo:
-                return shades::seen;
-            case grid::CellStatus::not_seen:
-                break;
+Rgba8 shade_of(const FlatField& field, std::size_t place, const ColourTable& table, int x, int y,
+               double scale) {
+    switch (field.status[place]) {
+        case grid::CellStatus::value: {
+            const auto colour = colour_of(table, field.values[place]);
+            if (!colour) return shades::seen;
+            const bool dotted = !field.at_least.empty() && field.at_least[place] != 0;
+            return dotted && is_dot(x, y, scale) ? shades::page : over(*colour, shades::seen);
         }
-        return shades::hatched(x, y, scale);
+        case grid::CellStatus::range_folded:
+            return over(table.range_folded, shades::seen);
+        case grid::CellStatus::no_echo:
+            return shades::seen;
+        case grid::CellStatus::not_seen:
+            break;
+    }
+    return shades::hatched(x, y, scale);
+}
+
+Image paint_field(const grid::GridSpec& spec, const FlatField& field, const ColourTable& table,
+                  const ViewGeometry& geometry, double scale, int threads) {
+    return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
+        return shade_of(field, column, table, x, y, scale);
     });
 }
 

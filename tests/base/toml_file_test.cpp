@@ -50,6 +50,17 @@ TEST(TomlFile, GivesWhatIsThere) {
     EXPECT_EQ(complaint(file), "");
 }
 
+TEST(TomlFile, GivesFlags) {
+    TomlFile file = file_of("yes = true\nno = false\n");
+    EXPECT_EQ(file.root().flag("yes"), true);
+    EXPECT_EQ(file.root().flag("no"), false);
+    EXPECT_FALSE(file.root().flag("maybe"));
+    EXPECT_EQ(complaint(file), "");
+    TomlFile number = file_of("yes = 1\n");
+    EXPECT_FALSE(number.root().flag("yes"));
+    EXPECT_THAT(complaint(number), HasSubstr("s.toml:1: yes: must be true or false"));
+}
+
 TEST(TomlFile, GivesTextsOfAnArrayOfNothingElse) {
     TomlFile file = file_of("a = [\"x\", \"y\"]\nb = []\n");
     EXPECT_THAT(*file.root().texts("a"), ElementsAre("x", "y"));

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "cache/store.h"
 #include "cli/commands.h"
@@ -32,7 +33,23 @@ class Frame : public ::testing::Test {
                 grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
             const auto path = store->commit("KBGM", cache::describe(grid), bricks.view());
             ASSERT_TRUE(path) << path.error().message;
+            if (time == std::string("20050822_024400")) commit_velocity(*store, grid);
         }
+    }
+
+    // Of one of the two times: 20 m/s below, -20 m/s above, not seen in the east.
+    void commit_velocity(const cache::Store& store, grid::Grid grid) {
+        grid.moment = level2::Moment::vel;
+        const auto levels = static_cast<std::size_t>(grid.spec.nz());
+        for (std::size_t i = 0; i < grid.values.size(); ++i) {
+            grid.values[i] = i % levels < levels / 2 ? 20.0F : -20.0F;
+            const std::size_t ix = i / levels % static_cast<std::size_t>(grid.spec.nx);
+            if (ix >= 30) grid.status[i] = grid::CellStatus::not_seen;
+        }
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::vel));
+        const auto path = store.commit("KBGM", cache::describe(grid), bricks.view());
+        ASSERT_TRUE(path) << path.error().message;
     }
 
     int run(const std::string& arguments) {
@@ -99,6 +116,88 @@ TEST_F(Frame, NonsenseIsBadUsage) {
 TEST_F(Frame, FailuresNameTheFile) {
     EXPECT_EQ(run("--domain KBGM -o " + out("no/such/a.png")), exit_failed);
     EXPECT_THAT(messages_, ::testing::HasSubstr("no/such"));
+}
+
+TEST_F(Frame, DrawsEveryProduct) {
+    for (const char* product :
+         {"volume --slices 16", "composite", "cappi --height-km 4.2",
+          "section --section 42.1,-76.1,42.3,-75.9", "echotop --echo-top-dbz 30", "vil",
+          "lowest-seen", "highest-seen"}) {
+        EXPECT_EQ(run(std::string("--domain KBGM -o ") + out("a.png") + " --product " + product),
+                  exit_done)
+            << product << " " << messages_;
+    }
+    EXPECT_EQ(run("--domain KBGM --product section -o " + out("b.png")), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("--section LAT,LON,LAT,LON"));
+    EXPECT_EQ(run("--domain KBGM --product section --section 42,-76,43 -o " + out("b.png")),
+              exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --product cappi --height-km 40 -o " + out("b.png")),
+              exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("0.25 to 16.25 km"));
+    EXPECT_FALSE(fs::exists(out("b.png")));
+}
+
+TEST_F(Frame, TakesTheNewestGridOfTheMoment) {
+    EXPECT_EQ(run("--domain KBGM --moment VEL --product cappi -o " + out("a.png")), exit_done)
+        << messages_;
+    EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("2005-08-22T02:44:00Z"));
+    EXPECT_THAT(text_of(out("a.png")), ::testing::HasSubstr("Radial velocity at 3 km"));
+    EXPECT_EQ(run("--domain KBGM --moment RHO -o " + out("b.png")), exit_nothing_matched);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("no RHO of domain 'KBGM' is kept"));
+    EXPECT_THAT(messages_, ::testing::HasSubstr("it keeps REF, VEL"));
+    EXPECT_EQ(run("--domain KBGM --moment RAIN -o " + out("b.png")), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --moment VEL --product vil -o " + out("b.png")), exit_bad_usage);
+}
+
+TEST_F(Frame, TakesColoursByNameOrFile) {
+    const std::string start =
+        "--domain KBGM --product composite -o " + out("a.png") + " --colours ";
+    EXPECT_EQ(run(start + "safe-reflectivity"), exit_done) << messages_;
+    EXPECT_EQ(run(start + "rainbow"), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("known are nws-reflectivity"));
+    EXPECT_EQ(run(start + "nws-velocity"), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("in m/s, the picture in dBZ"));
+    std::ofstream(out("mine.pal")) << "Product: BR\nColor: 5 0 0 0\nColor: 60 255 255 255\n";
+    EXPECT_EQ(run(start + out("mine.pal")), exit_done) << messages_;
+    std::ofstream(out("bad.pal")) << "Product: BR\nColor: 5 0 0\n";
+    EXPECT_EQ(run(start + out("bad.pal")), exit_bad_usage);
+    EXPECT_THAT(messages_, ::testing::HasSubstr("bad.pal:2: "));
+    EXPECT_EQ(run(start + out("none.toml")), exit_failed);
+}
+
+TEST_F(Frame, ProbesAPlaceOrAPixel) {
+    EXPECT_EQ(run("--domain KBGM --product composite --probe-at 42.2,-75.98"), exit_done);
+    EXPECT_THAT(facts_, ::testing::HasSubstr("value  33 dBZ at 0.5 km"));
+    EXPECT_THAT(facts_, ::testing::HasSubstr("seen   0.5 to 16 km"));
+    EXPECT_THAT(facts_, ::testing::HasSubstr("place  42.200\u00B0N 75.980\u00B0W"));
+    EXPECT_EQ(run("--domain KBGM --product cappi --moment VEL --height-km 12 --probe 336,277 "
+                  "--json -o " +
+                  out("a.png")),
+              exit_done)
+        << messages_;
+    EXPECT_TRUE(fs::exists(out("a.png")));
+    const auto json = nlohmann::json::parse(facts_);
+    EXPECT_EQ(json["moment"], "VEL");
+    EXPECT_EQ(json["probe"]["status"], "value");
+    EXPECT_EQ(json["probe"]["value"], -20);
+    EXPECT_EQ(json["probe"]["unit"], "m/s");
+    EXPECT_EQ(json["probe"]["height_m"], 12000);
+    EXPECT_EQ(run("--domain KBGM --product cappi --moment VEL --probe-at 42.2,-75.79 --json"),
+              exit_done);
+    const auto unseen = nlohmann::json::parse(facts_);
+    EXPECT_EQ(unseen["probe"]["status"], "not_seen");
+    EXPECT_TRUE(unseen["probe"]["value"].is_null());
+    EXPECT_TRUE(unseen["probe"]["lowest_seen_m"].is_null());
+    EXPECT_FALSE(unseen.contains("output"));
+}
+
+TEST_F(Frame, NonsensicalProbesAreBadUsage) {
+    EXPECT_EQ(run("--domain KBGM"), exit_bad_usage) << "neither picture nor probe";
+    EXPECT_EQ(run("--domain KBGM --probe 1,2 --probe-at 1,2"), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --probe 1"), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --probe 1.5,2"), exit_bad_usage);
+    EXPECT_EQ(run("--domain KBGM --probe 1,2"), exit_bad_usage) << "in the header";
+    EXPECT_EQ(run("--domain KBGM --probe-at 10,10"), exit_bad_usage) << "outside the grid";
 }
 
 }  // namespace

@@ -116,6 +116,19 @@ TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
     EXPECT_EQ(frames({"--last", "9"}), (std::pair<std::string, int>("2005-08-22T02:44:00Z", 3)));
 }
 
+TEST_F(Loop, DrawsTheProductAndMomentAskedFor) {
+    commit_three();
+    const auto cappi = run({"KBGM", "--product", "cappi", "--height-km", "4", "--colours",
+                            "safe-reflectivity", "--json", "-o", out("a.webp")});
+    EXPECT_EQ(cappi.status, 0) << cappi.err;
+    EXPECT_THAT(cappi.out, ::testing::HasSubstr("\"product\": \"cappi\""));
+    EXPECT_THAT(cappi.out, ::testing::HasSubstr("\"moment\": \"REF\""));
+    const auto velocity = run({"KBGM", "--moment", "VEL", "-o", out("b.webp")});
+    EXPECT_EQ(velocity.status, 3);
+    EXPECT_THAT(velocity.err, ::testing::HasSubstr("it keeps REF"));
+    EXPECT_FALSE(fs::exists(out("b.webp")));
+}
+
 TEST_F(Loop, SaysWhatItDidAsJson) {
     commit_three();
     const auto result =

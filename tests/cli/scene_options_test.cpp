@@ -42,8 +42,24 @@ TEST(SceneOptions, EveryOptionReachesTheScene) {
     EXPECT_FALSE(scene->labels);
 }
 
+TEST(SceneOptions, ProductsHaveOptionsOfTheirOwn) {
+    const auto scene = scene_of(
+        parse("--product section --section 35,-98.5,36,-97 --moment RHO --colours safe-rho "
+              "--height-km 4.5 --echo-top-dbz 30"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->product, render::Product::section);
+    EXPECT_EQ(scene->moment, level2::Moment::rho);
+    EXPECT_EQ(scene->colours->name, "safe-rho");
+    EXPECT_EQ(scene->section->from.longitude_deg, -98.5);
+    EXPECT_EQ(scene->section->to.latitude_deg, 36);
+    EXPECT_EQ(scene->cappi_height_m, 4500);
+    EXPECT_EQ(scene->echo_top_dbz, 30);
+}
+
 TEST(SceneOptions, NonsenseIsBadArgument) {
-    for (const char* arguments : {"--product x", "--tilt 91", "--width 1", "--threads -1"}) {
+    for (const char* arguments :
+         {"--product x", "--tilt 91", "--width 1", "--threads -1", "--moment ref", "--colours x",
+          "--section 1,2,3", "--height-km 99"}) {
         const auto scene = scene_of(parse(arguments));
         ASSERT_FALSE(scene) << arguments;
         EXPECT_EQ(scene.error().code, ErrorCode::bad_argument);

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/colour/built_in_tables.h"
+#include "render/shades.h"
+
 namespace stormcellar::render {
 namespace {
 
@@ -87,6 +90,19 @@ TEST(ColourBar, ABlendIsRegularInValue) {
     }
     EXPECT_THAT(texts, ::testing::ElementsAre("-30", "-25", "-20", "-15", "-10", "-5", "0", "5",
                                               "10", "15", "20", "25", "30"));
+}
+
+TEST(ColourBar, AClassThatReachesDownFarHasNoNumber) {
+    const ColourBar bar = colour_bar(default_colour_table(level2::Moment::vel), box, 11.5);
+    EXPECT_EQ(bar.blocks.size(), 15U);
+    EXPECT_EQ(bar.ticks.front().text, "-33");
+}
+
+TEST(ColourBar, ClearColoursShowTheGround) {
+    const ColourBar bar = colour_bar(
+        table_of({{0, {9, 9, 9, 0}, {9, 9, 9, 0}}, {10, {1, 2, 3, 255}, {1, 2, 3, 255}}}, 20), box,
+        11.5);
+    EXPECT_EQ(bar.blocks.front().colour, shades::seen);
 }
 
 }  // namespace

@@ -46,8 +46,12 @@ void expect_tidy(const LabelLayout& layout, int width, int height) {
     }
 }
 
-PictureFacts picture_of(const Scene& scene, level2::Moment moment, const ColourTable& table) {
-    return {legend_of(scene, moment, table), 50e3, Coverage{0.9958, 0.4}};
+PictureFacts picture_of(Scene scene, level2::Moment moment, const ColourTable& table) {
+    scene.moment = moment;
+    Legend legend = legend_of(scene);
+    legend.table = &table;
+    legend.bar_heading = table.unit;
+    return {legend, 50e3, Coverage{0.9958, 0.4}};
 }
 
 // Long everything.
@@ -105,7 +109,8 @@ void expect_tidy(const Fonts& fonts, const Scene& scene, const FrameFacts& facts
 TEST(Labels, NothingOverlapsAtAnySize) {
     const Fonts fonts = Fonts::load().value();
     for (const auto& [width, height] : sizes) {
-        for (const Product product : {Product::volume, Product::composite}) {
+        for (const Product product :
+             {Product::volume, Product::composite, Product::section, Product::echo_top}) {
             for (const auto& facts : {facts_for("KTLX", 1, false), facts_for("plains", 7, true),
                                       troubled(1), troubled(160), facts_for("x", 0, false)}) {
                 SCOPED_TRACE(::testing::Message() << width << "x" << height << " " << facts.domain);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/colour/built_in_tables.h"
 #include "render/colour/colour_table.h"
 #include "render/map/map_layer.h"
 #include "render/shades.h"
@@ -144,7 +145,7 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
     velocity.moment = level2::Moment::vel;
     const auto moment = render_frame(bricks.view(), velocity, Scene{}, 1);
     ASSERT_FALSE(moment);
-    EXPECT_EQ(moment.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(moment.error().code, ErrorCode::bad_argument);
     EXPECT_THAT(moment.error().message, testing::HasSubstr("VEL"));
 
     Scene scene;
@@ -153,6 +154,71 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
               ErrorCode::bad_argument);
     EXPECT_EQ(render_frame(grid::BrickView{}, facts_of(grid), Scene{}, 1).error().code,
               ErrorCode::bad_argument);
+}
+
+// Every product of reflectivity and every moment, with labels: pictures of the whole size.
+TEST(RenderFrame, DrawsEveryProductAndMoment) {
+    const auto grid = storm_grid(small_spec(60, 16, 4000, 1000));
+    const auto bricks = bricks_of(grid);
+    for (const Product product :
+         {Product::volume, Product::composite, Product::cappi, Product::section, Product::echo_top,
+          Product::vil, Product::lowest_seen, Product::highest_seen}) {
+        Scene scene;
+        scene.product = product;
+        scene.section = SectionLine{{34.5, -98}, {35.5, -96}};
+        const auto one = render_frame(bricks.view(), facts_of(grid), scene, 1);
+        ASSERT_TRUE(one) << product_name(product) << " " << one.error().message;
+        EXPECT_EQ(one->width, 796);
+        EXPECT_EQ(one->height, 532);
+        EXPECT_EQ(render_frame(bricks.view(), facts_of(grid), scene, 3)->rgba, one->rgba);
+    }
+    for (const level2::Moment moment : level2::all_moments) {
+        FrameFacts facts = facts_of(grid);
+        facts.moment = moment;
+        Scene scene;
+        scene.moment = moment;
+        for (const Product product : {Product::volume, Product::cappi}) {
+            scene.product = product;
+            EXPECT_TRUE(render_frame(bricks.view(), facts, scene, 2));
+        }
+    }
+}
+
+TEST(RenderFrame, TakesTheScenesColours) {
+    const auto grid = make_grid_of(small_spec(100, 4), [](int, int, int) { return valued(52); });
+    const auto bricks = bricks_of(grid);
+    Scene scene = plain(Product::cappi, 520);
+    scene.cappi_height_m = 1500;
+    const auto usual = render_frame(bricks.view(), facts_of(grid), scene, 1);
+    ASSERT_TRUE(usual);
+    EXPECT_EQ(map_pixel(*usual, 50, 50), (Rgba8{0xFD, 0, 0, 255}));
+    scene.colours = find_colour_table("safe-reflectivity").value();
+    const auto safe = render_frame(bricks.view(), facts_of(grid), scene, 1);
+    EXPECT_EQ(map_pixel(*safe, 50, 50), *colour_of(*scene.colours, 52));
+    scene.cappi_height_m = 9000;
+    EXPECT_EQ(render_frame(bricks.view(), facts_of(grid), scene, 1).error().code,
+              ErrorCode::bad_argument);
+}
+
+// A dotted place shows both its colour and the dots.
+TEST(EchoTops, ThatMayBeHigherAreDotted) {
+    const auto grid = make_grid_of(small_spec(100, 4), [](int ix, int, int iz) -> Cell {
+        if (iz == 3) return {CellStatus::no_echo, 0};
+        return ix < 50 && iz == 2 ? Cell{CellStatus::not_seen, 0} : valued(40);
+    });
+    const auto bricks = bricks_of(grid);
+    const auto image =
+        render_frame(bricks.view(), facts_of(grid), plain(Product::echo_top, 520), 1);
+    ASSERT_TRUE(image);
+    int dots = 0;
+    for (int y = 20; y < 500; ++y) {
+        for (int x = 20; x < 250; ++x)
+            dots += image->at(x, y) == shades::page ? 1 : 0;
+        for (int x = 270; x < 500; ++x)
+            ASSERT_EQ(image->at(x, y), *colour_of(echo_top_colours(), 1.5F));
+    }
+    EXPECT_GT(dots, 5000);
+    EXPECT_LT(dots, 30000);
 }
 
 }  // namespace

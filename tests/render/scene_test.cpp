@@ -6,13 +6,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/colour/built_in_tables.h"
+
 namespace stormcellar::render {
 namespace {
 
 TEST(Product, NamesGoBothWays) {
-    for (const Product product : {Product::volume, Product::composite}) {
+    for (const Product product :
+         {Product::volume, Product::composite, Product::cappi, Product::section, Product::echo_top,
+          Product::vil, Product::lowest_seen, Product::highest_seen}) {
         EXPECT_EQ(product_from_name(product_name(product)).value(), product);
     }
+    EXPECT_FALSE(is_map(Product::volume));
+    EXPECT_FALSE(is_map(Product::section));
+    EXPECT_TRUE(is_map(Product::vil));
 }
 
 TEST(Product, UnknownNameListsTheKnownOnes) {
@@ -20,6 +27,26 @@ TEST(Product, UnknownNameListsTheKnownOnes) {
     ASSERT_FALSE(product);
     EXPECT_EQ(product.error().code, ErrorCode::bad_argument);
     EXPECT_THAT(product.error().message, testing::HasSubstr("volume, composite"));
+}
+
+TEST(Colours, AreTheScenesOrTheProductsOrTheMoments) {
+    Scene scene;
+    EXPECT_EQ(colours_of(scene).name, "nws-reflectivity");
+    EXPECT_EQ(unit_shown(scene), "dBZ");
+    scene.product = Product::echo_top;
+    EXPECT_EQ(colours_of(scene).name, "nws-echo-top");
+    EXPECT_EQ(unit_shown(scene), "km");
+    scene.product = Product::highest_seen;
+    EXPECT_EQ(colours_of(scene).name, "height");
+    scene.product = Product::cappi;
+    scene.moment = level2::Moment::rho;
+    EXPECT_EQ(colours_of(scene).name, "nws-rho");
+    scene.colours = find_colour_table("safe-rho").value();
+    EXPECT_EQ(colours_of(scene).name, "safe-rho");
+    EXPECT_TRUE(validate(scene));
+    scene.colours->unit.clear();
+    scene.colours->moment = level2::Moment::ref;
+    EXPECT_TRUE(validate(scene)) << "a table that says no unit";
 }
 
 TEST(SceneValidation, AcceptsTheDefault) {
@@ -41,6 +68,35 @@ TEST(SceneValidation, NamesTheFieldThatIsOutOfRange) {
         {"exaggeration", [](Scene& s) { s.vertical_exaggeration = NAN; }},
         {"opacity", [](Scene& s) { s.opacity = 0; }},
         {"ring", [](Scene& s) { s.range_ring_spacing_m = 1; }},
+        {"CAPPI", [](Scene& s) { s.cappi_height_m = 60001; }},
+        {"threshold", [](Scene& s) { s.echo_top_dbz = NAN; }},
+        {"two places", [](Scene& s) { s.product = Product::section; }},
+        {"latitudes",
+         [](Scene& s) {
+             s.section = SectionLine{{91, 0}, {0, 0}};
+         }},
+        {"length of a section",
+         [](Scene& s) {
+             s.section = SectionLine{{35, -97}, {35, -97}};
+         }},
+        {"length of a section",
+         [](Scene& s) {
+             s.section = SectionLine{{35, -97}, {-35, 83}};
+         }},
+        {"echotop is made of reflectivity (REF), not of VEL",
+         [](Scene& s) {
+             s.product = Product::echo_top;
+             s.moment = level2::Moment::vel;
+         }},
+        {"nws-velocity is in m/s, the picture in dBZ",
+         [](Scene& s) { s.colours = find_colour_table("nws-velocity").value(); }},
+        {"nws-rho is without a unit, the picture in dBZ",
+         [](Scene& s) { s.colours = find_colour_table("nws-rho").value(); }},
+        {"do not rise",
+         [](Scene& s) {
+             s.colours = nws_reflectivity();
+             s.colours->stops[2].from = -99;
+         }},
     };
     for (const Case& c : cases) {
         Scene scene;

@@ -1,0 +1,338 @@
+#include "render/colour/built_in_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace stormcellar::render {
+namespace {
+
+using level2::Moment;
+
+// Where open classes begin: below every value that a radar sends. Not lower, for a volume's table
+// sorts values into 256 bins from there on.
+constexpr float least_velocity = -64;
+constexpr float least_zdr = -13;
+constexpr float least_height = -10;
+constexpr Rgba8 folded_colour = {0x77, 0x00, 0x7D, 255};
+
+struct ColourClass {
+    float from;
+    std::uint32_t rgb;
+};
+
+Rgba8 rgba_of(std::uint32_t rgb) {
+    return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U & 0xFFU),
+            static_cast<std::uint8_t>(rgb & 0xFFU), 255};
+}
+
+// Classes without blending; `end` is where the last one ends in a colour bar.
+ColourTable stepped(std::string_view name, Moment moment, std::string unit,
+                    std::span<const ColourClass> classes, float end) {
+    ColourTable table;
+    table.name = name;
+    table.moment = moment;
+    table.unit = std::move(unit);
+    table.end = end;
+    table.range_folded = folded_colour;
+    for (const ColourClass& one : classes) {
+        const Rgba8 colour = rgba_of(one.rgb);
+        table.stops.push_back({one.from, colour, colour});
+    }
+    return table;
+}
+
+ColourTable of_moment(std::string_view name, Moment moment, std::span<const ColourClass> classes,
+                      float end) {
+    ColourTable table = stepped(name, moment, unit_of(moment), classes, end);
+    table.extinction = default_extinction(moment, table.lowest());
+    return table;
+}
+
+// Of products that are no moments: nothing draws them as volumes.
+ColourTable of_product(std::string_view name, std::string unit,
+                       std::span<const ColourClass> classes, float end) {
+    ColourTable table = stepped(name, Moment::ref, std::move(unit), classes, end);
+    table.extinction = {{table.lowest(), 0}};
+    return table;
+}
+
+ColourTable nws_reflectivity_table() {
+    constexpr ColourClass classes[] = {
+        {5, 0x04E9E7},  {10, 0x019FF4}, {15, 0x0300F4}, {20, 0x02FD02}, {25, 0x01C501},
+        {30, 0x008E00}, {35, 0xFDF802}, {40, 0xE5BC00}, {45, 0xFD9500}, {50, 0xFD0000},
+        {55, 0xD40000}, {60, 0xBC0000}, {65, 0xF800FD}, {70, 0x9854C6}, {75, 0xFDFDFD},
+    };
+    return of_moment("nws-reflectivity", Moment::ref, classes, 80);
+}
+
+ColourTable nws_velocity_table() {
+    constexpr ColourClass classes[] = {
+        {least_velocity, 0x02FC02},
+        {-33, 0x01E401},
+        {-25.5, 0x01C501},
+        {-18.5, 0x07AC04},
+        {-13.5, 0x068F03},
+        {-10, 0x047202},
+        {-5, 0x7C977B},
+        {-0.5, 0x808080},
+        {0.5, 0x987777},
+        {5, 0x890000},
+        {10, 0xA20000},
+        {13.5, 0xB90000},
+        {18.5, 0xD80000},
+        {25.5, 0xEF0000},
+        {33, 0xFE0000},
+    };
+    ColourTable table = of_moment("nws-velocity", Moment::vel, classes, 40);
+    table.bar_begin = -40.0F;
+    return table;
+}
+
+ColourTable nws_spectrum_width_table() {
+    constexpr ColourClass classes[] = {{0, 0x767676}, {2, 0x9C9C9C}, {4, 0x00BB00},
+                                       {6, 0xFF0000}, {8, 0xD07000}, {10, 0xFFFF00}};
+    return of_moment("nws-spectrum-width", Moment::sw, classes, 12);
+}
+
+ColourTable nws_zdr_table() {
+    constexpr ColourClass classes[] = {
+        {least_zdr, 0x404040}, {-2, 0x9C9C9C}, {-0.5, 0xC9C9C9}, {0, 0x8C78B4}, {0.25, 0x000098},
+        {0.5, 0x2398D3},       {1, 0x44FFD2},  {1.5, 0x57DB56},  {2, 0xFFFF60}, {2.5, 0xFF9045},
+        {3, 0xDA0000},         {4, 0xAE0000},  {5, 0xF782BE},    {6, 0xFFFFFF},
+    };
+    ColourTable table = of_moment("nws-zdr", Moment::zdr, classes, 8);
+    table.bar_begin = -4.0F;
+    return table;
+}
+
+ColourTable nws_rho_table() {
+    constexpr ColourClass classes[] = {
+        {0.2F, 0x95949C},  {0.45F, 0x16148C}, {0.65F, 0x0902D9}, {0.75F, 0x8987D6},
+        {0.8F, 0x5CFF59},  {0.85F, 0x8BCF02}, {0.9F, 0xFFFB00},  {0.93F, 0xFFC400},
+        {0.95F, 0xFF8903}, {0.96F, 0xFF2B00}, {0.97F, 0xE30000}, {0.98F, 0xA10000},
+        {0.99F, 0x970556}, {1, 0xFAACD1},
+    };
+    return of_moment("nws-rho", Moment::rho, classes, 1.05F);
+}
+
+ColourTable nws_echo_top_table() {
+    constexpr ColourClass classes[] = {
+        {0, 0x4C4C4C},   {1.5, 0x767676},  {3, 0x00E0FF},    {4.5, 0x00B0FF},  {6, 0x0090CC},
+        {7.5, 0x320096}, {9, 0x00FB90},    {10.5, 0x00BB00}, {12, 0x00EF00},   {13.5, 0xFEBF00},
+        {15, 0xFFFF00},  {16.5, 0xAE0000}, {18, 0xFF0000},   {19.5, 0xFFFFFF}, {21, 0xE700FF},
+    };
+    return of_product("nws-echo-top", "km", classes, 22.5);
+}
+
+ColourTable nws_vil_table() {
+    constexpr ColourClass classes[] = {
+        {1, 0x9C9C9C},  {5, 0x767676},  {10, 0xFFAAAA}, {15, 0xEE8C8C}, {20, 0xC97070},
+        {25, 0x00FB90}, {30, 0x00BB00}, {35, 0xFFFF70}, {40, 0xD0D060}, {45, 0xFF6060},
+        {50, 0xDA0000}, {55, 0xAE0000}, {60, 0x0000FF}, {65, 0xFFFFFF}, {70, 0xE700FF},
+    };
+    return of_product("nws-vil", "kg/m2", classes, 75);
+}
+
+ColourTable phi_table() {
+    constexpr ColourClass classes[] = {
+        {0, 0x6A3D9A},   {30, 0x3F51B5},  {60, 0x1E88E5},  {90, 0x00ACC1},
+        {120, 0x00897B}, {150, 0x43A047}, {180, 0x9CCC65}, {210, 0xFFEB3B},
+        {240, 0xFFB300}, {270, 0xFB6A1A}, {300, 0xE53935}, {330, 0xAD1457},
+    };
+    return of_moment("phi", Moment::phi, classes, 360);
+}
+
+ColourTable cfp_table() {
+    constexpr ColourClass classes[] = {
+        {0, 0x4A4A4A},  {5, 0x8C8C8C},  {10, 0x5B7FBF}, {15, 0x2F9CD8},
+        {20, 0x2EC4A6}, {25, 0x6FD24B}, {30, 0xD9D93B}, {35, 0xF2A93B},
+        {40, 0xEE6C2D}, {45, 0xD62F2F}, {50, 0xF2C1E0},
+    };
+    return of_moment("cfp", Moment::cfp, classes, 55);
+}
+
+// From dark blue to light yellow: what every kind of sight keeps apart is light from dark and blue
+// from yellow. The steps are about equal along a path through Lab.
+ColourTable height_table() {
+    constexpr ColourClass classes[] = {
+        {least_height, 0x003482},
+        {0.5, 0x144D94},
+        {1, 0x27649E},
+        {1.5, 0x3379A8},
+        {2, 0x658799},
+        {3, 0x798D8F},
+        {4, 0x899386},
+        {5, 0x98997B},
+        {6, 0xAAA26D},
+        {8, 0xC0AD58},
+        {10, 0xDEC44F},
+        {12, 0xFFE170},
+        {15, 0xFFEEBE},
+        {18, 0xFFF9ED},
+    };
+    ColourTable table = of_product("height", "km", classes, 20);
+    table.bar_begin = 0.0F;
+    return table;
+}
+
+ColourTable safe_reflectivity_table() {
+    constexpr ColourClass classes[] = {
+        {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
+        {30, 0x758C92}, {35, 0x859189}, {40, 0x929780}, {45, 0xA29E74}, {50, 0xB5A763},
+        {55, 0xCFB851}, {60, 0xEDD04C}, {65, 0xFFE487}, {70, 0xFFF0C7}, {75, 0xFEFAF3},
+    };
+    return of_moment("safe-reflectivity", Moment::ref, classes, 80);
+}
+
+// Blue towards the radar, orange away from it, grey at rest; lighter with speed.
+ColourTable safe_velocity_table() {
+    constexpr ColourClass classes[] = {
+        {least_velocity, 0xC4EFFF},
+        {-33, 0x8FD7FE},
+        {-25.5, 0x42B0F1},
+        {-18.5, 0x4892C8},
+        {-10, 0x55799F},
+        {-5, 0x606C7C},
+        {-0.5, 0x636363},
+        {0.5, 0x846659},
+        {5, 0xAB694A},
+        {10, 0xCF793C},
+        {18.5, 0xF69A39},
+        {25.5, 0xFFC972},
+        {33, 0xFFE6B0},
+    };
+    ColourTable table = of_moment("safe-velocity", Moment::vel, classes, 40);
+    table.bar_begin = -40.0F;
+    return table;
+}
+
+ColourTable safe_zdr_table() {
+    constexpr ColourClass classes[] = {
+        {least_zdr, 0x013288}, {-2, 0x474B8C}, {-0.5, 0x5D5B8A}, {0, 0x716786}, {0.25, 0x846E7F},
+        {0.5, 0x957478},       {1, 0xAA7D6F},  {1.5, 0xC38862},  {2, 0xDA9D58}, {2.5, 0xF9B947},
+        {3, 0xFFD07D},         {4, 0xFFE1A8},  {5, 0xFFEFCB},    {6, 0xFFFBEA},
+    };
+    ColourTable table = of_moment("safe-zdr", Moment::zdr, classes, 8);
+    table.bar_begin = -4.0F;
+    return table;
+}
+
+ColourTable safe_rho_table() {
+    constexpr ColourClass classes[] = {
+        {0.2F, 0x013288},  {0.45F, 0x494D8C}, {0.65F, 0x605E8A}, {0.75F, 0x766984},
+        {0.8F, 0x8A707D},  {0.85F, 0x9E7875}, {0.9F, 0xB78369},  {0.93F, 0xD2955C},
+        {0.95F, 0xEDAE4E}, {0.96F, 0xFFCE75}, {0.97F, 0xFFE0A5}, {0.98F, 0xFFEFCB},
+        {0.99F, 0xFFFBEB},
+    };
+    return of_moment("safe-rho", Moment::rho, classes, 1.05F);
+}
+
+// Places in built_in_tables().
+enum Place : std::size_t { ref, vel, sw, zdr, rho, echo_top, vil, phi, cfp, height };
+
+std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {
+    std::vector<ExtinctionPoint> points;
+    const int first = static_cast<int>(std::floor(std::clamp(lowest, -32.0F, 79.0F)));
+    for (int dbz = first; dbz <= 80; ++dbz) {
+        const double haze = 0.012 * std::pow(10.0, (dbz - 5) / 40.0);
+        const double core = 0.12 * std::pow(10.0, (dbz - 50) / 10.0);
+        points.push_back({static_cast<float>(dbz), haze + core});
+    }
+    return points;
+}
+
+}  // namespace
+
+std::string unit_of(Moment moment) {
+    return moment == Moment::rho ? std::string{} : std::string(level2::moment_units(moment));
+}
+
+std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
+    switch (moment) {
+        case Moment::ref:
+            return reflectivity_extinction(lowest);
+        case Moment::vel:
+            return {{least_velocity, 0.5},
+                    {-50, 0.5},
+                    {-30, 0.2},
+                    {-10, 0.03},
+                    {0, 0.006},
+                    {10, 0.03},
+                    {30, 0.2},
+                    {50, 0.5}};
+        case Moment::sw:
+            return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
+        case Moment::zdr:
+            return {{least_zdr, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
+        case Moment::phi:
+            return {{0, 0.015}};
+        case Moment::rho:
+            return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
+        case Moment::cfp:
+            return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
+    }
+    return {{0, 0.015}};
+}
+
+const std::vector<ColourTable>& built_in_tables() {
+    static const std::vector<ColourTable> tables = {nws_reflectivity_table(),
+                                                    nws_velocity_table(),
+                                                    nws_spectrum_width_table(),
+                                                    nws_zdr_table(),
+                                                    nws_rho_table(),
+                                                    nws_echo_top_table(),
+                                                    nws_vil_table(),
+                                                    phi_table(),
+                                                    cfp_table(),
+                                                    height_table(),
+                                                    safe_reflectivity_table(),
+                                                    safe_velocity_table(),
+                                                    safe_zdr_table(),
+                                                    safe_rho_table()};
+    return tables;
+}
+
+Result<ColourTable> find_colour_table(std::string_view name) {
+    std::string known;
+    for (const ColourTable& table : built_in_tables()) {
+        if (table.name == name) return table;
+        known += (known.empty() ? "" : ", ") + table.name;
+    }
+    return fail(ErrorCode::not_found, "no colour table '{}': known are {}", name, known);
+}
+
+const ColourTable& nws_reflectivity() {
+    return built_in_tables()[ref];
+}
+const ColourTable& echo_top_colours() {
+    return built_in_tables()[echo_top];
+}
+const ColourTable& vil_colours() {
+    return built_in_tables()[vil];
+}
+const ColourTable& height_colours() {
+    return built_in_tables()[height];
+}
+
+const ColourTable& default_colour_table(Moment moment) {
+    switch (moment) {
+        case Moment::ref:
+            break;
+        case Moment::vel:
+            return built_in_tables()[vel];
+        case Moment::sw:
+            return built_in_tables()[sw];
+        case Moment::zdr:
+            return built_in_tables()[zdr];
+        case Moment::phi:
+            return built_in_tables()[phi];
+        case Moment::rho:
+            return built_in_tables()[rho];
+        case Moment::cfp:
+            return built_in_tables()[cfp];
+    }
+    return built_in_tables()[ref];
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,62 @@
+#include "render/colour/colour_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+#include "base/file_system.h"
+#include "render/colour/built_in_tables.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 20U;
+
+std::string lower_ending(const std::filesystem::path& file) {
+    std::string ending = file.extension().native();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+}  // namespace
+
+Result<ColourTable> read_colour_file(const std::filesystem::path& file) {
+    const std::string ending = lower_ending(file);
+    if (ending != ".pal" && ending != ".toml") {
+        return fail(ErrorCode::bad_argument, "{}: a colour table is a .pal or a .toml file",
+                    file.native());
+    }
+    const auto bytes = read_file(file, most_bytes);
+    if (!bytes) return pass_on(bytes);
+    std::string text(bytes->size(), '\0');
+    if (!text.empty()) std::memcpy(text.data(), bytes->data(), text.size());
+    auto table =
+        ending == ".pal" ? parse_pal(text, file.native()) : parse_toml_colours(text, file.native());
+    if (table && table->name.empty()) table->name = file.stem().native();
+    return table;
+}
+
+Result<ColourTable> colours_from(const std::string& name_or_file) {
+    const std::string ending = lower_ending(name_or_file);
+    if (ending == ".pal" || ending == ".toml") return read_colour_file(name_or_file);
+    auto table = find_colour_table(name_or_file);
+    if (table) return table;
+    return fail(ErrorCode::bad_argument, "{}; or a .pal or .toml file", table.error().message);
+}
+
+std::vector<ExtinctionPoint> extinction_of_colours(const ColourTable& table, bool of_moment) {
+    std::vector<ExtinctionPoint> points;
+    if (of_moment) {
+        points = default_extinction(table.moment, table.lowest());
+    } else {
+        points = {{table.lowest(), 0.02}, {table.end, 0.5}};
+    }
+    for (ExtinctionPoint& point : points) {
+        const auto colour = colour_of(table, std::max(point.value, table.lowest()));
+        point.per_km *= (*colour)[3] / 255.0;
+    }
+    return points;
+}
+
+}  // namespace stormcellar::render

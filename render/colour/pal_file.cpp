@@ -1,0 +1,313 @@
+// GRLevelX colour tables.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "base/printable.h"
+#include "render/colour/built_in_tables.h"
+#include "render/colour/colour_file.h"
+
+namespace stormcellar::render {
+namespace {
+
+using level2::Moment;
+
+constexpr double largest_value = 1e6;
+constexpr std::size_t longest_word = 64;
+
+struct Entry {
+    double value = 0;
+    Rgba8 colour{};
+    std::optional<Rgba8> until;
+    bool solid = false;
+};
+
+// What a product's name or a unit says about the values.
+struct Meaning {
+    std::string_view word;
+    std::optional<Moment> moment;
+    std::string_view unit;
+};
+constexpr Meaning products[] = {
+    {"BR", Moment::ref, {}},  {"CR", Moment::ref, {}},  {"REF", Moment::ref, {}},
+    {"BV", Moment::vel, {}},  {"SRV", Moment::vel, {}}, {"VEL", Moment::vel, {}},
+    {"SW", Moment::sw, {}},   {"ZDR", Moment::zdr, {}}, {"CC", Moment::rho, {}},
+    {"RHO", Moment::rho, {}}, {"PHI", Moment::phi, {}}, {"CFP", Moment::cfp, {}},
+    {"ET", {}, "km"},         {"EET", {}, "km"},        {"VIL", {}, "kg/m2"},
+    {"DVL", {}, "kg/m2"},
+};
+
+// How many of the file's units one of ours is.
+struct Unit {
+    std::string_view word;
+    double per_ours;
+    std::string_view ours;
+};
+constexpr Unit units[] = {
+    {"KT", 1.943844, "m/s"},  {"KTS", 1.943844, "m/s"}, {"KNOTS", 1.943844, "m/s"},
+    {"MPH", 2.236936, "m/s"}, {"KMH", 3.6, "m/s"},      {"KM/H", 3.6, "m/s"},
+    {"M/S", 1, "m/s"},        {"MPS", 1, "m/s"},        {"KFT", 3.280840, "km"},
+    {"FT", 3280.840, "km"},   {"KM", 1, "km"},          {"M", 1000, "km"},
+    {"DBZ", 1, "dBZ"},        {"DB", 1, "dB"},          {"KG/M2", 1, "kg/m2"},
+    {"%", 100, ""},
+};
+
+std::string upper(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return out;
+}
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == '\f';
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    std::vector<std::string_view> words;
+    std::size_t at = 0;
+    while (at < line.size()) {
+        if (is_space(line[at])) {
+            ++at;
+            continue;
+        }
+        std::size_t end = at;
+        while (end < line.size() && !is_space(line[end]))
+            ++end;
+        words.push_back(line.substr(at, end - at));
+        at = end;
+    }
+    return words;
+}
+
+// Fit to stand in a message.
+std::string shown(std::string_view word) {
+    return printable(word.substr(0, longest_word));
+}
+
+std::optional<double> number_of(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+    if (!std::isfinite(number) || std::abs(number) > largest_value) return std::nullopt;
+    return number;
+}
+
+class PalReader {
+  public:
+    explicit PalReader(const std::string& name) : name_(name) {}
+
+    Status take_line(std::string_view line) {
+        ++line_;
+        if (const auto comment = line.find(';'); comment != std::string_view::npos) {
+            line = line.substr(0, comment);
+        }
+        const auto words = words_of(line);
+        if (words.empty() || words.front().starts_with('#')) return {};
+        const auto colon = line.find(':');
+        if (colon == std::string_view::npos) return refuse("'{}': no 'Key:'", words.front());
+        const auto key_words = words_of(line.substr(0, colon));
+        if (key_words.size() != 1) return refuse("'{}': no 'Key:'", words.front());
+        return take(upper(key_words.front()), words_of(line.substr(colon + 1)));
+    }
+
+    Result<ColourTable> finish() {
+        if (entries_.empty()) {
+            return fail(ErrorCode::bad_argument, "{}:{}: no Color: or SolidColor: in the file",
+                        name_, line_);
+        }
+        ColourTable table;
+        const double per_ours = settle_meaning(table);
+        settle_order();
+        make_stops(table, per_ours);
+        const float lowest = table.lowest();
+        const float last = table.stops.back().from;
+        const double step = step_ ? *step_ / per_ours : 0;
+        float length = static_cast<float>(step);
+        if (length <= 0) length = table.stops.size() > 1 ? last - table.stops.rbegin()[1].from : 1;
+        table.end = last + length;
+        if (!(table.end > last)) table.end = std::nextafter(last, 2e9F);
+        table.range_folded = folded_.value_or(Rgba8{0x77, 0x00, 0x7D, 255});
+        table.extinction = extinction_of_colours(table, moment_known_);
+        if (auto valid = validate(table); !valid) {
+            return fail(ErrorCode::bad_argument, "{}:{}: the table {} (lowest {})", name_, line_,
+                        valid.error().message, lowest);
+        }
+        return table;
+    }
+
+  private:
+    template <class... Args>
+    [[nodiscard]] tl::unexpected<Error> refuse(fmt::format_string<Args...> format,
+                                               const Args&... args) const {
+        return fail(ErrorCode::bad_argument, "{}:{}: {}", name_, line_,
+                    fmt::vformat(format, fmt::make_format_args(args...)));
+    }
+
+    using Words = std::vector<std::string_view>;
+
+    Status take(const std::string& key, const Words& words) {
+        if (key == "COLOR" || key == "COLOUR") return take_entry(words, 3, false);
+        if (key == "COLOR4" || key == "COLOUR4") return take_entry(words, 4, false);
+        if (key == "SOLIDCOLOR" || key == "SOLIDCOLOUR") return take_entry(words, 3, true);
+        if (key == "SOLIDCOLOR4" || key == "SOLIDCOLOUR4") return take_entry(words, 4, true);
+        if (key == "SCALE") return take_number(words, scale_, true);
+        if (key == "OFFSET") return take_number(words, offset_, false);
+        if (key == "STEP") return take_number(words, step_, true);
+        if (key == "RF") return take_colour(words, &folded_);
+        if (key == "ND") return take_colour(words, nullptr);
+        if (key == "PRODUCT") return take_word(words, product_);
+        if (key == "UNITS" || key == "UNIT") return take_word(words, unit_);
+        if (key == "DECIMALS" || key == "CATEGORY" || key == "TITLE" || key == "NAME") return {};
+        return refuse(
+            "unknown key '{}': known are Product, Units, Scale, Offset, Step, RF, ND, Color, "
+            "Color4, SolidColor, SolidColor4",
+            shown(key));
+    }
+
+    Status take_word(const Words& words, std::string& word) {
+        word = words.empty() ? std::string{} : shown(words.front());
+        return {};
+    }
+
+    Status take_number(const Words& words, std::optional<double>& number, bool above_zero) {
+        if (words.size() != 1) return refuse("one number is wanted, not {} words", words.size());
+        number = number_of(words.front());
+        if (!number) return refuse("'{}' is no number up to a million", shown(words.front()));
+        if (above_zero && *number < 1e-9) return refuse("must be above 0");
+        return {};
+    }
+
+    Result<Rgba8> colour_from(const Words& words, std::size_t first, std::size_t channels) {
+        Rgba8 colour = {0, 0, 0, 255};
+        for (std::size_t c = 0; c < channels; ++c) {
+            const auto number = number_of(words[first + c]);
+            if (!number || *number < 0 || *number > 255) {
+                return refuse("'{}' is no colour: red, green, blue and alpha are 0 to 255",
+                              shown(words[first + c]));
+            }
+            colour[c] = static_cast<std::uint8_t>(std::lround(*number));
+        }
+        return colour;
+    }
+
+    Status take_colour(const Words& words, std::optional<Rgba8>* colour) {
+        if (words.size() < 3 || words.size() > 4) {
+            return refuse("red, green and blue are wanted, not {} numbers", words.size());
+        }
+        const auto read = colour_from(words, 0, words.size());
+        if (!read) return pass_on(read);
+        if (colour != nullptr) *colour = *read;
+        return {};
+    }
+
+    Status take_entry(const Words& words, std::size_t channels, bool solid) {
+        if (words.size() != 1 + channels && words.size() != 1 + 2 * channels) {
+            return refuse(
+                "a value and {} or {} numbers of colour are wanted, not {} numbers in all",
+                channels, 2 * channels, words.size());
+        }
+        if (entries_.size() == most_stops) return refuse("more than {} colours", most_stops);
+        Entry entry;
+        const auto value = number_of(words.front());
+        if (!value) return refuse("'{}' is no number up to a million", shown(words.front()));
+        entry.value = *value;
+        entry.solid = solid;
+        const auto colour = colour_from(words, 1, channels);
+        if (!colour) return pass_on(colour);
+        entry.colour = *colour;
+        if (words.size() > 1 + channels) {
+            const auto until = colour_from(words, 1 + channels, channels);
+            if (!until) return pass_on(until);
+            entry.until = *until;
+        }
+        entries_.push_back(entry);
+        return {};
+    }
+
+    // Moment and unit of the table; gives how many of the file's units one of ours is.
+    double settle_meaning(ColourTable& table) {
+        const std::string product = upper(product_);
+        for (const Meaning& known : products) {
+            if (known.word != product) continue;
+            moment_known_ = known.moment.has_value();
+            table.moment = known.moment.value_or(Moment::ref);
+            table.unit = known.moment ? unit_of(*known.moment) : std::string(known.unit);
+        }
+        double per_ours = 1;
+        const std::string word = upper(unit_);
+        const bool has_meaning = moment_known_ || !table.unit.empty();
+        bool unit_known = false;
+        for (const Unit& unit : units) {
+            if (unit.word != word) continue;
+            unit_known = true;
+            if (!has_meaning) {
+                table.unit = unit.ours;
+                moment_known_ = unit.ours == "dBZ" || unit.ours == "m/s";
+                table.moment = unit.ours == "m/s" ? Moment::vel : Moment::ref;
+            }
+            if (unit.ours == table.unit) per_ours = unit.per_ours;
+        }
+        if (!has_meaning && !unit_known) table.unit = unit_;
+        if (scale_) per_ours = *scale_;
+        return per_ours;
+    }
+
+    // Rising, whichever way the file goes; entries at one value stay in order.
+    void settle_order() {
+        if (entries_.front().value > entries_.back().value) {
+            std::reverse(entries_.begin(), entries_.end());
+        }
+        std::stable_sort(entries_.begin(), entries_.end(),
+                         [](const Entry& a, const Entry& b) { return a.value < b.value; });
+    }
+
+    void make_stops(ColourTable& table, double per_ours) {
+        const double offset = offset_.value_or(0);
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            const Entry& entry = entries_[i];
+            const auto from = static_cast<float>((entry.value - offset) / per_ours);
+            Rgba8 until = entry.colour;
+            if (!entry.solid) {
+                if (entry.until) {
+                    until = *entry.until;
+                } else if (i + 1 < entries_.size()) {
+                    until = entries_[i + 1].colour;
+                }
+            }
+            if (!table.stops.empty() && table.stops.back().from >= from) {
+                table.stops.back() = {table.stops.back().from, entry.colour, until};
+            } else {
+                table.stops.push_back({from, entry.colour, until});
+            }
+        }
+    }
+
+    const std::string& name_;
+    std::size_t line_ = 0;
+    std::vector<Entry> entries_;
+    std::optional<double> scale_, offset_, step_;
+    std::optional<Rgba8> folded_;
+    std::string product_, unit_;
+    bool moment_known_ = false;
+};
+
+}  // namespace
+
+Result<ColourTable> parse_pal(std::string_view text, const std::string& name) {
+    PalReader reader(name);
+    while (!text.empty()) {
+        const auto end = text.find('\n');
+        if (auto taken = reader.take_line(text.substr(0, end)); !taken) return pass_on(taken);
+        if (end == std::string_view::npos) break;
+        text.remove_prefix(end + 1);
+    }
+    return reader.finish();
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,136 @@
+// Colour tables in TOML.
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "base/toml_file.h"
+#include "render/colour/built_in_tables.h"
+#include "render/colour/colour_file.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr TomlRange values{-1e6, 1e6};
+constexpr TomlRange opacities_per_km{0, 1e6};
+
+// "#rrggbb" or "#rrggbbaa".
+std::optional<Rgba8> colour_of_text(std::string_view text) {
+    if ((text.size() != 7 && text.size() != 9) || text.front() != '#') return std::nullopt;
+    Rgba8 colour = {0, 0, 0, 255};
+    for (std::size_t c = 0; 1 + 2 * c < text.size(); ++c) {
+        const char* digits = text.data() + 1 + 2 * c;
+        const auto [end, error] = std::from_chars(digits, digits + 2, colour[c], 16);
+        if (error != std::errc{} || end != digits + 2) return std::nullopt;
+    }
+    return colour;
+}
+
+std::optional<Rgba8> colour_of_numbers(const std::vector<double>& numbers) {
+    if (numbers.size() != 3 && numbers.size() != 4) return std::nullopt;
+    Rgba8 colour = {0, 0, 0, 255};
+    for (std::size_t c = 0; c < numbers.size(); ++c) {
+        if (!std::isgreaterequal(numbers[c], 0.0) || !std::islessequal(numbers[c], 255.0)) {
+            return std::nullopt;
+        }
+        colour[c] = static_cast<std::uint8_t>(std::lround(numbers[c]));
+    }
+    return colour;
+}
+
+std::optional<Rgba8> read_colour(TomlTable& table, std::string_view key) {
+    std::optional<Rgba8> colour;
+    if (table.is_array(key)) {
+        const auto numbers = table.numbers(key);
+        if (!numbers) return std::nullopt;
+        colour = colour_of_numbers(*numbers);
+    } else {
+        const auto text = table.text(key);
+        if (!text) return std::nullopt;
+        colour = colour_of_text(*text);
+    }
+    if (!colour) {
+        table.complain(key, "must be \"#rrggbb\", \"#rrggbbaa\" or three or four numbers 0 to 255");
+    }
+    return colour;
+}
+
+// Whether the table is one of a moment's.
+bool read_meaning(TomlTable& root, ColourTable& table) {
+    table.name = root.text("name").value_or("");
+    const auto unit = root.text("unit");
+    const auto name = root.text("moment");
+    if (unit) table.unit = *unit;
+    if (!name) return false;
+    const auto moment = level2::moment_from_name(*name);
+    if (!moment) {
+        root.complain("moment", "must be REF, VEL, SW, ZDR, PHI, RHO or CFP");
+        return false;
+    }
+    table.moment = *moment;
+    if (unit && *unit != unit_of(*moment)) {
+        root.complain("unit", fmt::format("of {} must be \"{}\"", *name, unit_of(*moment)));
+    }
+    table.unit = unit_of(*moment);
+    return true;
+}
+
+void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& table) {
+    std::size_t with_opacity = 0;
+    for (TomlTable& point : points) {
+        for (const char* key : {"value", "colour"}) {
+            if (!point.has(key)) point.complain(key, "is missing");
+        }
+        const auto value = point.number("value", values);
+        const Rgba8 colour = read_colour(point, "colour").value_or(Rgba8{});
+        const auto opacity = point.number("opacity_per_km", opacities_per_km);
+        if (!value) continue;
+        const auto from = static_cast<float>(*value);
+        if (!table.stops.empty()) {
+            ColourStop& before = table.stops.back();
+            if (from <= before.from) point.complain("value", "must rise from point to point");
+            if (!is_stepped) before.until = colour;
+        }
+        table.stops.push_back({from, colour, colour});
+        if (!opacity) continue;
+        ++with_opacity;
+        table.extinction.push_back({from, *opacity});
+    }
+    if (with_opacity != 0 && with_opacity != points.size()) {
+        points.front().complain("opacity_per_km", "must be given of all points or of none");
+    }
+}
+
+}  // namespace
+
+Result<ColourTable> parse_toml_colours(std::string_view text, const std::string& name) {
+    auto file = TomlFile::parse(text, name);
+    if (!file) return pass_on(file);
+    TomlTable root = file->root();
+    ColourTable table;
+    const bool of_moment = read_meaning(root, table);
+    const bool is_stepped = root.flag("stepped").value_or(false);
+    table.range_folded = read_colour(root, "range_folded").value_or(Rgba8{0x77, 0x00, 0x7D, 255});
+    const auto end = root.number("end", values);
+    auto points = root.tables("point");
+    const std::size_t least = is_stepped ? 1 : 2;
+    if (points.size() < least || points.size() > most_stops) {
+        root.complain("point", fmt::format("there must be {} to {} of them", least, most_stops));
+    } else {
+        read_points(points, is_stepped, table);
+    }
+    if (end && !table.stops.empty() && static_cast<float>(*end) <= table.stops.back().from) {
+        root.complain("end", "must be above the last point's value");
+    }
+    if (auto fine = file->finish(); !fine) return pass_on(fine);
+
+    const auto& stops = table.stops;
+    const float length = stops.size() > 1 ? stops.back().from - stops.rbegin()[1].from : 1;
+    table.end = end ? static_cast<float>(*end) : stops.back().from + length;
+    if (table.extinction.empty()) table.extinction = extinction_of_colours(table, of_moment);
+    if (auto valid = validate(table); !valid) {
+        return fail(ErrorCode::bad_argument, "{}: the table {}", name, valid.error().message);
+    }
+    return table;
+}
+
+}  // namespace stormcellar::render

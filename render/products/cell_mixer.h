@@ -1,0 +1,53 @@
+// render/products/cell_mixer.h -- what lies between a grid's cells.
+//
+// The status rule of DESIGN section 5 (grid/mixture.h), with the weights of the cells: not seen if
+// more than half is; else range folded if that is the largest part; else no echo if that outweighs
+// the values; else the mean of the values by their weights. No echo enters no value: a grid does
+// not say what its cells could have seen. PHI is averaged on its circle of 360 degrees; of VEL,
+// whose circle a grid does not tell, the value that weighs most stands.
+// Thread contract: plain values.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "grid/brick_view.h"
+#include "grid/mixture.h"
+#include "level2/volume.h"
+
+namespace stormcellar::render {
+
+// What a cell holds; the cell must exist.
+[[nodiscard]] grid::Sample cell_of(const grid::BrickView& view, level2::Moment moment, int ix,
+                                   int iy, int iz);
+
+// Up to eight cells with weights of 0 to 1.
+class CellMixer {
+  public:
+    explicit CellMixer(level2::Moment moment);
+
+    void clear() { count_ = 0; }
+    // Weights of 0 are left out.
+    void add(const grid::Sample& cell, double weight);
+    [[nodiscard]] grid::CellResult result() const;
+
+  private:
+    struct Part {
+        grid::Sample cell;
+        float weight = 0;
+    };
+    grid::Blending blending_;
+    std::array<Part, 8> parts_{};
+    std::size_t count_ = 0;
+};
+
+// The two levels about a height and the share of the upper one; lower == upper at a level and
+// within the half level by which the cells of the first and the last reach beyond it.
+struct LevelPair {
+    int lower = 0, upper = 0;
+    double upper_share = 0;
+};
+// bad_argument, naming the grid's heights, for a height where it has no cells.
+[[nodiscard]] Result<LevelPair> levels_about(const grid::GridSpec& spec, double height_m);
+
+}  // namespace stormcellar::render

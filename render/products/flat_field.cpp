@@ -1,0 +1,237 @@
+#include "render/products/flat_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "base/parallel.h"
+#include "render/products/cell_mixer.h"
+#include "render/view_geometry.h"
+
+namespace stormcellar::render {
+namespace {
+
+using grid::brick_edge;
+using grid::BrickView;
+using grid::CellStatus;
+
+// Calls work(column's cells, place in the field) for every column.
+template <class Work>
+FlatField for_each_column(const BrickView& view, int threads, const Work& work) {
+    FlatField field(view.spec->nx, view.spec->ny);
+    for_each_piece(field.height, threads, [&](int iy) {
+        ColumnCells cells;
+        for (int ix = 0; ix < field.width; ++ix) {
+            read_column(view, ix, iy, cells);
+            work(cells, field, field.index(ix, iy));
+        }
+    });
+    return field;
+}
+
+// Of a column whose product has no value.
+CellStatus state_without_value(const ColumnCells& cells) {
+    bool seen = false;
+    for (const CellStatus status : cells.status) {
+        if (status == CellStatus::range_folded) return status;
+        seen = seen || status != CellStatus::not_seen;
+    }
+    return seen ? CellStatus::no_echo : CellStatus::not_seen;
+}
+
+struct EchoTop {
+    double height_m = 0;
+    bool at_least = false;
+};
+
+// From the highest cell that reaches the threshold.
+EchoTop echo_top(const ColumnCells& cells, const std::vector<double>& levels_m, std::size_t cell,
+                 double threshold_dbz) {
+    const std::size_t above = cell + 1;
+    if (above == levels_m.size()) return {levels_m[cell], true};
+    switch (cells.status[above]) {
+        case CellStatus::no_echo:
+            return {levels_m[cell], false};
+        case CellStatus::value: {
+            const auto here = static_cast<double>(cells.values[cell]);
+            const auto there = static_cast<double>(cells.values[above]);
+            return {
+                std::lerp(levels_m[cell], levels_m[above], (here - threshold_dbz) / (here - there)),
+                false};
+        }
+        default:
+            return {levels_m[cell], true};
+    }
+}
+
+constexpr double vil_cap_dbz = 56;
+
+double linear_z(CellStatus status, float dbz) {
+    if (status != CellStatus::value) return 0;
+    return std::pow(10.0, std::min(static_cast<double>(dbz), vil_cap_dbz) / 10);
+}
+
+double liquid(double z, double thickness_m) {
+    return 3.44e-6 * std::pow(z, 4.0 / 7) * thickness_m;
+}
+
+double vil_of(const ColumnCells& cells, const std::vector<double>& levels_m,
+              const HeightRange& range) {
+    const auto is_known = [&](std::size_t i) {
+        return cells.status[i] == CellStatus::value || cells.status[i] == CellStatus::no_echo;
+    };
+    const auto z_of = [&](std::size_t i) { return linear_z(cells.status[i], cells.values[i]); };
+    const std::size_t last = levels_m.size() - 1;
+    double sum = 0;
+    if (is_known(0)) sum += liquid(z_of(0), levels_m.front() - range.bottom_m);
+    for (std::size_t i = 0; i < last; ++i) {
+        const double thickness_m = levels_m[i + 1] - levels_m[i];
+        if (is_known(i) && is_known(i + 1)) {
+            sum += liquid((z_of(i) + z_of(i + 1)) / 2, thickness_m);
+        } else if (is_known(i)) {
+            sum += liquid(z_of(i), thickness_m / 2);
+        } else if (is_known(i + 1)) {
+            sum += liquid(z_of(i + 1), thickness_m / 2);
+        }
+    }
+    if (is_known(last)) sum += liquid(z_of(last), range.top_m - levels_m.back());
+    return sum;
+}
+
+}  // namespace
+
+FlatField::FlatField(int columns, int rows)
+    : width(columns),
+      height(rows),
+      values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)),
+      status(values.size(), CellStatus::not_seen) {}
+
+void FlatField::put(std::size_t place, CellStatus state, float value) {
+    status[place] = state;
+    values[place] = state == CellStatus::value ? value : 0;
+}
+
+void read_column(const BrickView& view, int ix, int iy, ColumnCells& cells) {
+    const int nz = view.spec->nz();
+    cells.status.resize(static_cast<std::size_t>(nz));
+    cells.values.assign(static_cast<std::size_t>(nz), 0);
+    const auto width = static_cast<std::size_t>(view.quantization.code_bytes);
+    for (int first = 0; first < nz; first += brick_edge) {
+        const std::size_t brick =
+            view.brick_index(ix / brick_edge, iy / brick_edge, first / brick_edge);
+        const grid::BrickEntry& entry = view.bricks[brick];
+        const int count = std::min(brick_edge, nz - first);
+        const auto at = static_cast<std::size_t>(first);
+        if (entry.kind == grid::BrickKind::uniform) {
+            std::fill_n(cells.status.begin() + first, count, entry.uniform_status);
+            continue;
+        }
+        if (entry.kind == grid::BrickKind::status_only) {
+            for (int z = 0; z < count; ++z)
+                cells.status[at + static_cast<std::size_t>(z)] = view.status(ix, iy, first + z);
+            continue;
+        }
+        const std::size_t offset = view.offset_x(ix) + view.offset_y(iy) + view.offset_z(first);
+        const std::byte* codes = view.codes.data() + offset * width;
+        for (std::size_t z = 0; z < static_cast<std::size_t>(count); ++z) {
+            std::uint16_t code = 0;
+            if (width == 1) {
+                code = std::to_integer<std::uint16_t>(codes[z]);
+            } else {
+                std::memcpy(&code, codes + 2 * z, sizeof code);
+            }
+            const bool valued = code >= grid::first_value_code;
+            cells.status[at + z] = valued ? CellStatus::value : static_cast<CellStatus>(code);
+            if (valued) cells.values[at + z] = view.quantization.value_of(code);
+        }
+    }
+}
+
+FlatField composite_field(const BrickView& view, const std::vector<ColumnSummary>& columns) {
+    FlatField field(view.spec->nx, view.spec->ny);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const CellStatus status = columns[i].status();
+        const bool valued = status == CellStatus::value;
+        field.put(i, status, valued ? view.quantization.value_of(columns[i].max_code) : 0);
+    }
+    return field;
+}
+
+Result<FlatField> cappi_field(const BrickView& view, level2::Moment moment, double height_m,
+                              int threads) {
+    const auto levels = levels_about(*view.spec, height_m);
+    if (!levels) return pass_on(levels);
+    FlatField field(view.spec->nx, view.spec->ny);
+    for_each_piece(field.height, threads, [&](int iy) {
+        CellMixer mixer(moment);
+        for (int ix = 0; ix < field.width; ++ix) {
+            mixer.clear();
+            mixer.add(cell_of(view, moment, ix, iy, levels->lower), 1 - levels->upper_share);
+            mixer.add(cell_of(view, moment, ix, iy, levels->upper), levels->upper_share);
+            const grid::CellResult cell = mixer.result();
+            field.put(field.index(ix, iy), cell.status, cell.value);
+        }
+    });
+    return field;
+}
+
+FlatField echo_top_field(const BrickView& view, double threshold_dbz, int threads) {
+    const auto& levels_m = view.spec->levels_m;
+    std::vector<std::uint8_t> at_least(view.spec->column_count());
+    FlatField field = for_each_column(
+        view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+            for (std::size_t i = levels_m.size(); i-- > 0;) {
+                if (cells.status[i] != CellStatus::value) continue;
+                if (static_cast<double>(cells.values[i]) < threshold_dbz) continue;
+                const EchoTop top = echo_top(cells, levels_m, i, threshold_dbz);
+                out.put(place, CellStatus::value, static_cast<float>(top.height_m / 1000));
+                at_least[place] = top.at_least ? 1 : 0;
+                return;
+            }
+            out.put(place, state_without_value(cells), 0);
+        });
+    field.at_least = std::move(at_least);
+    return field;
+}
+
+FlatField vil_field(const BrickView& view, int threads) {
+    const HeightRange range = height_range(*view.spec);
+    return for_each_column(
+        view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+            const bool valued = std::find(cells.status.begin(), cells.status.end(),
+                                          CellStatus::value) != cells.status.end();
+            if (!valued) {
+                out.put(place, state_without_value(cells), 0);
+                return;
+            }
+            out.put(place, CellStatus::value,
+                    static_cast<float>(vil_of(cells, view.spec->levels_m, range)));
+        });
+}
+
+FlatField lowest_seen_field(const BrickView& view, int threads) {
+    return for_each_column(view, threads,
+                           [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+                               for (std::size_t i = 0; i < cells.status.size(); ++i) {
+                                   if (cells.status[i] == CellStatus::not_seen) continue;
+                                   out.put(place, CellStatus::value,
+                                           static_cast<float>(view.spec->levels_m[i] / 1000));
+                                   return;
+                               }
+                           });
+}
+
+FlatField highest_seen_field(const BrickView& view, int threads) {
+    return for_each_column(view, threads,
+                           [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+                               for (std::size_t i = cells.status.size(); i-- > 0;) {
+                                   if (cells.status[i] == CellStatus::not_seen) continue;
+                                   out.put(place, CellStatus::value,
+                                           static_cast<float>(view.spec->levels_m[i] / 1000));
+                                   return;
+                               }
+                           });
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,117 @@
+// The picture of a vertical section with its axes.
+#include <algorithm>
+#include <cmath>
+
+#include "render/products/ground.h"
+#include "render/products/section.h"
+#include "render/round_step.h"
+#include "render/shades.h"
+
+namespace stormcellar::render {
+namespace {
+
+class Axes {
+  public:
+    Axes(Canvas& canvas, const Fonts& fonts, const Section& section, const SectionPlace& place,
+         double scale)
+        : canvas_(canvas), fonts_(fonts), section_(section), scale_(scale) {
+        left_ = place.left;
+        right_ = place.left + place.width;
+        top_ = place.top;
+        bottom_ = place.top + place.height;
+    }
+
+    void draw() {
+        canvas_.line({{left_, top_}, {right_, top_}, {right_, bottom_}, {left_, bottom_}}, scale_,
+                     shades::border, true);
+        draw_heights();
+        draw_distances();
+        draw_ends();
+        const double across = section_.length_m / (right_ - left_);
+        const double up = (section_.top_m - section_.bottom_m) / (bottom_ - top_);
+        put(fmt::format("Height above sea level, km  \u00B7  vertical \u00D7{:.3g}", across / up),
+            left_, top_ - 9 * scale_, 0, false);
+    }
+
+  private:
+    // `share` of the text's width lies left of x.
+    void put(const std::string& text, double x, double baseline, double share, bool strong) {
+        const double size = 10 * scale_;
+        canvas_.text(fonts_, text, {x - share * fonts_.width(text, size, strong), baseline}, size,
+                     strong, strong ? shades::text : shades::quiet_text);
+    }
+
+    void draw_heights() {
+        const double range_km = (section_.top_m - section_.bottom_m) / 1000;
+        const double bottom_km = section_.bottom_m / 1000;
+        const int most = std::max(2, static_cast<int>((bottom_ - top_) / (28 * scale_)));
+        const double step = round_step(range_km, most);
+        for (int i = static_cast<int>(std::ceil(bottom_km / step - 1e-9));
+             i * step <= bottom_km + range_km; ++i) {
+            const double y = bottom_ - (i * step - bottom_km) / range_km * (bottom_ - top_);
+            canvas_.line({{left_ - 4 * scale_, y}, {left_, y}}, scale_, shades::border, false);
+            if (i != 0) canvas_.line({{left_, y}, {right_, y}}, scale_, faint, false);
+            put(fmt::format("{:g}", i * step), left_ - 7 * scale_, y + 3.5 * scale_, 1, false);
+        }
+    }
+
+    void draw_distances() {
+        const double length_km = section_.length_m / 1000;
+        const int most = std::max(2, static_cast<int>((right_ - left_) / (60 * scale_)));
+        const double step = round_step(length_km, most);
+        for (int i = 0; i * step <= length_km * (1 + 1e-9); ++i) {
+            const double x = left_ + i * step / length_km * (right_ - left_);
+            canvas_.line({{x, bottom_}, {x, bottom_ + 4 * scale_}}, scale_, shades::border, false);
+            const bool last = (i + 1) * step > length_km * (1 + 1e-9);
+            put(fmt::format("{:g}{}", i * step, last ? " km" : ""), x, bottom_ + 16 * scale_, 0.5,
+                false);
+        }
+    }
+
+    void draw_ends() {
+        const double baseline = bottom_ + 36 * scale_;
+        const std::string from = "A  " + place_text(section_.line.from);
+        const std::string to = place_text(section_.line.to) + "  B";
+        put(from, left_, baseline, 0, true);
+        // Where both do not fit, the second is left out.
+        const double room = right_ - left_;
+        const double size = 10 * scale_;
+        if (fonts_.width(from + to, size, true) + 12 * scale_ <= room) {
+            put(to, right_, baseline, 1, true);
+        }
+    }
+
+    static constexpr Rgba8 faint = {150, 165, 185, 40};
+    Canvas& canvas_;
+    const Fonts& fonts_;
+    const Section& section_;
+    double scale_;
+    double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
+};
+
+}  // namespace
+
+std::string place_text(grid::GeoPoint point) {
+    return fmt::format("{:.3f}\u00B0{} {:.3f}\u00B0{}", std::abs(point.latitude_deg),
+                       point.latitude_deg < 0 ? 'S' : 'N', std::abs(point.longitude_deg),
+                       point.longitude_deg < 0 ? 'W' : 'E');
+}
+
+Image draw_section(const Section& section, const ColourTable& table, const SectionPlace& place,
+                   int width, int height, double scale, const Fonts* fonts) {
+    Image image(width, height, shades::page);
+    for (int y = 0; y < place.height; ++y) {
+        for (int x = 0; x < place.width; ++x) {
+            if (section.in_grid[static_cast<std::size_t>(x)] == 0) continue;
+            const std::size_t cell = section.field.index(x, place.height - 1 - y);
+            image.set(place.left + x, place.top + y,
+                      shade_of(section.field, cell, table, place.left + x, place.top + y, scale));
+        }
+    }
+    if (fonts == nullptr) return image;
+    Canvas canvas(image);
+    Axes(canvas, *fonts, section, place, scale).draw();
+    return canvas.image();
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,286 @@
+#include "render/colour/colour_file.h"
+
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/colour/built_in_tables.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::render {
+namespace {
+
+using level2::Moment;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using namespace std::string_view_literals;
+
+constexpr std::string_view blended = R"(; a table of reflectivity
+Product: BR
+Units:   DBZ
+Step:    10
+Color:      5   0   0 100   100 200  50   ; to its own second colour
+COLOR:     15  10  20  30                 ; to the next entry's colour
+solidcolor: 25 200 100   0
+Color4:    45  40  60  80 255
+Color:     65 255 255 255   1 2 3         ; the last: nothing to blend to
+RF: 119 0 125
+ND: 0 0 0
+)";
+
+TEST(PalFile, BlendsAsTheFormatSays) {
+    const auto table = parse_pal(blended, "a.pal");
+    ASSERT_TRUE(table) << table.error().message;
+    EXPECT_EQ(table->moment, Moment::ref);
+    EXPECT_EQ(table->unit, "dBZ");
+    EXPECT_EQ(table->range_folded, (Rgba8{119, 0, 125, 255}));
+    EXPECT_FALSE(is_stepped(*table));
+    EXPECT_FALSE(colour_of(*table, 4.9F));
+    EXPECT_EQ(colour_of(*table, 5), (Rgba8{0, 0, 100, 255}));
+    EXPECT_EQ(colour_of(*table, 10), (Rgba8{50, 100, 75, 255})) << "half way to the second";
+    EXPECT_EQ(colour_of(*table, 15), (Rgba8{10, 20, 30, 255}));
+    EXPECT_EQ(colour_of(*table, 20), (Rgba8{105, 60, 15, 255})) << "half way to the next entry";
+    EXPECT_EQ(colour_of(*table, 44.9F), (Rgba8{200, 100, 0, 255})) << "solid";
+    EXPECT_EQ(colour_of(*table, 50), (Rgba8{94, 109, 124, 255})) << "a quarter";
+    EXPECT_EQ(colour_of(*table, 90), (Rgba8{255, 255, 255, 255}));
+    EXPECT_EQ(table->end, 75);
+    EXPECT_DOUBLE_EQ(extinction_per_m(*table, 40, 1), extinction_per_m(nws_reflectivity(), 40, 1));
+}
+
+TEST(PalFile, FallingValuesAreTheSameTable) {
+    const auto rising = parse_pal("Color: 0 1 2 3\nColor: 10 4 5 6\nSolidColor: 20 7 8 9\n", "r");
+    const auto falling = parse_pal("SolidColor: 20 7 8 9\nColor: 10 4 5 6\nColor: 0 1 2 3\n", "f");
+    ASSERT_TRUE(rising && falling);
+    ASSERT_EQ(rising->stops.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(rising->stops[i].from, falling->stops[i].from);
+        EXPECT_EQ(rising->stops[i].colour, falling->stops[i].colour);
+        EXPECT_EQ(rising->stops[i].until, falling->stops[i].until);
+    }
+}
+
+// Two entries at one value: the one below blends to the first, the second begins what is above.
+TEST(PalFile, TwoEntriesAtOneValueMakeAnEdge) {
+    const auto table = parse_pal(
+        "Color: 0 0 0 0\nColor: 10 100 100 100\nColor: 10 0 0 200\nColor: 20 0 0 0\n", "e");
+    ASSERT_TRUE(table) << table.error().message;
+    ASSERT_EQ(table->stops.size(), 3U);
+    EXPECT_EQ(colour_of(*table, 5), (Rgba8{50, 50, 50, 255}));
+    EXPECT_EQ(colour_of(*table, 10), (Rgba8{0, 0, 200, 255}));
+}
+
+// v = (w - offset) / scale.
+TEST(PalFile, ScaleAndOffsetLeadBackToOurUnits) {
+    const auto table = parse_pal(
+        "Product: BV\nUnits: KTS\nScale: 2\nOffset: 1\nSolidColor: -39 0 255 0\n"
+        "SolidColor: 1 9 9 9\nSolidColor: 41 255 0 0\n",
+        "v.pal");
+    ASSERT_TRUE(table) << table.error().message;
+    EXPECT_EQ(table->moment, Moment::vel);
+    EXPECT_EQ(table->unit, "m/s");
+    EXPECT_EQ(table->stops[0].from, -20);
+    EXPECT_EQ(table->stops[1].from, 0);
+    EXPECT_EQ(table->stops[2].from, 20);
+    EXPECT_TRUE(is_stepped(*table));
+    EXPECT_DOUBLE_EQ(extinction_per_m(*table, -10, 1) * 1000, 0.03);
+}
+
+TEST(PalFile, UnitsAreConvertedWithoutAScale) {
+    const auto knots = parse_pal("Units: KT\nColor: 0 0 0 0\nColor: 100 255 0 0\n", "k");
+    ASSERT_TRUE(knots);
+    EXPECT_EQ(knots->moment, Moment::vel);
+    EXPECT_NEAR(knots->stops[1].from, 51.4444, 1e-4) << "1 kt = 1852 m / 3600 s";
+    const auto feet = parse_pal("Product: ET\nUnits: kft\nColor: 10 0 0 0\nColor: 50 1 1 1\n", "f");
+    ASSERT_TRUE(feet);
+    EXPECT_EQ(feet->unit, "km");
+    EXPECT_NEAR(feet->stops[1].from, 15.24, 1e-5);
+    const auto percent =
+        parse_pal("Product: CC\nUnits: %\nColor: 20 0 0 0\nColor: 99 1 1 1\n", "c");
+    ASSERT_TRUE(percent);
+    EXPECT_EQ(percent->unit, "");
+    EXPECT_NEAR(percent->stops[1].from, 0.99, 1e-6);
+    const auto other = parse_pal("Product: XYZ\nUnits: mm/h\nColor: 20 0 0 0\n", "o");
+    ASSERT_TRUE(other);
+    EXPECT_EQ(other->unit, "mm/h");
+    EXPECT_EQ(other->stops.front().from, 20);
+}
+
+TEST(PalFile, AlphaFadesInVolumesToo) {
+    const auto table = parse_pal(
+        "Product: BR\nSolidColor4: 0 9 9 9 0\nSolidColor4: 20 9 9 9 51\nSolidColor: 40 9 9 9\n",
+        "a");
+    ASSERT_TRUE(table);
+    EXPECT_EQ(extinction_per_m(*table, 10, 1), 0);
+    EXPECT_DOUBLE_EQ(extinction_per_m(*table, 30, 1),
+                     extinction_per_m(nws_reflectivity(), 30, 1) / 5);
+    EXPECT_DOUBLE_EQ(extinction_per_m(*table, 50, 1), extinction_per_m(nws_reflectivity(), 50, 1));
+}
+
+TEST(PalFile, ErrorsNameTheLine) {
+    const auto message = [](std::string_view text) {
+        const auto table = parse_pal(text, "t.pal");
+        return table ? std::string{} : table.error().message;
+    };
+    EXPECT_THAT(message(""), HasSubstr("no Color:"));
+    EXPECT_THAT(message("; nothing\n"), HasSubstr("no Color:"));
+    EXPECT_THAT(message("Color: 1 2 3 4\nbogus\n"), StartsWith("t.pal:2: 'bogus'"));
+    EXPECT_THAT(message("Colr: 1 2 3 4\n"), StartsWith("t.pal:1: unknown key 'COLR'"));
+    EXPECT_THAT(message("\n\nColor: 1 2 3\n"), StartsWith("t.pal:3: a value and 3 or 6"));
+    EXPECT_THAT(message("Color: 1 2 3 256\n"), StartsWith("t.pal:1: '256' is no colour"));
+    EXPECT_THAT(message("Color: 1 2 -3 4\n"), StartsWith("t.pal:1: '-3'"));
+    EXPECT_THAT(message("Color: nan 2 3 4\n"), StartsWith("t.pal:1: 'nan'"));
+    EXPECT_THAT(message("Color: 1e9 2 3 4\n"), StartsWith("t.pal:1: '1e9'"));
+    EXPECT_THAT(message("Scale: 0\n"), StartsWith("t.pal:1: must be above 0"));
+    EXPECT_THAT(message("Scale: -1\n"), StartsWith("t.pal:1: must be above 0"));
+    EXPECT_THAT(message("RF: 1\n"), StartsWith("t.pal:1: red"));
+    std::string many;
+    for (int i = 0; i < 5000; ++i)
+        many += "Color: " + std::to_string(i) + " 0 0 0\n";
+    EXPECT_THAT(message(many), StartsWith("t.pal:4097: more than 4096"));
+    EXPECT_THAT(message("Color: 1 2 3 4\n\x1b[31mX: 1\n"), ::testing::Not(HasSubstr("\x1b")));
+}
+
+constexpr std::string_view toml_example = R"(
+name = "mine"
+moment = "VEL"
+[[point]]
+value = -30
+colour = "#0000ff"
+opacity_per_km = 0.2
+[[point]]
+value = 0.0
+colour = [100, 100, 100, 51]
+opacity_per_km = 0
+[[point]]
+value = 30
+colour = "#ff000080"
+opacity_per_km = 0.4
+)";
+
+TEST(TomlColours, BlendFromPointToPoint) {
+    const auto table = parse_toml_colours(toml_example, "t.toml");
+    ASSERT_TRUE(table) << table.error().message;
+    EXPECT_EQ(table->name, "mine");
+    EXPECT_EQ(table->moment, Moment::vel);
+    EXPECT_EQ(table->unit, "m/s");
+    EXPECT_EQ(colour_of(*table, -30), (Rgba8{0, 0, 255, 255}));
+    EXPECT_EQ(colour_of(*table, -15), (Rgba8{50, 50, 178, 153}));
+    EXPECT_EQ(colour_of(*table, 99), (Rgba8{255, 0, 0, 128}));
+    EXPECT_EQ(table->end, 60);
+    EXPECT_DOUBLE_EQ(extinction_per_m(*table, 15, 1) * 1000, 0.2);
+}
+
+TEST(TomlColours, ASteppedTableHasClassesAndTheMomentsOpacity) {
+    const auto table = parse_toml_colours(
+        "moment = \"REF\"\nstepped = true\nend = 60\nrange_folded = \"#010203\"\n"
+        "[[point]]\nvalue = 10\ncolour = \"#102030\"\n[[point]]\nvalue = 50\ncolour = "
+        "\"#405060\"\n",
+        "t.toml");
+    ASSERT_TRUE(table) << table.error().message;
+    EXPECT_TRUE(is_stepped(*table));
+    EXPECT_EQ(colour_of(*table, 49), (Rgba8{0x10, 0x20, 0x30, 255}));
+    EXPECT_EQ(table->end, 60);
+    EXPECT_EQ(table->range_folded, (Rgba8{1, 2, 3, 255}));
+    EXPECT_DOUBLE_EQ(extinction_per_m(*table, 45, 1), extinction_per_m(nws_reflectivity(), 45, 1));
+}
+
+TEST(TomlColours, ErrorsNameLineAndKey) {
+    const auto message = [](const std::string& text) {
+        const auto table = parse_toml_colours(text, "t.toml");
+        return table ? std::string{} : table.error().message;
+    };
+    const std::string two =
+        "[[point]]\nvalue = 1\ncolour = \"#000000\"\n"
+        "[[point]]\nvalue = 2\ncolour = \"#ffffff\"\n";
+    EXPECT_EQ(message(two), "");
+    EXPECT_THAT(message("moment = \"RAIN\"\n" + two), HasSubstr("t.toml:1: moment"));
+    EXPECT_THAT(message("unit = \"kt\"\nmoment = \"VEL\"\n" + two), HasSubstr("t.toml:1: unit"));
+    EXPECT_THAT(message("stepped = 1\n" + two), HasSubstr("stepped: must be true or false"));
+    EXPECT_THAT(message("colour = 1\n" + two), HasSubstr("unknown key"));
+    EXPECT_THAT(message(two + "opacity_per_km = 1\n"), HasSubstr("of all points or of none"));
+    EXPECT_THAT(message(two + "[[point]]\nvalue = 2\ncolour = \"#000000\"\n"),
+                HasSubstr("t.toml:8: "));
+    EXPECT_THAT(message(two + "[[point]]\nvalue = 3\ncolour = \"#00000\"\n"),
+                HasSubstr("t.toml:9: "));
+    EXPECT_THAT(message(two + "[[point]]\nvalue = 3\ncolour = [1, 2, 256]\n"), HasSubstr("colour"));
+    EXPECT_THAT(message(two + "[[point]]\nvalue = nan\ncolour = \"#000000\"\n"),
+                HasSubstr("out of range"));
+    EXPECT_THAT(message(two + "[[point]]\ncolour = \"#000000\"\n"), HasSubstr("is missing"));
+    EXPECT_THAT(message("end = 2\n" + two), HasSubstr("t.toml:1: end"));
+    EXPECT_THAT(message("[[point]]\nvalue = 1\ncolour = \"#000000\"\n"), HasSubstr("2 to 4096"));
+    EXPECT_THAT(message("point = 7\n"), HasSubstr("point"));
+}
+
+// Whatever bytes a file holds: an error of one line, or a table that validate() accepts.
+template <class Parse>
+void expect_sound_for_mutations(std::string_view seed, const Parse& parse) {
+    std::mt19937 random(20261122);
+    std::uniform_int_distribution<std::size_t> any(0, 1U << 30U);
+    constexpr std::string_view spice = "0123456789-+.e:;#\n\" []=,nanCSolidcolor4\0\x80\xff"sv;
+    int accepted = 0;
+    for (int round = 0; round < 4000; ++round) {
+        std::string text(seed);
+        for (std::size_t change = any(random) % 6; change < 6; ++change) {
+            const std::size_t at = any(random) % text.size();
+            switch (any(random) % 4) {
+                case 0:
+                    text[at] = spice[any(random) % spice.size()];
+                    break;
+                case 1:
+                    text.erase(at, 1 + any(random) % 9);
+                    break;
+                case 2:
+                    text.insert(at, text.substr(any(random) % text.size(), any(random) % 30));
+                    break;
+                default:
+                    text.insert(at, 1, spice[any(random) % spice.size()]);
+            }
+            if (text.empty()) text = "x";
+        }
+        const auto table = parse(text);
+        if (table) {
+            ++accepted;
+            ASSERT_TRUE(validate(*table)) << text;
+            for (float v = -80; v < 120; v += 7.3F) {
+                (void)colour_of(*table, v);
+                ASSERT_GE(extinction_per_m(*table, static_cast<double>(v), 1), 0);
+            }
+        } else {
+            ASSERT_EQ(table.error().code, ErrorCode::bad_argument);
+            ASSERT_THAT(table.error().message, StartsWith("m:"));
+            ASSERT_EQ(table.error().message.find('\n'), std::string::npos) << text;
+        }
+    }
+    EXPECT_GT(accepted, 20) << "mutations that always fail test little";
+}
+
+TEST(PalFile, MutationsAreTablesOrErrors) {
+    expect_sound_for_mutations(blended, [](const std::string& t) { return parse_pal(t, "m"); });
+}
+
+TEST(TomlColours, MutationsAreTablesOrErrors) {
+    expect_sound_for_mutations(toml_example,
+                               [](const std::string& t) { return parse_toml_colours(t, "m"); });
+}
+
+TEST(ColoursFrom, TakesANameOrAFile) {
+    const testing::TemporaryDirectory directory;
+    std::ofstream(directory / "mine.PAL") << blended;
+    std::ofstream(directory / "wind.toml") << toml_example;
+    EXPECT_EQ(colours_from("safe-velocity")->name, "safe-velocity");
+    EXPECT_EQ(colours_from((directory / "mine.PAL").string())->name, "mine");
+    EXPECT_EQ(colours_from((directory / "wind.toml").string())->name, "mine");
+    const auto unknown = colours_from("rainbow");
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().code, ErrorCode::bad_argument);
+    EXPECT_THAT(unknown.error().message, HasSubstr("safe-velocity"));
+    EXPECT_EQ(colours_from((directory / "none.pal").string()).error().code, ErrorCode::not_found);
+    EXPECT_EQ(read_colour_file(directory / "x.csv").error().code, ErrorCode::bad_argument);
+    std::ofstream(directory / "large.pal") << std::string(std::size_t{1} << 21U, '\n');
+    EXPECT_FALSE(colours_from((directory / "large.pal").string()));
+}
+
+}  // namespace
+}  // namespace stormcellar::render

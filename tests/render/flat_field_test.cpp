@@ -1,0 +1,208 @@
+#include "render/products/flat_field.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/products/cell_mixer.h"
+#include "tests/render/synthetic_storm.h"
+
+namespace stormcellar::render {
+namespace {
+
+using grid::CellStatus;
+using level2::Moment;
+
+constexpr Cell unseen = {CellStatus::not_seen, 0};
+constexpr Cell quiet = {CellStatus::no_echo, 0};
+constexpr Cell folded = {CellStatus::range_folded, 0};
+
+// Levels at 500, 1000 ... m. One row of columns, each a list of cells from the lowest up; the rest
+// is no echo.
+grid::BrickGrid columns_of(const std::vector<std::vector<Cell>>& columns, int levels = 20) {
+    grid::GridSpec spec = small_spec(static_cast<int>(columns.size()), levels);
+    spec.ny = 1;
+    return bricks_of(make_grid_of(spec, [&](int ix, int, int iz) {
+        const auto& cells = columns[static_cast<std::size_t>(ix)];
+        return static_cast<std::size_t>(iz) < cells.size() ? cells[static_cast<std::size_t>(iz)]
+                                                           : quiet;
+    }));
+}
+
+std::vector<Cell> repeated(const Cell& cell, int count) {
+    return std::vector<Cell>(static_cast<std::size_t>(count), cell);
+}
+
+TEST(ReadColumn, AgreesWithTheSlowView) {
+    const grid::Grid storm = storm_grid(small_spec(40, 37, 8000, 450));
+    for (const int bytes : {1, 2}) {
+        const auto bricks = bricks_of(storm, bytes);
+        const grid::BrickView view = bricks.view();
+        ColumnCells cells;
+        for (int iy = 0; iy < 40; ++iy) {
+            for (int ix = 0; ix < 40; ++ix) {
+                read_column(view, ix, iy, cells);
+                ASSERT_EQ(cells.status.size(), 37U);
+                for (int iz = 0; iz < 37; ++iz) {
+                    const auto i = static_cast<std::size_t>(iz);
+                    ASSERT_EQ(cells.status[i], view.status(ix, iy, iz));
+                    ASSERT_EQ(cells.values[i],
+                              cells.status[i] == CellStatus::value ? view.value(ix, iy, iz) : 0);
+                }
+            }
+        }
+    }
+}
+
+TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
+    const auto bricks = columns_of({{valued(10), valued(30)}, {valued(40), quiet}});
+    const auto at = [&](double height_m) {
+        return cappi_field(bricks.view(), Moment::ref, height_m, 1).value();
+    };
+    EXPECT_FLOAT_EQ(at(500).values[0], 10);
+    EXPECT_FLOAT_EQ(at(250).values[0], 10) << "the first cell reaches half a level lower";
+    EXPECT_FLOAT_EQ(at(625).values[0], 15);
+    EXPECT_FLOAT_EQ(at(1000).values[0], 30);
+    // A value and no echo: the heavier one; the value stays as it is.
+    EXPECT_EQ(at(700).status[1], CellStatus::value);
+    EXPECT_FLOAT_EQ(at(700).values[1], 40);
+    EXPECT_EQ(at(750).status[1], CellStatus::value) << "not less than no echo";
+    EXPECT_EQ(at(800).status[1], CellStatus::no_echo);
+}
+
+// DESIGN section 5, for every pair of states at a third of the way.
+TEST(Cappi, MixesStatesByTheRule) {
+    const std::vector<Cell> kinds = {unseen, quiet, folded, valued(20)};
+    std::vector<std::vector<Cell>> columns;
+    for (const Cell& lower : kinds) {
+        for (const Cell& upper : kinds)
+            columns.push_back({lower, upper});
+    }
+    const auto bricks = columns_of(columns);
+    const double third_up = 500 + 500.0 / 3;
+    const auto near_lower = cappi_field(bricks.view(), Moment::ref, third_up, 1).value();
+    const auto half = cappi_field(bricks.view(), Moment::ref, 750, 1).value();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const CellStatus lower = columns[i][0].status;
+        const CellStatus upper = columns[i][1].status;
+        EXPECT_EQ(near_lower.status[i], lower) << i << ": two thirds of the weight";
+        // Half and half: not more than half is not seen, so what was seen stands.
+        CellStatus wanted = lower;
+        if (lower == CellStatus::not_seen) wanted = upper;
+        if (lower != upper && lower != CellStatus::not_seen && upper != CellStatus::not_seen) {
+            const bool has_value = lower == CellStatus::value || upper == CellStatus::value;
+            wanted = has_value ? CellStatus::value : half.status[i];
+            EXPECT_NE(half.status[i], CellStatus::not_seen);
+        }
+        if (lower == CellStatus::value && upper == CellStatus::not_seen) wanted = lower;
+        EXPECT_EQ(half.status[i], wanted) << i;
+    }
+}
+
+TEST(Cappi, OfPhaseGoesTheShortWayRoundAndVelocitiesAreNotAveraged) {
+    grid::GridSpec spec = small_spec(1, 2);
+    const auto grid =
+        make_grid_of(spec, [](int, int, int iz) { return valued(iz == 0 ? 350 : 20); });
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(Moment::phi));
+    EXPECT_NEAR(cappi_field(bricks.view(), Moment::phi, 800, 1)->values[0], 8, 1e-3);
+    EXPECT_NEAR(cappi_field(bricks.view(), Moment::phi, 600, 1)->values[0], 356, 1e-3);
+    EXPECT_FLOAT_EQ(cappi_field(bricks.view(), Moment::vel, 800, 1)->values[0], 20);
+    EXPECT_FLOAT_EQ(cappi_field(bricks.view(), Moment::vel, 600, 1)->values[0], 350);
+    EXPECT_FLOAT_EQ(cappi_field(bricks.view(), Moment::sw, 750, 1)->values[0], 185);
+}
+
+TEST(Cappi, RefusesHeightsWithoutCells) {
+    const auto bricks = columns_of({{quiet}}, 4);
+    for (const double height_m : {249.0, 2251.0, std::nan("")}) {
+        const auto refused = cappi_field(bricks.view(), Moment::ref, height_m, 1);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+        EXPECT_THAT(refused.error().message, ::testing::HasSubstr("0.25 to 2.25 km"));
+    }
+}
+
+TEST(EchoTops, AreInterpolatedBetweenLevelsInDecibels) {
+    const auto bricks = columns_of({
+        {valued(50), valued(40), valued(10)},          // 40 at 1 km, 10 at 1.5 km
+        {valued(50), quiet},                           // nothing above 0.5 km
+        {valued(50), unseen, quiet},                   // not seen above
+        {valued(50), folded},                          // folded above
+        {valued(18), quiet, valued(18.5), valued(3)},  // exactly the threshold
+        {valued(18), folded, quiet},                   // below it, and folded
+        {valued(18)},                                  // below it
+        repeated(unseen, 20),
+        repeated(valued(30), 20),                              // up to the grid's top
+        {valued(60), quiet, quiet, valued(30), valued(12.5)},  // an overhang counts
+    });
+    const FlatField field = echo_top_field(bricks.view(), 18.5, 2);
+    EXPECT_NEAR(field.values[0], 1.0 + 0.5 * (40 - 18.5) / 30, 1e-6);
+    EXPECT_FLOAT_EQ(field.values[1], 0.5F);
+    EXPECT_FLOAT_EQ(field.values[2], 0.5F);
+    EXPECT_FLOAT_EQ(field.values[4], 1.5F);
+    EXPECT_FLOAT_EQ(field.values[8], 10);
+    EXPECT_NEAR(field.values[9], 2.0 + 0.5 * 11.5 / 17.5, 1e-6);
+    EXPECT_EQ(field.status[5], CellStatus::range_folded);
+    EXPECT_EQ(field.status[6], CellStatus::no_echo);
+    EXPECT_EQ(field.status[7], CellStatus::not_seen);
+    const std::vector<std::uint8_t> at_least = {0, 0, 1, 1, 0, 0, 0, 0, 1, 0};
+    EXPECT_EQ(field.at_least, at_least);
+}
+
+// 3.44e-6 Z^(4/7) for each metre of the 20 levels of 500 m.
+TEST(Vil, OfAnEvenColumnIsItsClosedForm) {
+    const auto bricks =
+        columns_of({repeated(valued(45), 20), repeated(valued(56), 20), repeated(valued(70), 20),
+                    repeated(quiet, 20), repeated(unseen, 20), repeated(folded, 20)});
+    const FlatField field = vil_field(bricks.view(), 2);
+    EXPECT_NEAR(field.values[0], 3.44e-6 * std::pow(10, 4.5 * 4 / 7) * 10000, 1e-4);
+    EXPECT_NEAR(field.values[1], 3.44e-6 * std::pow(10, 5.6 * 4 / 7) * 10000, 1e-3);
+    EXPECT_EQ(field.values[2], field.values[1]) << "capped at 56 dBZ: hail is no water";
+    EXPECT_EQ(field.status[3], CellStatus::no_echo);
+    EXPECT_EQ(field.status[4], CellStatus::not_seen);
+    EXPECT_EQ(field.status[5], CellStatus::range_folded);
+}
+
+TEST(Vil, TakesTheMeanOfZInALayerAndLeavesOutWhatWasNotSeen) {
+    const double z40 = 1e4;
+    const double full = std::pow(z40, 4.0 / 7);
+    const double halved = std::pow(z40 / 2, 4.0 / 7);
+    std::vector<Cell> hidden = repeated(unseen, 20);
+    hidden[5] = valued(40);
+    std::vector<Cell> single = repeated(quiet, 20);
+    single[5] = valued(40);
+    const auto bricks = columns_of({hidden, single});
+    const FlatField field = vil_field(bricks.view(), 1);
+    EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "its own half of both layers";
+    EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers with Z / 2";
+}
+
+TEST(HeightsSeen, AreThoseOfTheOutermostCellsSeen) {
+    const auto bricks = columns_of({{unseen, unseen, quiet},
+                                    {folded},
+                                    repeated(unseen, 20),
+                                    {unseen, valued(3), unseen, unseen, valued(9)}},
+                                   6);
+    const FlatField lowest = lowest_seen_field(bricks.view(), 1);
+    const FlatField highest = highest_seen_field(bricks.view(), 1);
+    EXPECT_FLOAT_EQ(lowest.values[0], 1.5F);
+    EXPECT_FLOAT_EQ(lowest.values[1], 0.5F);
+    EXPECT_FLOAT_EQ(lowest.values[3], 1);
+    EXPECT_FLOAT_EQ(highest.values[3], 3);
+    EXPECT_EQ(lowest.status[2], CellStatus::not_seen);
+    EXPECT_EQ(highest.status[2], CellStatus::not_seen);
+}
+
+TEST(FlatFields, AreTheSameForAnyNumberOfThreads) {
+    const auto bricks = bricks_of(storm_grid(small_spec(90, 30, 4000, 500)));
+    const auto view = bricks.view();
+    for (const int threads : {2, 5}) {
+        EXPECT_EQ(echo_top_field(view, 18.5, threads).values, echo_top_field(view, 18.5, 1).values);
+        EXPECT_EQ(vil_field(view, threads).values, vil_field(view, 1).values);
+        EXPECT_EQ(cappi_field(view, Moment::ref, 3210, threads)->values,
+                  cappi_field(view, Moment::ref, 3210, 1)->values);
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::render

@@ -1,0 +1,85 @@
+#include "render/products/product.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "render/colour/built_in_tables.h"
+#include "render/map/legend.h"
+#include "render/shades.h"
+#include "tests/render/synthetic_storm.h"
+
+namespace stormcellar::render {
+namespace {
+
+using level2::Moment;
+
+Scene scene_of(Product product, Moment moment) {
+    Scene scene;
+    scene.product = product;
+    scene.moment = moment;
+    return scene;
+}
+
+std::vector<std::string> legend_texts(const Scene& scene) {
+    std::vector<std::string> texts;
+    const Legend legend = legend_of(scene);
+    for (const LegendRow& row : legend.rows)
+        texts.push_back(row.text);
+    return texts;
+}
+
+TEST(ProductTitle, NamesMomentAndProduct) {
+    EXPECT_EQ(product_title(scene_of(Product::volume, Moment::ref)), "Reflectivity, 3D volume");
+    EXPECT_EQ(product_title(scene_of(Product::composite, Moment::ref)),
+              "Composite reflectivity (column maximum)");
+    Scene cappi = scene_of(Product::cappi, Moment::rho);
+    cappi.cappi_height_m = 2500;
+    EXPECT_EQ(product_title(cappi), "Correlation coefficient at 2.5 km above sea level (CAPPI)");
+    EXPECT_EQ(product_title(scene_of(Product::section, Moment::vel)),
+              "Radial velocity, vertical section");
+    EXPECT_EQ(product_title(scene_of(Product::echo_top, Moment::ref)), "Echo tops, 18.5 dBZ");
+}
+
+TEST(ProductLegend, SaysWhatIsNotInTheColourBar) {
+    using ::testing::ElementsAre;
+    EXPECT_THAT(legend_texts(scene_of(Product::cappi, Moment::ref)),
+                ElementsAre("no echo or < 5 dBZ", "range folded", "not seen"));
+    EXPECT_THAT(legend_texts(scene_of(Product::cappi, Moment::vel)),
+                ElementsAre("no echo", "range folded", "not seen"));
+    EXPECT_THAT(legend_texts(scene_of(Product::cappi, Moment::phi)),
+                ElementsAre("no echo", "range folded", "not seen"));
+    EXPECT_THAT(legend_texts(scene_of(Product::section, Moment::rho)),
+                ElementsAre("no echo or < 0.2", "range folded", "not seen"));
+    EXPECT_THAT(
+        legend_texts(scene_of(Product::echo_top, Moment::ref)),
+        ElementsAre("dotted: at least", "no echo or < 18.5 dBZ", "range folded", "not seen"));
+    EXPECT_THAT(legend_texts(scene_of(Product::lowest_seen, Moment::ref)), ElementsAre("not seen"));
+}
+
+TEST(BarHeading, IsTheUnitOrElseTheMoment) {
+    EXPECT_EQ(legend_of(scene_of(Product::volume, Moment::vel)).bar_heading, "m/s");
+    EXPECT_EQ(legend_of(scene_of(Product::volume, Moment::rho)).bar_heading, "RHO");
+    EXPECT_EQ(legend_of(scene_of(Product::vil, Moment::ref)).bar_heading, "kg/m2");
+}
+
+TEST(MapField, IsTheScenesProduct) {
+    const auto bricks = bricks_of(
+        make_grid_of(small_spec(3, 4), [](int, int, int iz) { return valued(40 - 10 * iz); }));
+    const auto view = bricks.view();
+    const auto columns = summarize_columns(view, 1);
+    Scene scene = scene_of(Product::composite, Moment::ref);
+    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 40);
+    scene.product = Product::cappi;
+    scene.cappi_height_m = 1000;
+    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 30);
+    scene.product = Product::echo_top;
+    scene.echo_top_dbz = 25;
+    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 1.25F);
+    scene.product = Product::highest_seen;
+    EXPECT_EQ(map_field(view, scene, columns, 1)->values[4], 2);
+    scene.product = Product::volume;
+    EXPECT_FALSE(map_field(view, scene, columns, 1));
+}
+
+}  // namespace
+}  // namespace stormcellar::render

@@ -1,0 +1,137 @@
+// Simulates colour-vision deficiencies and looks whether neighbouring classes can still be told
+// apart.
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "render/colour/built_in_tables.h"
+#include "render/colour/colour_difference.h"
+
+namespace stormcellar::render {
+namespace {
+
+struct Sight {
+    const char* name;
+    double matrix[3][3];  // linear sRGB to linear sRGB
+};
+
+// Machado, Oliveira, Fernandes (2009), A physiologically-based model for simulation of color vision
+// deficiency, IEEE Transactions on Visualization and Computer Graphics 15(6): severity 1.
+constexpr Sight sights[] = {
+    {"normal", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    {"protanopia",
+     {{0.152286, 1.052583, -0.204868},
+      {0.114503, 0.786281, 0.099216},
+      {-0.003882, -0.048116, 1.051998}}},
+    {"deuteranopia",
+     {{0.367322, 0.860646, -0.227968},
+      {0.280085, 0.672501, 0.047413},
+      {-0.011820, 0.042940, 0.968881}}},
+    {"tritanopia",
+     {{1.255528, -0.076749, -0.178779},
+      {-0.078411, 0.930809, 0.147602},
+      {0.004733, 0.691367, 0.303900}}},
+};
+
+Lab seen_by(const Sight& sight, const Rgba8& colour) {
+    std::array<double, 3> seen{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        double sum = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            sum += sight.matrix[row][c] * linear_of(colour[c]);
+        seen[row] = std::clamp(sum, 0.0, 1.0);
+    }
+    return lab_of_linear(seen[0], seen[1], seen[2]);
+}
+
+double least_step(const ColourTable& table, const Sight& sight) {
+    double least = 1000;
+    for (std::size_t i = 1; i < table.stops.size(); ++i) {
+        least = std::min(least, ciede2000(seen_by(sight, table.stops[i - 1].colour),
+                                          seen_by(sight, table.stops[i].colour)));
+    }
+    return least;
+}
+
+bool lightness_rises(const ColourTable& table, std::size_t first, std::size_t end) {
+    for (std::size_t i = first + 1; i < end; ++i) {
+        if (lab_of(table.stops[i].colour).lightness <=
+            lab_of(table.stops[i - 1].colour).lightness) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A grey stays what it is, and who sees neither red nor green sees these two alike.
+TEST(Sights, KeepGreysAndMixWhatTheyShould) {
+    for (const Sight& sight : sights) {
+        EXPECT_LT(ciede2000(seen_by(sight, {128, 128, 128, 255}), lab_of({128, 128, 128, 255})),
+                  0.01)
+            << sight.name;
+    }
+    const Rgba8 red = {200, 90, 40, 255};
+    const Rgba8 green = {116, 130, 40, 255};
+    EXPECT_GT(colour_difference(red, green), 30);
+    EXPECT_LT(ciede2000(seen_by(sights[2], red), seen_by(sights[2], green)), 12);
+}
+
+TEST(SafeTables, NeighboursDifferForEveryKindOfSight) {
+    for (const char* name :
+         {"safe-reflectivity", "safe-velocity", "safe-zdr", "safe-rho", "height"}) {
+        const auto table = find_colour_table(name);
+        ASSERT_TRUE(table);
+        for (const Sight& sight : sights) {
+            const double least = least_step(*table, sight);
+            EXPECT_GE(least, least_safe_step) << name << " " << sight.name;
+            ::testing::Test::RecordProperty(std::string(name) + " " + sight.name,
+                                            std::to_string(least));
+        }
+    }
+}
+
+TEST(SafeTables, LightnessRisesWithTheValue) {
+    for (const char* name : {"safe-reflectivity", "safe-zdr", "safe-rho", "height"}) {
+        const auto table = find_colour_table(name);
+        ASSERT_TRUE(table);
+        EXPECT_TRUE(lightness_rises(*table, 0, table->stops.size())) << name;
+    }
+}
+
+TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
+    ColourTable table = find_colour_table("safe-velocity").value();
+    const std::size_t count = table.stops.size();
+    ASSERT_EQ(count % 2, 1U);
+    EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "away";
+    for (const Sight& sight : sights) {
+        for (std::size_t i = 0; i < count / 2; ++i) {
+            EXPECT_GE(ciede2000(seen_by(sight, table.stops[i].colour),
+                                seen_by(sight, table.stops[count - 1 - i].colour)),
+                      least_safe_sides)
+                << sight.name << " " << i;
+        }
+    }
+    std::reverse(table.stops.begin(), table.stops.end());
+    EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "towards";
+}
+
+// So that the test above can fail: the Weather Service's tables do.
+TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
+    EXPECT_LT(least_step(nws_reflectivity(), sights[1]), 4);
+    EXPECT_LT(least_step(nws_reflectivity(), sights[2]), 4);
+    EXPECT_FALSE(lightness_rises(nws_reflectivity(), 0, nws_reflectivity().stops.size()));
+    const ColourTable velocity = find_colour_table("nws-velocity").value();
+    double least_sides = 1000;
+    for (std::size_t i = 0; i < velocity.stops.size() / 2; ++i) {
+        least_sides = std::min(
+            least_sides,
+            ciede2000(seen_by(sights[2], velocity.stops[i].colour),
+                      seen_by(sights[2], velocity.stops[velocity.stops.size() - 1 - i].colour)));
+    }
+    EXPECT_LT(least_sides, least_safe_sides);
+    EXPECT_LT(least_step(velocity, sights[0]), least_safe_step);
+}
+
+}  // namespace
+}  // namespace stormcellar::render
