@@ -12,6 +12,7 @@
 #include "cache/store.h"
 #include "cli/commands.h"
 #include "cli/picture.h"
+#include "cli/picture_plan.h"
 #include "cli/scene_options.h"
 #include "render/png_file.h"
 #include "render/products/probe.h"
@@ -30,6 +31,7 @@ struct FrameOptions {
     std::string probe_at;  // "LAT,LON"
     bool json = false;
     SceneOptions scene;
+    PicturePlanOptions plan;
 };
 
 // The newest grid of the domain at or before the time; none when there is no such grid.
@@ -139,7 +141,7 @@ void report_frame(const FrameOptions& options, const render::Scene& scene,
 
 Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
                               const cache::GridFile& file) {
-    const auto facts = facts_of(options.domain, file.description());
+    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
     const int threads = thread_count(options.scene);
     const auto as_maybe = [](Result<render::Probe> probe) -> Result<MaybeProbe> {
         if (!probe) return pass_on(probe);
@@ -172,9 +174,14 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
                           const cache::GridFile& file, Clock::time_point start) {
     Timing timing;
     timing.read_s = seconds_since(start);
-    const auto picture =
-        render::render_frame(file.view(), facts_of(options.domain, file.description()), scene,
-                             thread_count(options.scene));
+    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
+    const int threads = thread_count(options.scene);
+    render::Scene planned = scene;
+    if (auto done = plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
+        !done) {
+        return pass_on(done);
+    }
+    const auto picture = render::render_frame(file.view(), facts, planned, threads);
     if (!picture) return pass_on(picture);
     if (Status whole = file.check_whole(); !whole) return pass_on(whole);
     timing.render_s = seconds_since(start) - timing.read_s;
@@ -247,6 +254,7 @@ Command add_frame(CLI::App& app) {
                       "LAT,LON: say what is at that place (maps and volumes)");
     frame->add_flag("--json", options->json, "Say what was done as one JSON document");
     add_scene_options(*frame, options->scene);
+    add_picture_plan_options(*frame, options->plan);
     return {frame, [options] { return run_frame(*options); }};
 }
 

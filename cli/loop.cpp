@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/picture.h"
+#include "cli/picture_plan.h"
 #include "cli/progress.h"
 #include "cli/query_options.h"
 #include "cli/scene_options.h"
@@ -34,6 +35,7 @@ struct LoopOptions {
     bool quiet = false;
     render::AnimationOptions animation;
     SceneOptions scene;
+    PicturePlanOptions plan;
 };
 
 struct Skipped {
@@ -118,10 +120,17 @@ class Encoding {
     std::vector<std::future<Timed>> running_;  // the last member: waited for before the rest goes
 };
 
+// What the frames of a loop share; how exactly they are drawn is planned for the first.
+struct Drawing {
+    render::Scene scene;
+    render::MapKeeper map;
+    bool is_planned = false;
+};
+
 // One frame; none when the grid's file is damaged, which is noted.
 Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
-                                          const LoopOptions& options, const render::Scene& scene,
-                                          LoopReport& report, render::MapKeeper& map) {
+                                          const LoopOptions& options, Drawing& drawing,
+                                          LoopReport& report) {
     const auto start = Clock::now();
     const auto file = cache::GridFile::open(entry.path);
     report.read_s += seconds_since(start);
@@ -130,8 +139,17 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
         return std::optional<render::Image>{};
     }
     const auto opened = Clock::now();
-    auto picture = render::render_frame(file->view(), facts_of(options.domain, file->description()),
-                                        scene, thread_count(options.scene), &map);
+    const auto facts = facts_of(options.domain, file->description(), options.scene.time_zone);
+    const int threads = thread_count(options.scene);
+    if (!drawing.is_planned) {
+        if (auto planned = plan_picture(file->view(), facts, options.plan, options.json, threads,
+                                        drawing.scene);
+            !planned) {
+            return pass_on(planned);
+        }
+        drawing.is_planned = true;
+    }
+    auto picture = render::render_frame(file->view(), facts, drawing.scene, threads, &drawing.map);
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
     if (const Status whole = file->check_whole(); !whole) {  // cut while it was drawn
@@ -152,10 +170,10 @@ Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions
                 const render::Scene& scene, const std::atomic<bool>& stop, Encoding& encoding,
                 LoopReport& report) {
     Progress progress("frames", entries.size(), !options.quiet);
-    render::MapKeeper map;
+    Drawing drawing{scene, {}};
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (stop) return {};
-        auto picture = draw(entries[i], options, scene, report, map);
+        auto picture = draw(entries[i], options, drawing, report);
         if (!picture) return pass_on(picture);
         if (*picture) {
             if (auto added = encoding.add(std::move(**picture)); !added) return added;
@@ -317,6 +335,7 @@ Command add_loop(CLI::App& app) {
     loop->add_flag("--json", options->json, "Say what was done as one JSON document");
     loop->add_flag("--quiet", options->quiet, "No progress and no summary; warnings and errors");
     add_scene_options(*loop, options->scene);
+    add_picture_plan_options(*loop, options->plan);
     return {loop, [options] { return run_loop(*options); }};
 }
 

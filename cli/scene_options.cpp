@@ -41,12 +41,24 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->group(group)
         ->capture_default_str();
     app.add_option("--tilt", scene.camera.tilt_deg,
-                   "Degrees from the vertical: 0 straight down, 90 along the ground")
+                   "Degrees from the vertical: 0 straight down, 90 along the ground, with "
+                   "--camera-km up to 180")
         ->group(group)
         ->capture_default_str();
     app.add_option("--zoom", scene.camera.zoom, "1 shows the whole grid")
         ->group(group)
         ->capture_default_str();
+    app.add_option("--field-of-view", scene.camera.field_of_view_deg,
+                   "Degrees across the picture, for a perspective view; 0: parallel rays")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--camera-km", options.camera_at,
+                   "EAST,NORTH,UP: where the camera stands, from the grid's middle and above sea "
+                   "level (default: outside, looking at the middle)")
+        ->group(group);
+    app.add_flag("--curved-earth", scene.curved_earth,
+                 "The ground falls away from the grid's middle, as the earth does")
+        ->group(group);
     app.add_option("--slices", scene.slices, "Slices through the volume, 8 to 4096")
         ->group(group)
         ->capture_default_str();
@@ -59,6 +71,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--ring-spacing-km", options.range_ring_spacing_km, "Between range rings")
         ->group(group)
         ->capture_default_str();
+    app.add_option("--time-zone", options.time_zone,
+                   "Of the local time, as America/Chicago (default: the machine's)")
+        ->group(group);
     app.add_flag("--no-labels", options.no_labels, "The picture alone")->group(group);
     app.add_option("--threads", options.threads, "Else as many as the machine has")
         ->group(group)
@@ -92,6 +107,16 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
         auto colours = render::colours_from(options.colours);
         if (!colours) return pass_on(colours);
         scene.colours = std::move(*colours);
+    }
+    if (!options.camera_at.empty()) {
+        const auto at = numbers_of("--camera-km", options.camera_at, 3);
+        if (!at) return pass_on(at);
+        scene.camera.eye = render::Eye{(*at)[0] * 1e3, (*at)[1] * 1e3, (*at)[2] * 1e3};
+        if (scene.camera.field_of_view_deg == 0) scene.camera.field_of_view_deg = 60;
+    }
+    if (!options.time_zone.empty() && !format_local(UtcTime{}, options.time_zone)) {
+        return fail(ErrorCode::bad_argument, "--time-zone: '{}' is no time zone known here",
+                    options.time_zone);
     }
     scene.range_ring_spacing_m = options.range_ring_spacing_km * 1e3;
     scene.labels = !options.no_labels;

@@ -19,19 +19,19 @@ namespace stormcellar::cli {
 struct SceneOptions {
     std::string product = "volume";
     std::string moment = "REF";
-    std::string colours;   // empty: the product's or the moment's
-    double height_km = 3;  // of a CAPPI
-    std::string section;   // "LAT,LON,LAT,LON"
-    render::Scene scene;   // what the options set; take it by scene_of()
+    std::string colours;    // empty: the product's or the moment's
+    double height_km = 3;   // of a CAPPI
+    std::string section;    // "LAT,LON,LAT,LON"
+    std::string camera_at;  // "EAST,NORTH,UP" in km
+    std::string time_zone;  // IANA; empty: the machine's
+    render::Scene scene;    // what the options set; take it by scene_of()
     double range_ring_spacing_km = 50;
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
 };
 
-// Puts --product, --moment, --colours, --height-km, --section, --echo-top-dbz, --width, --height,
-// --azimuth, --tilt, --zoom, --slices, --exaggeration,
-// --opacity, --ring-spacing-km, --no-labels and --threads on a subcommand. `options` must outlive
-// the parse.
+// Puts the options of product, colours, camera and labels on a subcommand, and --threads. `options`
+// must outlive the parse.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
 // The scene asked for, validated; bad_argument names the option that makes no sense.
@@ -48,7 +48,6 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 // said of grids younger than an hour: of an archive's it would say nothing about the radar.
 [[nodiscard]] render::FrameFacts facts_of(const std::string& domain,
                                           const cache::GridDescription& description,
-                                          const std::string& time_zone = {},
-                                          UtcTime now = now_utc());
+                                          const std::string& time_zone, UtcTime now = now_utc());
 
 }  // namespace stormcellar::cli

@@ -47,8 +47,9 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
     }
     Image picture = canvas.image();
     if (volume) {
-        const VolumeSlicer slicer(colours, view.quantization, geometry,
-                                  {scene.slices, Integration::second_order, scene.opacity});
+        const VolumeSlicer slicer(
+            colours, view.quantization, geometry,
+            {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance});
         const Layer layer = slicer.draw(view, threads);
         composite_over(layer, picture, 0, 0);
     }

@@ -136,7 +136,7 @@ Status validate(const Scene& scene) {
                     "a camera with a place of its own needs a field of view above 0 degrees");
     }
     const Eye eye = camera.eye.value_or(Eye{});
-    const std::array<Status, 16> checks = {
+    const std::array<Status, 17> checks = {
         check_range("width", scene.width, 16, 8192),
         check_range("height", scene.height, 16, 8192),
         check_range("tilt", camera.tilt_deg, 0, camera.eye ? 180 : 90),
@@ -149,6 +149,7 @@ Status validate(const Scene& scene) {
         check_range("zoom", camera.zoom, 0.01, 1000),
         check_range("slices", scene.slices, 8, 4096),
         check_range("exaggeration", scene.vertical_exaggeration, 0.1, 100),
+        check_range("pixel tolerance", scene.pixel_tolerance, 0, 0.1),
         check_range("opacity", scene.opacity, 1e-3, 1e3),
         check_range("range ring spacing (m)", scene.range_ring_spacing_m, 1e3, 1e6),
         check_range("the height of a CAPPI (m)", scene.cappi_height_m, -1e3, 6e4),

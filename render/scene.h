@@ -9,6 +9,7 @@
 #include "grid/site_frame.h"
 #include "level2/volume.h"
 #include "render/colour/colour_table.h"
+#include "render/volume/integration.h"
 
 namespace stormcellar::render {
 
@@ -49,9 +50,12 @@ struct Scene {
     double echo_top_dbz = 18.5;                         // -30..80
     int width = 796, height = 532;                      // pixels; 16..8192
     Camera camera;
-    int slices = 256;                    // parallel to the image plane; 8..4096
-    double vertical_exaggeration = 5;    // stated in the picture; 0.1..100
-    bool curved_earth = false;           // volumes: the ground falls away from the grid's middle
+    int slices = 256;                  // parallel to the image plane; 8..4096
+    double vertical_exaggeration = 5;  // stated in the picture; 0.1..100
+    bool curved_earth = false;         // volumes: the ground falls away from the grid's middle
+    // How exactly a volume is drawn (render/volume/slicer.h).
+    Integration integration = Integration::second_order;
+    double pixel_tolerance = 0;          // 0..0.1
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // colour bar, title, time, rings

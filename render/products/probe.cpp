@@ -5,8 +5,8 @@
 
 #include "base/floating_point.h"
 #include "grid/projection.h"
-#include "render/map/labels.h"
 #include "render/map/map_lines.h"
+#include "render/picture_layout.h"
 #include "render/products/ground.h"
 #include "render/products/product.h"
 #include "render/products/section.h"
@@ -15,20 +15,6 @@ namespace stormcellar::render {
 namespace {
 
 using grid::CellStatus;
-
-// Where the picture of the grid lies in the whole one.
-Result<LabelLayout> layout_of(const grid::BrickView& view, const FrameFacts& facts,
-                              const Scene& scene) {
-    LabelLayout layout;
-    layout.width = scene.width;
-    layout.height = scene.height;
-    if (!scene.labels) return layout;
-    const auto fonts = Fonts::load();
-    if (!fonts) return pass_on(fonts);
-    return lay_out_labels(
-        *fonts, scene, facts,
-        {legend_of(scene), drawn_ring_spacing(*view.spec, scene.range_ring_spacing_m), {}});
-}
 
 void note_heights(const grid::BrickView& view, int ix, int iy, Probe& probe) {
     ColumnCells cells;

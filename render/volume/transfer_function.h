@@ -7,28 +7,20 @@
 // the table or its first extinction. The others are equally wide, so wide that the last holds the
 // table's highest stop, and where that is possible so that each stop begins a bin. For each pair of
 // bins at the two ends of a step the table holds what the step looks like from its first end:
-//   riemann       of the first end's value alone. First order in the step
-//   first_order   of all values between the two, mixed by their extinction: what the near part of
-//                 the step hides of its far part is left out. First order, with a small factor
-//   second_order  of all values between, in their order: the integral over a straight change from
-//                 one end to the other (Engel, Kraus, Ertl 2001). Second order
+// render/volume/integration.h says how.
 // Thread contract: immutable.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "grid/brick_view.h"
 #include "render/colour/colour_table.h"
+#include "render/volume/integration.h"
 
 namespace stormcellar::render {
-
-enum class Integration { riemann, first_order, second_order };
-// "riemann", "pre-integrated", "pre-integrated-2".
-[[nodiscard]] std::string_view integration_name(Integration integration);
 
 // What a step of the reference length looks like where its whole width holds values. A step of
 // another length, or of another share, has the same colour and that multiple of the depth.

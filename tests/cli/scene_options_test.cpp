@@ -56,6 +56,23 @@ TEST(SceneOptions, ProductsHaveOptionsOfTheirOwn) {
     EXPECT_EQ(scene->echo_top_dbz, 30);
 }
 
+TEST(SceneOptions, ACameraMayStandAnywhere) {
+    const auto scene = scene_of(parse("--camera-km -20,5.5,3 --tilt 120 --curved-earth"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->camera.eye);
+    EXPECT_EQ(scene->camera.eye->x_m, -20e3);
+    EXPECT_EQ(scene->camera.eye->y_m, 5500);
+    EXPECT_EQ(scene->camera.eye->height_m, 3000);
+    EXPECT_EQ(scene->camera.field_of_view_deg, 60) << "a place needs one";
+    EXPECT_TRUE(scene->curved_earth);
+    EXPECT_EQ(scene_of(parse("--camera-km 1,2,3 --field-of-view 35"))->camera.field_of_view_deg,
+              35);
+    EXPECT_FALSE(scene_of(parse("--camera-km 1,2")));
+    EXPECT_FALSE(scene_of(parse("--field-of-view 170")));
+    EXPECT_FALSE(scene_of(parse("--tilt 120"))) << "without a place of its own";
+    EXPECT_FALSE(scene_of(parse("--time-zone Nowhere/Land")));
+}
+
 TEST(SceneOptions, NonsenseIsBadArgument) {
     for (const char* arguments :
          {"--product x", "--tilt 91", "--width 1", "--threads -1", "--moment ref", "--colours x",

@@ -1,0 +1,98 @@
+#include "cli/picture_plan.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "accuracy/explain.h"
+#include "render/picture_layout.h"
+#include "render/plan/volume_plan.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct PictureRequest {
+    accuracy::Chain chain = render::volume_chain();
+    std::optional<accuracy::Budget> budget;
+};
+
+Result<PictureRequest> parse_plan(const PicturePlanOptions& options) {
+    PictureRequest request;
+    std::vector<accuracy::EffectOverride> overrides;
+    for (const std::string& text : options.effects) {
+        const auto parsed = accuracy::parse_override(text, accuracy::effect_names(request.chain));
+        if (!parsed) return fail(parsed.error().code, "--effect: {}", parsed.error().message);
+        overrides.push_back(*parsed);
+    }
+    if (auto set = accuracy::apply_overrides(request.chain, overrides); !set) {
+        return fail(set.error().code, "--effect: {}", set.error().message);
+    }
+    if (!options.tolerance.empty()) {
+        auto budget = accuracy::parse_budget(options.tolerance);
+        if (!budget) return fail(budget.error().code, "--tolerance: {}", budget.error().message);
+        request.budget = *budget;
+    }
+    return request;
+}
+
+render::VolumeChoice choice_of(const render::Scene& scene) {
+    return {scene.slices, scene.integration, !(scene.pixel_tolerance > 0)};
+}
+
+// What the settings leave of the default.
+render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scene& scene) {
+    accuracy::Choice choice = render::rungs_of(chain, choice_of(scene));
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        const auto range = accuracy::allowed_rungs(chain.steps[i]);
+        choice.rungs[i] = std::clamp(choice.rungs[i], range.least, range.most);
+    }
+    return render::volume_choice(chain, choice);
+}
+
+}  // namespace
+
+void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
+    const std::string group = "Accuracy of a volume's picture";
+    app.add_option(
+           "--tolerance", options.tolerance,
+           "What the picture may be off, \"dE 2\" (99 % of the pixels, CIEDE2000), or take, "
+           "\"20 ms\": slices and rays are chosen for it")
+        ->group(group);
+    app.add_option("--effect", options.effects,
+                   "NAME=on|off|auto, any number; --explain lists the effects")
+        ->group(group);
+    app.add_flag("--explain", options.explain,
+                 "Say how large each effect is, and why it is on or off")
+        ->group(group);
+}
+
+Status plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
+                    const PicturePlanOptions& options, bool json, int threads,
+                    render::Scene& scene) {
+    if (!options.asked()) return {};
+    if (scene.product != render::Product::volume) {
+        return fail(ErrorCode::bad_argument,
+                    "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
+                    render::product_name(scene.product));
+    }
+    const auto request = parse_plan(options);
+    if (!request) return pass_on(request);
+    if (auto valid = render::check_frame(view, facts, scene); !valid) return valid;
+    const auto layout = render::layout_of(view, facts, scene);
+    if (!layout) return pass_on(layout);
+    render::VolumeScene drawn(view, render::colours_of(scene), scene, layout->width, layout->height,
+                              threads);
+    const auto planned = render::plan_volume(drawn, request->chain, request->budget,
+                                             by_default(request->chain, scene));
+    if (!planned) return pass_on(planned);
+    if (options.explain) {
+        fmt::print(json ? stderr : stdout, "{}", accuracy::explain(planned->plan));
+    }
+    if (!planned->plan.meets_budget)
+        return fail(ErrorCode::not_found, "{}", planned->plan.shortfall);
+    scene.slices = planned->choice.slices;
+    scene.integration = planned->choice.integration;
+    scene.pixel_tolerance = planned->choice.every_pixel ? 0 : render::interpolated_tolerance;
+    return {};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,37 @@
+// cli/picture_plan.h -- how exactly a volume is drawn: --tolerance, --effect and --explain.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/plan.h"
+#include "base/result.h"
+#include "render/render.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stormcellar::cli {
+
+// As they were typed.
+struct PicturePlanOptions {
+    std::string tolerance;
+    std::vector<std::string> effects;
+    bool explain = false;
+
+    [[nodiscard]] bool asked() const { return explain || !tolerance.empty() || !effects.empty(); }
+};
+
+void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
+
+// Plans for this grid and sets the scene's slices, integration and rays as planned; prints the plan
+// where that was asked for, to stderr with `json`, else to stdout. Nothing happens when nothing was
+// asked. Errors: bad_argument for options that make no sense, or a product that is no volume;
+// not_found, naming the best there is, where nothing holds the tolerance.
+[[nodiscard]] Status plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
+                                  const PicturePlanOptions& options, bool json, int threads,
+                                  render::Scene& scene);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,16 @@
+// render/picture_layout.h -- where the picture of the grid lies in the whole one, with its labels.
+#pragma once
+
+#include "base/result.h"
+#include "render/map/labels.h"
+#include "render/render.h"
+
+namespace stormcellar::render {
+
+// Without labels the picture is all. Errors: those of lay_out_labels() and of Fonts::load().
+// `coverage` only fills a line of text: it moves nothing.
+[[nodiscard]] Result<LabelLayout> layout_of(const grid::BrickView& view, const FrameFacts& facts,
+                                            const Scene& scene,
+                                            const std::optional<Coverage>& coverage = {});
+
+}  // namespace stormcellar::render
