@@ -30,6 +30,8 @@ struct LoopOptions {
     std::string domain;
     TimeRangeOptions range;
     std::size_t last = 0;  // 0: all
+    double orbit_deg = 0;  // the camera's way round the grid over the loop
+    bool ping_pong = false;
     std::vector<std::string> outputs;
     bool json = false;
     bool quiet = false;
@@ -156,8 +158,8 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
         report.skipped.push_back({entry.path, whole.error().message});
         return std::optional<render::Image>{};
     }
-    if (report.frames == 0) report.from = entry.time;
-    report.to = entry.time;
+    if (report.frames == 0) report.from = report.to = entry.time;
+    report.to = std::max(report.to, entry.time);
     ++report.frames;
     return std::optional{std::move(*picture)};
 }
@@ -173,6 +175,9 @@ Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions
     Drawing drawing{scene, {}};
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (stop) return {};
+        drawing.scene.camera.azimuth_deg =
+            scene.camera.azimuth_deg +
+            options.orbit_deg * static_cast<double>(i) / static_cast<double>(entries.size());
         auto picture = draw(entries[i], options, drawing, report);
         if (!picture) return pass_on(picture);
         if (*picture) {
@@ -274,6 +279,14 @@ std::string range_text(const LoopOptions& options) {
     return text;
 }
 
+// Adds the way back, without the two ends.
+void turn_back(std::vector<cache::StoreEntry>& entries) {
+    for (std::size_t i = entries.size(); i > 2; --i) {
+        const cache::StoreEntry entry = entries[i - 2];
+        entries.push_back(entry);
+    }
+}
+
 int run_loop(LoopOptions options) {
     const auto start = Clock::now();
     if (auto fine = check_outputs(options); !fine) return report_error(fine.error());
@@ -292,6 +305,7 @@ int run_loop(LoopOptions options) {
     if (entries->empty())
         return report_no_grid(*store, options.domain, scene->moment, range_text(options));
     options.animation.metadata = metadata_of(*entries, options, *scene);
+    if (options.ping_pong) turn_back(*entries);
 
     Interrupt interrupt;
     const auto report = make_loop(*entries, options, *scene, interrupt.flag(), start);
@@ -332,6 +346,12 @@ Command add_loop(CLI::App& app) {
     loop->add_option("--dwell", options->animation.last_frame_dwell_s,
                      "Seconds that the last frame stays longer, 0 to 60")
         ->capture_default_str();
+    loop->add_option("--orbit", options->orbit_deg,
+                     "Degrees that the camera goes round the grid over the loop; 360 closes it")
+        ->check(CLI::Range(-3600.0, 3600.0))
+        ->capture_default_str();
+    loop->add_flag("--ping-pong", options->ping_pong,
+                   "There and back: behind the last frame the others again, down to the second");
     loop->add_flag("--json", options->json, "Say what was done as one JSON document");
     loop->add_flag("--quiet", options->quiet, "No progress and no summary; warnings and errors");
     add_scene_options(*loop, options->scene);

@@ -56,6 +56,14 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "EAST,NORTH,UP: where the camera stands, from the grid's middle and above sea "
                    "level (default: outside, looking at the middle)")
         ->group(group);
+    app.add_option("--light", options.light,
+                   "none (exact colours), or of gradient, shadow and scattering, with commas: "
+                   "makes echo darker, never another hue")
+        ->group(group)
+        ->capture_default_str();
+    app.add_option("--sun", options.sun,
+                   "AZIMUTH,ELEVATION in degrees of the light (default: 225,40)")
+        ->group(group);
     app.add_flag("--curved-earth", scene.curved_earth,
                  "The ground falls away from the grid's middle, as the earth does")
         ->group(group);
@@ -107,6 +115,15 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
         auto colours = render::colours_from(options.colours);
         if (!colours) return pass_on(colours);
         scene.colours = std::move(*colours);
+    }
+    if (auto set = render::set_light(options.light, scene.light); !set) {
+        return fail(set.error().code, "--light: {}", set.error().message);
+    }
+    if (!options.sun.empty()) {
+        const auto sun = numbers_of("--sun", options.sun, 2);
+        if (!sun) return pass_on(sun);
+        scene.light.sun_azimuth_deg = (*sun)[0];
+        scene.light.sun_elevation_deg = (*sun)[1];
     }
     if (!options.camera_at.empty()) {
         const auto at = numbers_of("--camera-km", options.camera_at, 3);

@@ -19,9 +19,11 @@ namespace stormcellar::cli {
 struct SceneOptions {
     std::string product = "volume";
     std::string moment = "REF";
-    std::string colours;    // empty: the product's or the moment's
-    double height_km = 3;   // of a CAPPI
-    std::string section;    // "LAT,LON,LAT,LON"
+    std::string colours;   // empty: the product's or the moment's
+    double height_km = 3;  // of a CAPPI
+    std::string section;   // "LAT,LON,LAT,LON"
+    std::string light = "none";
+    std::string sun;        // "AZIMUTH,ELEVATION"
     std::string camera_at;  // "EAST,NORTH,UP" in km
     std::string time_zone;  // IANA; empty: the machine's
     render::Scene scene;    // what the options set; take it by scene_of()

@@ -131,12 +131,16 @@ Status validate(const Scene& scene) {
         return fail(ErrorCode::bad_argument, "azimuth must be a finite number of degrees, not {}",
                     camera.azimuth_deg);
     }
+    if (!std::isfinite(scene.light.sun_azimuth_deg)) {
+        return fail(ErrorCode::bad_argument, "the sun's azimuth must be finite, not {}",
+                    scene.light.sun_azimuth_deg);
+    }
     if (camera.eye && camera.field_of_view_deg == 0) {
         return fail(ErrorCode::bad_argument,
                     "a camera with a place of its own needs a field of view above 0 degrees");
     }
     const Eye eye = camera.eye.value_or(Eye{});
-    const std::array<Status, 17> checks = {
+    const std::array<Status, 18> checks = {
         check_range("width", scene.width, 16, 8192),
         check_range("height", scene.height, 16, 8192),
         check_range("tilt", camera.tilt_deg, 0, camera.eye ? 180 : 90),
@@ -150,6 +154,7 @@ Status validate(const Scene& scene) {
         check_range("slices", scene.slices, 8, 4096),
         check_range("exaggeration", scene.vertical_exaggeration, 0.1, 100),
         check_range("pixel tolerance", scene.pixel_tolerance, 0, 0.1),
+        check_range("the sun's elevation", scene.light.sun_elevation_deg, 5, 90),
         check_range("opacity", scene.opacity, 1e-3, 1e3),
         check_range("range ring spacing (m)", scene.range_ring_spacing_m, 1e3, 1e6),
         check_range("the height of a CAPPI (m)", scene.cappi_height_m, -1e3, 6e4),

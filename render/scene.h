@@ -10,6 +10,7 @@
 #include "level2/volume.h"
 #include "render/colour/colour_table.h"
 #include "render/volume/integration.h"
+#include "render/volume/light.h"
 
 namespace stormcellar::render {
 
@@ -56,6 +57,7 @@ struct Scene {
     // How exactly a volume is drawn (render/volume/slicer.h).
     Integration integration = Integration::second_order;
     double pixel_tolerance = 0;          // 0..0.1
+    Light light;                         // off unless asked for
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // colour bar, title, time, rings

@@ -59,6 +59,9 @@ std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_s
                          : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
                                        direction_name(scene.camera.azimuth_deg), tilt);
         text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
+        if (scene.light.any()) {
+            text += fmt::format("  \u00B7  lit ({})", light_names(scene.light));
+        }
     } else if (scene.product == Product::section) {
         return "Vertical section from A to B";
     } else {

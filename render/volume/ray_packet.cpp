@@ -13,7 +13,7 @@
 // After foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
-#include "render/volume/ray_samples-inl.h"
+#include "render/volume/ray_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
@@ -76,7 +76,7 @@ HWY_INLINE Looks looks_at(const TransferEntry* entries, const std::int32_t* indi
 }
 #endif
 
-template <bool curved>
+template <bool curved, bool lit>
 class Caster {
   public:
     Caster(const PacketVolume& volume, const RayPacket& rays)
@@ -102,10 +102,10 @@ class Caster {
                 if (k < first) continue;
                 if (static_cast<float>(k) >= leave) return;
                 if (k != last_done + 1) {
-                    take_samples<curved>(volume_, rays_, static_cast<float>(k), samples[back]);
+                    take_samples<curved, lit>(volume_, rays_, static_cast<float>(k), samples[back]);
                 }
                 back ^= 1;
-                take_samples<curved>(volume_, rays_, static_cast<float>(k + 1), samples[back]);
+                take_samples<curved, lit>(volume_, rays_, static_cast<float>(k + 1), samples[back]);
                 last_done = k;
                 if (!samples[0].any && !samples[1].any) continue;
                 if (add_step(samples[back ^ 1], samples[back], static_cast<float>(k))) return;
@@ -152,9 +152,25 @@ class Caster {
             const IntVec other = hn::IfThenElse(valued(back_share), back_bin, front_bin);
             HWY_ALIGN std::int32_t indices[lanes];
             hn::Store(hn::Add(hn::ShiftLeft<8>(one), other), i, indices);
-            all_opaque = add_looks(looks_at(entries_, indices), length, part) && all_opaque;
+            Looks looks = looks_at(entries_, indices);
+            if constexpr (lit) {
+                const FloatVec front_light = hn::Load(f, front.light + ray);
+                const FloatVec back_light = hn::Load(f, back.light + ray);
+                const auto in_front = hn::Gt(front_share, hn::Zero(f));
+                const auto behind = hn::Gt(back_share, hn::Zero(f));
+                darken(looks, hn::Mul(hn::Set(f, 0.5F),
+                                      hn::Add(hn::IfThenElse(in_front, front_light, back_light),
+                                              hn::IfThenElse(behind, back_light, front_light))));
+            }
+            all_opaque = add_looks(looks, length, part) && all_opaque;
         }
         return all_opaque;
+    }
+
+    HWY_INLINE void darken(Looks& looks, FloatVec light) {
+        looks.red = hn::Mul(looks.red, light);
+        looks.green = hn::Mul(looks.green, light);
+        looks.blue = hn::Mul(looks.blue, light);
     }
 
     HWY_INLINE bool add_looks(const Looks& looks, FloatVec length, int part) {
@@ -173,20 +189,23 @@ class Caster {
     FloatVec through_[parts], red_[parts], green_[parts], blue_[parts];
 };
 
-template <bool curved>
+template <bool curved, bool lit>
 HWY_INLINE void cast_as(const PacketVolume& volume, const RayPacket& rays,
                         const std::uint64_t* mask, std::size_t words, float* rgba) {
-    Caster<curved> caster(volume, rays);
+    Caster<curved, lit> caster(volume, rays);
     caster.cast(mask, words);
     caster.store(rgba);
 }
 
 void cast_one_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
                      std::size_t words, float* rgba) {
+    const bool lit = volume.light != nullptr;
     if (volume.curve != nullptr) {
-        cast_as<true>(volume, rays, mask, words, rgba);
+        lit ? cast_as<true, true>(volume, rays, mask, words, rgba)
+            : cast_as<true, false>(volume, rays, mask, words, rgba);
     } else {
-        cast_as<false>(volume, rays, mask, words, rgba);
+        lit ? cast_as<false, true>(volume, rays, mask, words, rgba)
+            : cast_as<false, false>(volume, rays, mask, words, rgba);
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "grid/brick_view.h"
 #include "render/volume/level_position.h"
+#include "render/volume/light_volume.h"
 #include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
@@ -21,6 +22,15 @@ struct CurvedLevels {
     float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
 };
 
+// How samples are lit (render/volume/light.h).
+struct PacketLight {
+    const LightVolume* volume = nullptr;  // none: no shadows
+    bool gradient = false;
+    float sun[3] = {};       // towards it, of unit length
+    float per_cell[3] = {};  // 1 / metres between neighbouring cells of drawn space
+    float half_steep = 1;    // codes a metre at which a surface is half as dark as it may be
+};
+
 struct PacketVolume {
     const std::byte* codes = nullptr;
     int code_bytes = 1;
@@ -29,6 +39,7 @@ struct PacketVolume {
     const LevelPosition* levels = nullptr;                // none: z of a ray is a level
     const TransferFunction* transfer = nullptr;
     const CurvedLevels* curve = nullptr;  // none: the earth is flat
+    const PacketLight* light = nullptr;   // none: the table's own colours
 
     // `levels` and `transfer` must outlive this.
     PacketVolume(const grid::BrickView& view, const LevelPosition& levels,

@@ -26,7 +26,8 @@ namespace stormcellar::render::HWY_NAMESPACE {
 struct Samples {
     HWY_ALIGN std::int32_t bin[packet_rays];
     HWY_ALIGN float valued[packet_rays];
-    bool any = false;  // a share above 0
+    HWY_ALIGN float light[packet_rays];  // where the volume is lit
+    bool any = false;                    // a share above 0
 };
 
 // The codes round the samples, by the sides in x (bit 0) and y (bit 1), at both levels.
@@ -223,48 +224,6 @@ HWY_INLINE FloatVec drop(const CurvedLevels& curve, FloatVec x, FloatVec y) {
     const FloatVec dy = hn::Sub(y, hn::Set(f, curve.middle_y));
     return hn::Add(hn::Mul(hn::Set(f, curve.curve_x), hn::Mul(dx, dx)),
                    hn::Mul(hn::Set(f, curve.curve_y), hn::Mul(dy, dy)));
-}
-
-// At slice t, or where the ray enters or leaves the box when that is nearer to its middle.
-template <bool curved>
-HWY_INLINE void take_samples(const PacketVolume& volume, const RayPacket& rays, float t,
-                             Samples& samples) {
-    const Floats f;
-    const Ints i;
-    Addresses where;
-    Weights weights[parts];
-    for (int part = 0; part < parts; ++part) {
-        const int ray = part * lanes;
-        const FloatVec held = hn::Min(hn::Max(hn::Set(f, t), hn::LoadU(f, rays.enter + ray)),
-                                      hn::LoadU(f, rays.leave + ray));
-        const auto position = [&](const float* start, const float* step) {
-            return hn::Add(hn::LoadU(f, start + ray), hn::Mul(held, hn::LoadU(f, step + ray)));
-        };
-        const FloatVec x = position(rays.x, rays.step_x);
-        const FloatVec y = position(rays.y, rays.step_y);
-        FloatVec z = position(rays.z, rays.step_z);
-        if constexpr (curved) z = hn::Add(z, drop(*volume.curve, x, y));
-        IntVec at = hn::Zero(i);
-        IntVec east, north, up;
-        bool follows_x = false, follows_y = false, follows_z = false;
-        weights[part].x =
-            place_on_axis<next_x>(x, volume.last_x, volume.brick_stride_x, at, east, follows_x);
-        weights[part].y =
-            place_on_axis<next_y>(y, volume.last_y, volume.brick_stride_y, at, north, follows_y);
-        weights[part].z =
-            place_on_axis<1>(level_of(volume, z), volume.last_z,
-                             static_cast<std::int32_t>(grid::brick_cells), at, up, follows_z);
-        where.inside_bricks = where.inside_bricks && follows_x && follows_y;
-        where.paired = where.paired && follows_z;
-        hn::Store(at, i, where.column[0] + ray);
-        hn::Store(hn::Add(at, east), i, where.column[1] + ray);
-        hn::Store(hn::Add(at, north), i, where.column[2] + ray);
-        hn::Store(hn::Add(hn::Add(at, east), north), i, where.column[3] + ray);
-        hn::Store(up, i, where.up + ray);
-    }
-    Corners corners;
-    load_corners(volume, where, corners);
-    mix_corners(volume, corners, weights, samples);
 }
 
 }  // namespace stormcellar::render::HWY_NAMESPACE

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "render/volume/band_caster.h"
@@ -34,8 +35,29 @@ VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& q
                            const ViewGeometry& geometry, const VolumeOptions& options)
     : geometry_(geometry),
       options_(options),
-      transfer_(table, quantization, options.opacity,
-                (geometry.far_m() - geometry.near_m()) / options.slices, options.integration) {}
+      transfer_(table, quantization, options.opacity, step_m(), options.integration) {}
+
+double VolumeSlicer::step_m() const {
+    return (geometry_.far_m() - geometry_.near_m()) / options_.slices;
+}
+
+// Surfaces are steep where values change by 4 steps of their codes a kilometre of drawn space: 2
+// dB.
+PacketLight VolumeSlicer::light_of(const grid::GridSpec& spec) const {
+    PacketLight light;
+    light.gradient = options_.light.gradient;
+    const Vec3 sun = sun_direction(options_.light);
+    const double levels = std::max(1, spec.nz() - 1);
+    const double level_m = (spec.levels_m.back() - spec.levels_m.front()) / levels;
+    const Vec3 cell_m = {spec.cell_width_m(), spec.cell_height_m(),
+                         std::max(level_m, 1.0) * geometry_.exaggeration()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        light.sun[axis] = static_cast<float>(sun[axis]);
+        light.per_cell[axis] = static_cast<float>(1 / cell_m[axis]);
+    }
+    light.half_steep = 4e-3F;
+    return light;
+}
 
 Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     Layer layer{geometry_.width(), geometry_.height(), {}};
@@ -45,6 +67,13 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);
     PacketVolume volume(view, levels, transfer_);
     volume.curve = maker.curve();
+    std::optional<LightVolume> shadows;
+    if (options_.light.needs_volume()) {
+        shadows.emplace(view, transfer_, step_m(), geometry_, options_.light, threads);
+    }
+    PacketLight light = light_of(*view.spec);
+    light.volume = shadows ? &*shadows : nullptr;
+    if (options_.light.any()) volume.light = &light;
     const SliceMask mask(view, geometry_, options_.slices, transfer_);
     const BandCaster caster(volume, maker, mask, layer.width, layer.height, layer.rgba.data());
     const PixelSteps steps = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance);

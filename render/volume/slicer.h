@@ -11,6 +11,8 @@
 //            multiplied by the mean of their shares and by the length of the ray's way through it,
 //            where the box cuts the step too. An end without any value takes that of the other.
 //            Colours mix in sRGB, as drawn.
+//   light    where it is asked for: one factor a sample (render/volume/light.h), the mean of both
+//            ends of a step
 //   skipped  stretches of a ray in bricks whose range of values is clear (exact), and what lies
 //            behind an opacity of 0.999 (changes no channel by more than 0.26 of 255).
 // Accuracy: docs/rendering.md has the measured order of convergence of each Integration; the
@@ -23,6 +25,8 @@
 #include "render/colour/colour_table.h"
 #include "render/image.h"
 #include "render/view_geometry.h"
+#include "render/volume/light.h"
+#include "render/volume/ray_packet.h"
 #include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
@@ -40,6 +44,7 @@ struct VolumeOptions {
     // Where cells are larger than pixels: between rays whose channels differ by no more than this
     // (of 1) the picture is interpolated. 0: a ray for each pixel.
     double pixel_tolerance = 0;
+    Light light = {};  // none: the table's own colours
 };
 
 // Draws grids of one quantisation in one view: what they share is made once.
@@ -54,6 +59,9 @@ class VolumeSlicer {
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
 
   private:
+    [[nodiscard]] double step_m() const;
+    [[nodiscard]] PacketLight light_of(const grid::GridSpec& spec) const;
+
     const ViewGeometry& geometry_;
     VolumeOptions options_;
     TransferFunction transfer_;

@@ -146,6 +146,33 @@ TEST_F(Loop, SaysWhatItDidAsJson) {
     EXPECT_LE(json["read_s"].get<double>(), json["total_s"].get<double>());
 }
 
+TEST_F(Loop, PingPongGoesThereAndBack) {
+    commit_three();
+    const auto result = run({"KBGM", "-o", out("a.webp"), "--ping-pong", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto frames = render::decode_webp(out("a.webp")).frames;
+    ASSERT_EQ(frames.size(), 4U);
+    EXPECT_EQ(frames[3].image.rgba, frames[1].image.rgba);
+    EXPECT_NE(frames[2].image.rgba, frames[1].image.rgba);
+    EXPECT_EQ(nlohmann::json::parse(result.out)["to"], "2005-08-22T02:56:00Z");
+}
+
+TEST_F(Loop, AnOrbitTurnsTheCamera) {
+    commit("20050822_024400", 40);
+    commit("20050822_025000", 40);
+    const auto frames_of = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"KBGM", "-o", out("o.webp"), "--no-labels"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run(arguments).status, 0);
+        return render::decode_webp(out("o.webp")).frames;
+    };
+    const auto turning = frames_of({"--orbit", "90"});
+    ASSERT_EQ(turning.size(), 2U);
+    EXPECT_EQ(turning[0].image.rgba, frames_of({"--azimuth", "180", "--last", "2"})[0].image.rgba);
+    EXPECT_EQ(turning[1].image.rgba, frames_of({"--azimuth", "225", "--last", "1"})[0].image.rgba);
+    EXPECT_NE(turning[1].image.rgba, turning[0].image.rgba);
+}
+
 TEST_F(Loop, QuietPrintsNothing) {
     commit_three();
     const auto result = run({"KBGM", "--quiet", "-o", out("a.webp")});

@@ -73,6 +73,18 @@ TEST(SceneOptions, ACameraMayStandAnywhere) {
     EXPECT_FALSE(scene_of(parse("--time-zone Nowhere/Land")));
 }
 
+TEST(SceneOptions, LightIsOffUnlessAskedFor) {
+    EXPECT_FALSE(scene_of(parse(""))->light.any());
+    const auto scene = scene_of(parse("--light shadow,gradient --sun 120,30"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->light.shadow && scene->light.gradient && !scene->light.scattering);
+    EXPECT_EQ(scene->light.sun_azimuth_deg, 120);
+    EXPECT_EQ(scene->light.sun_elevation_deg, 30);
+    EXPECT_FALSE(scene_of(parse("--light dim")));
+    EXPECT_FALSE(scene_of(parse("--sun 120,2")));
+    EXPECT_FALSE(scene_of(parse("--sun 120")));
+}
+
 TEST(SceneOptions, NonsenseIsBadArgument) {
     for (const char* arguments :
          {"--product x", "--tilt 91", "--width 1", "--threads -1", "--moment ref", "--colours x",

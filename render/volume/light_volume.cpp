@@ -1,0 +1,195 @@
+#include "render/volume/light_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+
+namespace stormcellar::render {
+namespace {
+
+constexpr double to_radians = std::numbers::pi / 180;
+constexpr double sky_elevation_deg = 35;
+constexpr int sky_directions = 9;  // the zenith and eight round it
+// Shares of the sky's light and of the sun's.
+constexpr float sky_share = 0.45F;
+constexpr float scattered_sky_share = 0.35F;
+constexpr double forward_g = 0.4;    // of the phase function
+constexpr double least_phase = 0.4;  // what is left of the sun's share at its weakest
+
+Vec3 direction(double azimuth_deg, double elevation_deg) {
+    const double azimuth = azimuth_deg * to_radians;
+    const double elevation = elevation_deg * to_radians;
+    return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
+            std::sin(elevation)};
+}
+
+// 1 where one looks straight into the sun.
+double relative_phase(double cosine) {
+    const double g2 = forward_g * forward_g;
+    const double phase = std::pow(1 + g2 - 2 * forward_g * cosine, -1.5);
+    const double forward = std::pow(1 + g2 - 2 * forward_g, -1.5);
+    return least_phase + (1 - least_phase) * phase / forward;
+}
+
+struct Held {
+    std::size_t below, above;
+    float share;
+};
+Held held(float position, int size) {
+    const float inside = std::clamp(position, 0.0F, static_cast<float>(size - 1));
+    const auto below = static_cast<std::size_t>(inside);
+    return {below, std::min(below + 1, static_cast<std::size_t>(size) - 1),
+            inside - static_cast<float>(below)};
+}
+
+}  // namespace
+
+Vec3 sun_direction(const Light& light) {
+    return direction(light.sun_azimuth_deg, light.sun_elevation_deg);
+}
+
+LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& transfer,
+                         double step_m, const ViewGeometry& geometry, const Light& light,
+                         int threads) {
+    const grid::GridSpec& spec = *view.spec;
+    sizes_ = {(spec.nx + cells_across - 1) / cells_across,
+              (spec.ny + cells_across - 1) / cells_across, (spec.nz() + cells_up - 1) / cells_up};
+    widths_m_ = {spec.cell_width_m() * cells_across, spec.cell_height_m() * cells_across,
+                 (geometry.top_m() - geometry.bottom_m()) * geometry.exaggeration() / sizes_[2]};
+    extinction_.resize(index(sizes_[0] - 1, sizes_[1] - 1, sizes_[2] - 1) + 1);
+    add_extinction(view, transfer, step_m);
+
+    std::vector<std::vector<float>> swept(1 + sky_directions);
+    for_each_piece(static_cast<int>(swept.size()), threads, [&](int i) {
+        const Vec3 towards = i == 0   ? sun_direction(light)
+                             : i == 1 ? Vec3{0, 0, 1}
+                                      : direction(45.0 * (i - 2), sky_elevation_deg);
+        swept[static_cast<std::size_t>(i)] = transmittance(towards);
+    });
+    sun_ = std::move(swept.front());
+    const Vec3 sun = sun_direction(light);
+    const Vec3& looks = geometry.forward();
+    const double cosine = looks[0] * sun[0] + looks[1] * sun[1] + looks[2] * sun[2];
+    const float sky = light.scattering ? scattered_sky_share : sky_share;
+    const float sunny =
+        (1 - sky) * (light.scattering ? static_cast<float>(relative_phase(cosine)) : 1.0F);
+    light_.resize(sun_.size());
+    for (std::size_t i = 0; i < light_.size(); ++i) {
+        float seen = 0;
+        for (std::size_t d = 1; d < swept.size(); ++d)
+            seen += swept[d][i];
+        light_[i] = sky * seen / sky_directions + sunny * sun_[i];
+    }
+}
+
+// The mean over the coarse cell's cells, those without a value and beyond the grid's edge as none.
+void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunction& transfer,
+                                 double step_m) {
+    const grid::GridSpec& spec = *view.spec;
+    constexpr float share = 1.0F / (cells_across * cells_across * cells_up);
+    std::vector<float> of_bin(TransferFunction::bin_count);
+    for (int bin = 0; bin < TransferFunction::bin_count; ++bin) {
+        of_bin[static_cast<std::size_t>(bin)] =
+            share * transfer.entry(bin, bin).depth / static_cast<float>(step_m);
+    }
+    for (int bx = 0; bx < view.bricks_x; ++bx) {
+        for (int by = 0; by < view.bricks_y; ++by) {
+            for (int bz = 0; bz < view.bricks_z; ++bz) {
+                const std::size_t brick = view.brick_index(bx, by, bz);
+                const grid::BrickEntry& entry = view.bricks[brick];
+                if (entry.kind != grid::BrickKind::stored || entry.value_count == 0 ||
+                    !transfer.shows(entry.min_code, entry.max_code)) {
+                    continue;
+                }
+                for (std::size_t cell = 0; cell < grid::brick_cells; ++cell) {
+                    const std::uint16_t code = view.code_at(brick * grid::brick_cells + cell);
+                    if (code < grid::first_value_code) continue;
+                    const int x = bx * grid::brick_edge + static_cast<int>(cell >> 8);
+                    const int y = by * grid::brick_edge + static_cast<int>(cell >> 4 & 15);
+                    const int z = bz * grid::brick_edge + static_cast<int>(cell & 15);
+                    if (x >= spec.nx || y >= spec.ny || z >= spec.nz()) continue;
+                    extinction_[index(x / cells_across, y / cells_across, z / cells_up)] +=
+                        of_bin[static_cast<std::size_t>(transfer.bin(code))];
+                }
+            }
+        }
+    }
+}
+
+// From the side where the light comes in, plane by plane along the axis with the most planes a
+// metre of the way; beyond the grid is clear.
+std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
+    Vec3 rate{};  // coarse cells a metre
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        rate[axis] = towards[axis] / widths_m_[axis];
+    std::size_t main = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+        if (std::abs(rate[axis]) > std::abs(rate[main])) main = axis;
+    }
+    const std::size_t u = (main + 1) % 3;
+    const std::size_t v = (main + 2) % 3;
+    const auto length_m = static_cast<float>(1 / std::abs(rate[main]));
+    const auto du = static_cast<float>(rate[u] / std::abs(rate[main]));
+    const auto dv = static_cast<float>(rate[v] / std::abs(rate[main]));
+    const int step = rate[main] > 0 ? -1 : 1;
+    const int first = step < 0 ? sizes_[main] - 1 : 0;
+
+    const auto place = [&](int plane, int iu, int iv) {
+        std::array<int, 3> at{};
+        at[main] = plane;
+        at[u] = iu;
+        at[v] = iv;
+        return index(at[0], at[1], at[2]);
+    };
+    std::vector<float> through(extinction_.size(), 1.0F);
+    // Light that has passed the cell of the plane before; 1 beyond the grid.
+    const auto passed = [&](int plane, int iu, int iv) {
+        if (iu < 0 || iv < 0 || iu >= sizes_[u] || iv >= sizes_[v]) return 1.0F;
+        const std::size_t cell = place(plane, iu, iv);
+        return through[cell] * std::exp(-extinction_[cell] * length_m);
+    };
+    for (int n = 1; n < sizes_[main]; ++n) {
+        const int plane = first + n * step;
+        const int before = plane - step;
+        for (int iu = 0; iu < sizes_[u]; ++iu) {
+            const float pu = static_cast<float>(iu) + du;
+            const auto u0 = static_cast<int>(std::floor(pu));
+            const float su = pu - static_cast<float>(u0);
+            for (int iv = 0; iv < sizes_[v]; ++iv) {
+                const float pv = static_cast<float>(iv) + dv;
+                const auto v0 = static_cast<int>(std::floor(pv));
+                const float sv = pv - static_cast<float>(v0);
+                const float low =
+                    (1 - su) * passed(before, u0, v0) + su * passed(before, u0 + 1, v0);
+                const float high =
+                    (1 - su) * passed(before, u0, v0 + 1) + su * passed(before, u0 + 1, v0 + 1);
+                through[place(plane, iu, iv)] = (1 - sv) * low + sv * high;
+            }
+        }
+    }
+    return through;
+}
+
+float LightVolume::at(float x, float y, float z) const {
+    const auto coarse = [](float cell, int cells) {
+        return (cell + 0.5F) / static_cast<float>(cells) - 0.5F;
+    };
+    const Held hx = held(coarse(x, cells_across), sizes_[0]);
+    const Held hy = held(coarse(y, cells_across), sizes_[1]);
+    const Held hz = held(coarse(z, cells_up), sizes_[2]);
+    const auto ny = static_cast<std::size_t>(sizes_[1]);
+    const auto nz = static_cast<std::size_t>(sizes_[2]);
+    const auto column = [&](std::size_t ix, std::size_t iy) {
+        const float* from = light_.data() + (ix * ny + iy) * nz;
+        return from[hz.below] + (from[hz.above] - from[hz.below]) * hz.share;
+    };
+    const float south = column(hx.below, hy.below) +
+                        (column(hx.above, hy.below) - column(hx.below, hy.below)) * hx.share;
+    const float north = column(hx.below, hy.above) +
+                        (column(hx.above, hy.above) - column(hx.below, hy.above)) * hx.share;
+    return south + (north - south) * hy.share;
+}
+
+}  // namespace stormcellar::render
