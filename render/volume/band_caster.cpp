@@ -48,7 +48,10 @@ BandCaster::BandCaster(const PacketVolume& volume, const RayMaker& maker, const 
                        int width, int height, float* rgba)
     : volume_(volume), maker_(maker), mask_(mask), width_(width), height_(height), rgba_(rgba) {}
 
-void BandCaster::cast_first(int tile_row, int stride) const {
+// Asks for the rays of every `stride`-th pixel of the row of tiles, tile by tile. A tile in which
+// nothing shows stays clear: its rays would find nothing.
+template <class Ask>
+void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
     Tiles tiles(*this, tile_row);
     if (!tiles.any()) return;
     const int top = tile_row * tile_edge;
@@ -59,28 +62,20 @@ void BandCaster::cast_first(int tile_row, int stride) const {
         const int right = std::min(left + tile_edge, width_);
         for (int y = top; y < bottom; y += stride) {
             for (int x = left; x < right; x += stride)
-                tiles.want(x, y);
+                ask(tiles, x, y);
         }
         tiles.cast_wanted();
     }
 }
 
-// A tile in which nothing shows stays clear: its rays would find nothing.
+void BandCaster::cast_first(int tile_row, int stride) const {
+    for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
+}
+
 void BandCaster::refine(int tile_row, int stride, float tolerance) const {
-    Tiles tiles(*this, tile_row);
-    if (!tiles.any()) return;
-    const int top = tile_row * tile_edge;
-    const int bottom = std::min(top + tile_edge, height_);
-    for (int tile = 0; tile < mask_.tiles_across(); ++tile) {
-        if (!tiles.enter(tile)) continue;
-        const int left = tile * tile_edge;
-        const int right = std::min(left + tile_edge, width_);
-        for (int y = top; y < bottom; y += stride) {
-            for (int x = left; x < right; x += stride)
-                refine_cell(tiles, x, y, stride, tolerance);
-        }
-        tiles.cast_wanted();
-    }
+    for_each_pixel(tile_row, stride, [&](Tiles& tiles, int x, int y) {
+        refine_cell(tiles, x, y, stride, tolerance);
+    });
 }
 
 // Whether the picture bends at a pixel of the grid, along a row or a column. Where the picture ends

@@ -42,6 +42,8 @@ class BandCaster {
                         static_cast<std::size_t>(x)) *
                            4;
     }
+    template <class Ask>
+    void for_each_pixel(int tile_row, int stride, Ask ask) const;
     [[nodiscard]] bool bends(int x, int y, int stride, float most) const;
     void refine_cell(Tiles& tiles, int x, int y, int stride, float tolerance) const;
     void interpolate(int x, int y, int stride) const;
