@@ -11,9 +11,12 @@
 
 namespace stormcellar::cli {
 
-void add_scene_options(CLI::App& app, SceneOptions& options) {
+namespace {
+
+constexpr const char* group = "Picture";
+
+void add_product_options(CLI::App& app, SceneOptions& options) {
     render::Scene& scene = options.scene;
-    const std::string group = "Picture";
     app.add_option("--product", options.product,
                    "volume, composite (column maximum), cappi, section, echotop, vil, lowest-seen "
                    "or highest-seen")
@@ -34,8 +37,11 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--echo-top-dbz", scene.echo_top_dbz, "The threshold of echo tops")
         ->group(group)
         ->capture_default_str();
-    app.add_option("--width", scene.width, "Pixels")->group(group)->capture_default_str();
-    app.add_option("--height", scene.height, "Pixels")->group(group)->capture_default_str();
+}
+
+// Camera, light, and how a volume is drawn.
+void add_view_options(CLI::App& app, SceneOptions& options) {
+    render::Scene& scene = options.scene;
     app.add_option("--azimuth", scene.camera.azimuth_deg,
                    "Where the view is from, degrees: 180 is from the south, north up")
         ->group(group)
@@ -76,6 +82,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--opacity", scene.opacity, "Factor on how opaque echo is")
         ->group(group)
         ->capture_default_str();
+}
+
+void add_label_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--ring-spacing-km", options.range_ring_spacing_km, "Between range rings")
         ->group(group)
         ->capture_default_str();
@@ -86,6 +95,17 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--threads", options.threads, "Else as many as the machine has")
         ->group(group)
         ->capture_default_str();
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+    render::Scene& scene = options.scene;
+    add_product_options(app, options);
+    app.add_option("--width", scene.width, "Pixels")->group(group)->capture_default_str();
+    app.add_option("--height", scene.height, "Pixels")->group(group)->capture_default_str();
+    add_view_options(app, options);
+    add_label_options(app, options);
 }
 
 Result<render::Scene> scene_of(const SceneOptions& options) {
