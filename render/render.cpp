@@ -76,6 +76,11 @@ Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const S
         return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
                     level2::moment_name(facts.moment), level2::moment_name(scene.moment));
     }
+    if (scene.product == Product::volume && !PacketVolume::can_address(view)) {
+        return fail(ErrorCode::unsupported,
+                    "a grid of {} x {} x {} cells is too large to be drawn as a volume",
+                    view.spec->nx, view.spec->ny, view.spec->nz());
+    }
     return validate(scene);
 }
 

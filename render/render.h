@@ -42,7 +42,8 @@ struct FrameFacts {
                                          const Scene& scene, int threads,
                                          MapKeeper* keeper = nullptr);
 
-// What render_frame() asks of them before it draws.
+// What render_frame() asks of them before it draws; unsupported for a volume of more than 2^31
+// codes.
 [[nodiscard]] Status check_frame(const grid::BrickView& view, const FrameFacts& facts,
                                  const Scene& scene);
 // How a volume or a map is seen in a picture of this size; a map straight down with north up.

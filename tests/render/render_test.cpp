@@ -221,5 +221,20 @@ TEST(EchoTops, ThatMayBeHigherAreDotted) {
     EXPECT_LT(dots, 30000);
 }
 
+// Codes are addressed with 31 bits: a wide grid with few levels has more.
+TEST(RenderFrame, AVolumeTooLargeToAddressIsRefused) {
+    grid::GridSpec spec = small_spec(grid::GridSpec::greatest_side, 4, 100);
+    grid::BrickView view;
+    view.spec = &spec;
+    view.bricks_x = view.bricks_y = grid::GridSpec::greatest_side / grid::brick_edge;
+    view.bricks_z = 1;
+    Scene scene;
+    const auto refused = check_frame(view, {}, scene);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+    scene.product = Product::composite;
+    EXPECT_TRUE(check_frame(view, {}, scene)) << "maps are";
+}
+
 }  // namespace
 }  // namespace stormcellar::render

@@ -71,8 +71,8 @@ grid::BrickGrid bricks_for(const PlannedScene& planned) {
     const auto decoded = level2::decode_file(*testing::data_directory() / planned.file, options);
     const auto at = level2::antenna_position(decoded->volume);
     const grid::SitePosition site =
-        at ? grid::SitePosition{"KXXX", at->latitude_deg, at->longitude_deg, at->altitude_m}
-           : grid::SitePosition{"KXXX", 42, -76, 500};
+        at ? grid::SitePosition{"KONE", at->latitude_deg, at->longitude_deg, at->altitude_m}
+           : grid::SitePosition{"KONE", 42, -76, 500};
     grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
     spec.spacing_m = planned.spacing_m;
     spec.nx = spec.ny = static_cast<int>(460e3 / planned.spacing_m);
