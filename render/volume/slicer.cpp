@@ -60,13 +60,25 @@ PacketLight VolumeSlicer::light_of(const grid::GridSpec& spec) const {
 }
 
 Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
-    Layer layer{geometry_.width(), geometry_.height(), {}};
-    layer.rgba.resize(static_cast<std::size_t>(layer.width) *
-                      static_cast<std::size_t>(layer.height) * 4);
+    SlicerRoom room;
+    draw(view, threads, room);
+    return std::move(room.layer);
+}
+
+void VolumeSlicer::draw(const grid::BrickView& view, int threads, SlicerRoom& room) const {
+    Layer& layer = room.layer;
+    layer.width = geometry_.width();
+    layer.height = geometry_.height();
+    layer.rgba.assign(
+        static_cast<std::size_t>(layer.width) * static_cast<std::size_t>(layer.height) * 4, 0.0F);
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);
     PacketVolume volume(view, levels, transfer_);
     volume.curve = maker.curve();
+    if (CornerTable::serves(view)) {
+        room.corners.fill(view, threads);
+        volume.use(room.corners);
+    }
     std::optional<LightVolume> shadows;
     if (options_.light.needs_volume()) {
         shadows.emplace(view, transfer_, step_m(), geometry_, options_.light, threads);
@@ -74,7 +86,7 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     PacketLight light = light_of(*view.spec);
     light.volume = shadows ? &*shadows : nullptr;
     if (options_.light.any()) volume.light = &light;
-    const SliceMask mask(view, geometry_, options_.slices, transfer_);
+    const SliceMask mask(view, geometry_, options_.slices, transfer_, threads);
     const BandCaster caster(volume, maker, mask, layer.width, layer.height, layer.rgba.data());
     const PixelSteps steps = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance);
     for_each_piece(mask.tiles_down(), threads,
@@ -83,7 +95,6 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
         for_each_piece(mask.tiles_down(), threads,
                        [&](int tile_row) { caster.refine(tile_row, stride, steps.tolerance); });
     }
-    return layer;
 }
 
 void composite_over(const Layer& layer, Image& background, int left, int top) {

@@ -25,6 +25,7 @@
 #include "render/colour/colour_table.h"
 #include "render/image.h"
 #include "render/view_geometry.h"
+#include "render/volume/corner_table.h"
 #include "render/volume/light.h"
 #include "render/volume/ray_packet.h"
 #include "render/volume/transfer_function.h"
@@ -35,6 +36,12 @@ namespace stormcellar::render {
 struct Layer {
     int width = 0, height = 0;
     std::vector<float> rgba;
+};
+
+// What drawing takes room for; kept from picture to picture it need not be asked for again.
+struct SlicerRoom {
+    Layer layer;  // of the last picture
+    CornerTable corners;
 };
 
 struct VolumeOptions {
@@ -57,6 +64,8 @@ class VolumeSlicer {
 
     // Of the geometry's grid.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
+    // Into a room that no other draws in.
+    void draw(const grid::BrickView& view, int threads, SlicerRoom& room) const;
 
   private:
     [[nodiscard]] double step_m() const;
