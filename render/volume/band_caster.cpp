@@ -60,9 +60,15 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
         if (!tiles.enter(tile)) continue;
         const int left = tile * tile_edge;
         const int right = std::min(left + tile_edge, width_);
-        for (int y = top; y < bottom; y += stride) {
-            for (int x = left; x < right; x += stride)
-                ask(tiles, x, y);
+        // By quarters: sixteen rays of a square find more of the same than those of two rows.
+        const int edge = std::max(tile_edge / 2, stride);
+        for (int from_y = top; from_y < bottom; from_y += edge) {
+            for (int from_x = left; from_x < right; from_x += edge) {
+                for (int y = from_y; y < std::min(from_y + edge, bottom); y += stride) {
+                    for (int x = from_x; x < std::min(from_x + edge, right); x += stride)
+                        ask(tiles, x, y);
+                }
+            }
         }
         tiles.cast_wanted();
     }

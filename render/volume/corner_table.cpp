@@ -11,7 +11,7 @@ namespace {
 
 using grid::brick_edge;
 
-constexpr std::size_t most_cells = std::size_t{1} << 24;
+constexpr double most_cells = 1 << 24;
 
 using Row = std::array<std::uint8_t, brick_edge>;  // of a column, in one brick
 constexpr Row no_values{};
@@ -29,8 +29,9 @@ struct CornerTable::Columns {
     int past_x, past_y;  // cells of the bricks that are in the grid
 };
 
-bool CornerTable::serves(const grid::BrickView& view) {
-    return view.quantization.code_bytes == 1 && view.spec->cell_count() <= most_cells;
+bool CornerTable::serves(const grid::BrickView& view, double samples) {
+    const auto cells = static_cast<double>(view.spec->cell_count());
+    return view.quantization.code_bytes == 1 && cells <= most_cells && samples >= 12 * cells;
 }
 
 // Room that is zero and not touched yet takes no memory.

@@ -5,8 +5,8 @@
 // the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the first in its low
 // byte. Beyond the grid's last cell along an axis stands that cell again. Cells of bricks without
 // any value are 0, whatever their state.
-// It takes four bytes a cell (of those bricks with values that were ever filled in) and 0.2 ns a
-// cell to fill: worth it where rays are many for the cells, which serves() tells.
+// It takes four bytes a cell, of bricks with values, and time to fill: worth it where samples are
+// many for the cells, which serves() tells.
 // Thread contract: fill() is one writer; what it wrote may be read by many threads.
 #pragma once
 
@@ -21,8 +21,9 @@ namespace stormcellar::render {
 
 class CornerTable {
   public:
-    // For grids of up to 2^24 cells with codes of one byte.
-    [[nodiscard]] static bool serves(const grid::BrickView& view);
+    // For grids of up to 2^24 cells with codes of one byte, each sampled 12 times or more if
+    // nothing were skipped (docs/decisions.md has what was measured).
+    [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
     // Takes over the codes of a grid that it serves; quicker for one of the same size as before.
     void fill(const grid::BrickView& view, int threads);

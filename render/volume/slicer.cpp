@@ -75,7 +75,8 @@ void VolumeSlicer::draw(const grid::BrickView& view, int threads, SlicerRoom& ro
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);
     PacketVolume volume(view, levels, transfer_);
     volume.curve = maker.curve();
-    if (CornerTable::serves(view)) {
+    const double samples = 1.0 * layer.width * layer.height * options_.slices;
+    if (CornerTable::serves(view, samples)) {
         room.corners.fill(view, threads);
         volume.use(room.corners);
     }
