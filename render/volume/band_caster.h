@@ -37,6 +37,7 @@ class BandCaster {
 
   private:
     class Tiles;
+    class Bends;
     [[nodiscard]] float* at(int x, int y) const {
         return rgba_ + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                         static_cast<std::size_t>(x)) *
@@ -45,7 +46,7 @@ class BandCaster {
     template <class Ask>
     void for_each_pixel(int tile_row, int stride, Ask ask) const;
     [[nodiscard]] bool bends(int x, int y, int stride, float most) const;
-    void refine_cell(Tiles& tiles, int x, int y, int stride, float tolerance) const;
+    void refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const;
     void interpolate(int x, int y, int stride) const;
 
     const PacketVolume& volume_;

@@ -224,12 +224,14 @@ class Caster {
     // Red, green, blue and depth of a whole step.
     HWY_INLINE bool add_looks(const Fours& looks, FloatVec length) {
         const Floats f;
-        const FloatVec seen = hn::Mul(through_, opacity_of(hn::Mul(looks.fourth, length)));
+        const FloatVec enough = hn::Set(f, opaque_enough);
+        const FloatVec open = hn::IfThenElseZero(hn::Ge(through_, enough), through_);
+        const FloatVec seen = hn::Mul(open, opacity_of(hn::Mul(looks.fourth, length)));
         red_ = hn::Add(red_, hn::Mul(seen, looks.first));
         green_ = hn::Add(green_, hn::Mul(seen, looks.second));
         blue_ = hn::Add(blue_, hn::Mul(seen, looks.third));
         through_ = hn::Sub(through_, seen);
-        return hn::AllTrue(f, hn::Lt(through_, hn::Set(f, opaque_enough)));
+        return hn::AllTrue(f, hn::Lt(through_, enough));
     }
 
     const PacketVolume& volume_;
