@@ -100,6 +100,8 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
 }
 
 void BandCaster::cast_first(int tile_row, int stride) const {
+    const int rows = std::min(tile_edge, height_ - tile_row * tile_edge);
+    std::fill_n(at(0, tile_row * tile_edge), static_cast<std::ptrdiff_t>(rows) * width_ * 4, 0.0F);
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 

@@ -26,11 +26,11 @@ struct PixelSteps {
 
 class BandCaster {
   public:
-    // All must outlive this; `rgba` has four floats a pixel of the whole picture, zeros at first.
+    // All must outlive this; `rgba` has four floats a pixel of the whole picture.
     BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask, int width,
                int height, float* rgba);
 
-    // Every `stride`-th pixel both ways.
+    // Clears the row of tiles, and draws every `stride`-th pixel both ways.
     void cast_first(int tile_row, int stride) const;
     // From a grid of `stride` pixels to one of half of it.
     void refine(int tile_row, int stride, float tolerance) const;
