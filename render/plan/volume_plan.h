@@ -62,7 +62,8 @@ struct VolumePlan {
                                              const VolumeChoice& by_default,
                                              Predicted which = Predicted::asked);
 
-// A row for each rung of each step, the others exact, against the exact chain's picture.
+// A row for each rung of each step that the scene asks for, the others exact, against the exact
+// chain's picture.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 
