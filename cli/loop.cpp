@@ -17,6 +17,7 @@
 #include "cli/picture_plan.h"
 #include "cli/progress.h"
 #include "cli/query_options.h"
+#include "cli/scene_file.h"
 #include "cli/scene_options.h"
 #include "render/animation/animation.h"
 #include "render/map/map_layer.h"
@@ -25,17 +26,11 @@
 namespace stormcellar::cli {
 namespace {
 
-struct LoopOptions {
+struct LoopOptions : LoopSettings {
     std::string cache;
-    std::string domain;
-    TimeRangeOptions range;
-    std::size_t last = 0;  // 0: all
-    double orbit_deg = 0;  // the camera's way round the grid over the loop
-    bool ping_pong = false;
-    std::vector<std::string> outputs;
+    SceneFile scene_file;
     bool json = false;
     bool quiet = false;
-    render::AnimationOptions animation;
     SceneOptions scene;
     PicturePlanOptions plan;
 };
@@ -289,6 +284,7 @@ void turn_back(std::vector<cache::StoreEntry>& entries) {
 
 int run_loop(LoopOptions options) {
     const auto start = Clock::now();
+    if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (auto fine = check_outputs(options); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
@@ -328,6 +324,7 @@ Command add_loop(CLI::App& app) {
     loop->footer(
         "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
         "at least one frame was written.\n");
+    add_scene_file(*loop, options->scene_file, options->scene, options->plan, options.get());
     loop->add_option("--cache", options->cache, "The cache's directory")->required();
     loop->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
         ->required();
