@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/kept_frames.h"
 #include "cli/picture.h"
 #include "cli/picture_plan.h"
 #include "cli/progress.h"
@@ -35,6 +36,7 @@ struct LoopOptions : LoopSettings {
     bool quiet = false;
     SceneOptions scene;
     PicturePlanOptions plan;
+    KeptFrames* kept = nullptr;  // of a loop that is followed
 };
 
 struct Skipped {
@@ -148,7 +150,10 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
         }
         drawing.is_planned = true;
     }
-    auto picture = render::render_frame(file->view(), facts, drawing.scene, threads, &drawing.map);
+    const auto render = [&] {
+        return render::render_frame(file->view(), facts, drawing.scene, threads, &drawing.map);
+    };
+    auto picture = options.kept ? options.kept->frame(entry.path, drawing.scene, render) : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
     if (const Status whole = file->check_whole(); !whole) {  // cut while it was drawn
@@ -315,13 +320,16 @@ int draw_loop(std::vector<cache::StoreEntry> entries, LoopOptions options,
     return exit_done;
 }
 
-int follow_loop(const LoopOptions& options, const render::Scene& scene, const cache::Store& store) {
+int follow_loop(LoopOptions options, const render::Scene& scene, const cache::Store& store) {
     // What could never be written is refused before the first grid comes.
     if (const auto writers = make_writers(options); !writers) return report_error(writers.error());
+    KeptFrames kept;
+    options.kept = &kept;
     Interrupt interrupt;
     return follow({options.cache, options.domain, scene.moment,
                    [&] { return find_grids(store, options, scene.moment); },
                    [&](const auto& entries) {
+                       kept.next_loop();
                        return draw_loop(entries, options, scene, interrupt, Clock::now());
                    },
                    options.quiet},

@@ -41,7 +41,7 @@ class Follow : public ::testing::Test {
     }
     [[nodiscard]] std::vector<std::string> arguments(std::vector<std::string> more) const {
         more.insert(more.begin(), {"loop", "KBGM", "--cache", (directory_ / "cache").string(),
-                                   "--product", "composite", "--follow", "--json"});
+                                   "--slices", "16", "--follow", "--json"});
         return more;
     }
     [[nodiscard]] std::string out(const std::string& name) const {
@@ -81,6 +81,11 @@ bool catches_sigterm(pid_t id) {
     return false;
 }
 
+std::string contents(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 // Long enough for two looks and the quiet after a change.
 constexpr std::chrono::milliseconds long_enough{1500};
 
@@ -101,6 +106,25 @@ TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
         frames.push_back(document["frames"]);
     EXPECT_THAT(frames, ElementsAre(1, 2, 2, 1));
     EXPECT_EQ(program.err(), "");
+}
+
+// Frames are kept from loop to loop; nobody must see it.
+TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
+    for (const char* more : {"--orbit=90", "--ping-pong", "--product=volume"}) {
+        commit("20050822_024400", 22);
+        const auto middle = commit("20050822_025000", 33);
+        RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp"), more}));
+        ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+        commit("20050822_025600", 44);
+        ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
+        fs::remove(middle);
+        ASSERT_TRUE(wait_for_remakes(program, 3)) << program.err();
+        EXPECT_EQ(program.end(SIGINT), 0);
+        auto once = arguments({"-o", out("b.webp"), more});
+        once.erase(std::find(once.begin(), once.end(), "--follow"));
+        ASSERT_EQ(testing::run_program(STORMCELLAR_PROGRAM, once).status, 0);
+        EXPECT_EQ(contents(out("a.webp")), contents(out("b.webp"))) << more;
+    }
 }
 
 TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
