@@ -119,9 +119,8 @@ int follow(const Following& following, const FollowOptions& options,
         is_first = false;
         const auto grids = following.find();
         if (!grids) {
-            if (const int status = report_error(grids.error()); status == exit_bad_usage) {
-                return status;
-            }
+            const int status = report_error(grids.error());
+            if (status == exit_bad_usage && !made_of) return status;
             continue;
         }
         if (grids->empty()) {
@@ -136,7 +135,7 @@ int follow(const Following& following, const FollowOptions& options,
         auto stamps = stamps_of(*grids);
         if (made_of == stamps) continue;
         const int status = following.make(*grids);
-        if (status == exit_bad_usage) return status;
+        if (status == exit_bad_usage && !made_of) return status;
         if (status == exit_done) made_of = std::move(stamps);
     }
     return exit_done;

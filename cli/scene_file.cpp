@@ -215,15 +215,21 @@ void read_loop(TomlTable table, const std::filesystem::path& directory, LoopSett
     }
 }
 
-// A scene of simulated storms says where a radar stands.
+// What else is a .toml file here, by a section that only it has.
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
+    constexpr std::array<std::pair<const char*, const char*>, 3> others{
+        std::pair{"radar", "a scene of simulated storms, for stormcellar synth"},
+        {"point", "a colour table, for --colours"},
+        {"paths", "a configuration of stormcellard"}};
     const bool is_ours = std::any_of(sections.begin(), sections.end(),
                                      [&](const char* name) { return root.has(name); });
-    if (is_ours || !root.has("radar")) return {};
-    return fail(ErrorCode::bad_argument,
-                "{}: a scene of simulated storms, for stormcellar synth; a picture's scene has "
-                "[{}]",
-                file.native(), fmt::join(sections, "], ["));
+    for (const auto& [section, kind] : others) {
+        // The configuration has [[loop]] too.
+        if (!root.has(section) || (is_ours && section != std::string_view("paths"))) continue;
+        return fail(ErrorCode::bad_argument, "{}: {}; a picture's scene has [{}]", file.native(),
+                    kind, fmt::join(sections, "], ["));
+    }
+    return {};
 }
 
 void need_no_more(CLI::App& app, const char* option) {

@@ -174,6 +174,17 @@ TEST_F(Follow, GoesOnAfterALoopThatCannotBeMade) {
     commit("20050822_025000", 33);
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     EXPECT_EQ(documents(program)[0]["skipped"].size(), 1U);
+    // Nowhere to write to.
+    fs::remove_all(directory_ / "out");
+    commit("20050822_025600", 44);
+    ASSERT_TRUE(RunningProgram::wait_for([&] {
+        return program.err().find("there is no directory") != std::string::npos;
+    })) << program.err();
+    fs::create_directory(directory_ / "out");
+    commit("20050822_030200", 11);
+    ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
+    EXPECT_EQ(documents(program)[1]["frames"], 3);
+    EXPECT_THAT(written(), ElementsAre("a.gif"));
     EXPECT_EQ(program.end(SIGINT), 0);
 }
 

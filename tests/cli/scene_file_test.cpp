@@ -296,6 +296,11 @@ TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
                                           settings_.plan, settings_.loop);
     ASSERT_FALSE(storms);
     EXPECT_THAT(storms.error().message, HasSubstr("a scene of simulated storms, for stormcellar"));
+    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"),
+                HasSubstr("s.toml: a colour table, for --col"));
+    EXPECT_THAT(
+        complaint("[paths]\ndrop = \"/d\"\n[[loop]]\nname = \"a\"\n"),
+        HasSubstr("s.toml: a configuration of stormcellard; a picture's scene has [picture]"));
     const auto picture = synth::read_scene(scenes / "picture-section.toml");
     ASSERT_FALSE(picture);
     EXPECT_THAT(picture.error().message, HasSubstr("a picture's scene ([picture])"));
