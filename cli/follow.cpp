@@ -55,6 +55,7 @@ std::vector<Stamp> directories_of(const Following& following) {
 
 std::vector<Stamp> stamps_of(const std::vector<cache::StoreEntry>& grids) {
     std::vector<Stamp> stamps;
+    stamps.reserve(grids.size());
     for (const cache::StoreEntry& grid : grids)
         stamps.push_back(stamp_of(grid.path));
     return stamps;

@@ -36,6 +36,7 @@ std::optional<std::vector<double>> read_numbers(TomlTable& table, std::string_vi
     auto numbers = table.numbers(key);
     if (!numbers) return std::nullopt;
     std::vector<std::string> names;
+    names.reserve(places.size());
     for (const NamedPlace& place : places)
         names.emplace_back(place.name);
     if (numbers->size() != places.size()) {
