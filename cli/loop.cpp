@@ -12,11 +12,14 @@
 #include "base/version.h"
 #include "cache/store.h"
 #include "cli/commands.h"
+#include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/kept_frames.h"
 #include "cli/picture.h"
 #include "cli/picture_plan.h"
 #include "cli/progress.h"
 #include "cli/query_options.h"
+#include "cli/scene_file.h"
 #include "cli/scene_options.h"
 #include "render/animation/animation.h"
 #include "render/map/map_layer.h"
@@ -25,19 +28,15 @@
 namespace stormcellar::cli {
 namespace {
 
-struct LoopOptions {
+struct LoopOptions : LoopSettings {
     std::string cache;
-    std::string domain;
-    TimeRangeOptions range;
-    std::size_t last = 0;  // 0: all
-    double orbit_deg = 0;  // the camera's way round the grid over the loop
-    bool ping_pong = false;
-    std::vector<std::string> outputs;
+    SceneFile scene_file;
+    FollowOptions follow;
     bool json = false;
     bool quiet = false;
-    render::AnimationOptions animation;
     SceneOptions scene;
     PicturePlanOptions plan;
+    KeptFrames* kept = nullptr;  // of a loop that is followed
 };
 
 struct Skipped {
@@ -151,7 +150,10 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
         }
         drawing.is_planned = true;
     }
-    auto picture = render::render_frame(file->view(), facts, drawing.scene, threads, &drawing.map);
+    const auto render = [&] {
+        return render::render_frame(file->view(), facts, drawing.scene, threads, &drawing.map);
+    };
+    auto picture = options.kept ? options.kept->frame(entry.path, drawing.scene, render) : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
     if (const Status whole = file->check_whole(); !whole) {  // cut while it was drawn
@@ -246,20 +248,20 @@ void print_report(const LoopOptions& options, const render::Scene& scene,
     for (const Skipped& grid : report.skipped) {
         skipped.push_back({{"path", grid.path.native()}, {"reason", grid.reason}});
     }
-    print_json({{"outputs", options.outputs},
-                {"domain", options.domain},
-                {"product", options.scene.product},
-                {"moment", options.scene.moment},
-                {"from", format_utc(report.from)},
-                {"to", format_utc(report.to)},
-                {"frames", report.frames},
-                {"skipped", skipped},
-                {"width", scene.width},
-                {"height", scene.height},
-                {"read_s", report.read_s},
-                {"render_s", report.render_s},
-                {"encode_s", report.encode_s},
-                {"total_s", report.total_s}});
+    (options.follow.wanted ? print_json_line : print_json)({{"outputs", options.outputs},
+                                                            {"domain", options.domain},
+                                                            {"product", options.scene.product},
+                                                            {"moment", options.scene.moment},
+                                                            {"from", format_utc(report.from)},
+                                                            {"to", format_utc(report.to)},
+                                                            {"frames", report.frames},
+                                                            {"skipped", skipped},
+                                                            {"width", scene.width},
+                                                            {"height", scene.height},
+                                                            {"read_s", report.read_s},
+                                                            {"render_s", report.render_s},
+                                                            {"encode_s", report.encode_s},
+                                                            {"total_s", report.total_s}});
 }
 
 Status check_outputs(const LoopOptions& options) {
@@ -287,36 +289,68 @@ void turn_back(std::vector<cache::StoreEntry>& entries) {
     }
 }
 
-int run_loop(LoopOptions options) {
-    const auto start = Clock::now();
-    if (auto fine = check_outputs(options); !fine) return report_error(fine.error());
-    const auto scene = scene_of(options.scene);
-    if (!scene) return report_error(scene.error());
+// The grids that are asked for, as of now.
+Result<std::vector<cache::StoreEntry>> find_grids(const cache::Store& store,
+                                                  const LoopOptions& options,
+                                                  level2::Moment moment) {
     const auto range = parse_time_range(options.range);
-    if (!range) return report_error(range.error());
-    const auto store = cache::Store::open_for_reading(options.cache);
-    if (!store) return report_error(store.error());
-    auto entries = store->list(options.domain, scene->moment, range->from, range->to);
-    if (!entries) return report_error(entries.error());
-    if (options.last > 0 && entries->size() > options.last) {
+    if (!range) return pass_on(range);
+    auto entries = store.list(options.domain, moment, range->from, range->to);
+    if (entries && options.last > 0 && entries->size() > options.last) {
         entries->erase(entries->begin(),
                        entries->end() - static_cast<std::ptrdiff_t>(options.last));
     }
-    if (entries->empty())
-        return report_no_grid(*store, options.domain, scene->moment, range_text(options));
-    options.animation.metadata = metadata_of(*entries, options, *scene);
-    if (options.ping_pong) turn_back(*entries);
+    return entries;
+}
 
-    Interrupt interrupt;
-    const auto report = make_loop(*entries, options, *scene, interrupt.flag(), start);
+// Gives the exit status. An interrupted loop that is followed is no failure.
+int draw_loop(std::vector<cache::StoreEntry> entries, LoopOptions options,
+              const render::Scene& scene, Interrupt& interrupt, Clock::time_point start) {
+    options.animation.metadata = metadata_of(entries, options, scene);
+    if (options.ping_pong) turn_back(entries);
+    const auto report = make_loop(entries, options, scene, interrupt.flag(), start);
     if (!report) return report_error(report.error());
     if (report->interrupted) {
+        if (options.follow.wanted) return exit_done;
         fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
         interrupt.end_by_signal();
         return exit_failed;
     }
-    print_report(options, *scene, *report);
+    print_report(options, scene, *report);
     return exit_done;
+}
+
+int follow_loop(LoopOptions options, const render::Scene& scene, const cache::Store& store) {
+    // What could never be written is refused before the first grid comes.
+    if (const auto writers = make_writers(options); !writers) return report_error(writers.error());
+    KeptFrames kept;
+    options.kept = &kept;
+    Interrupt interrupt;
+    return follow({options.cache, options.domain, scene.moment,
+                   [&] { return find_grids(store, options, scene.moment); },
+                   [&](const auto& entries) {
+                       kept.next_loop();
+                       return draw_loop(entries, options, scene, interrupt, Clock::now());
+                   },
+                   options.quiet},
+                  options.follow, interrupt.flag());
+}
+
+int run_loop(const LoopOptions& options) {
+    const auto start = Clock::now();
+    if (options.scene_file.error) return report_error(*options.scene_file.error);
+    if (auto fine = check_outputs(options); !fine) return report_error(fine.error());
+    const auto scene = scene_of(options.scene);
+    if (!scene) return report_error(scene.error());
+    const auto store = cache::Store::open_for_reading(options.cache);
+    if (!store) return report_error(store.error());
+    if (options.follow.wanted) return follow_loop(options, *scene, *store);
+    auto entries = find_grids(*store, options, scene->moment);
+    if (!entries) return report_error(entries.error());
+    if (entries->empty())
+        return report_no_grid(*store, options.domain, scene->moment, range_text(options));
+    Interrupt interrupt;
+    return draw_loop(std::move(*entries), options, *scene, interrupt, start);
 }
 
 }  // namespace
@@ -328,6 +362,7 @@ Command add_loop(CLI::App& app) {
     loop->footer(
         "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
         "at least one frame was written.\n");
+    add_scene_file(*loop, options->scene_file, options->scene, options->plan, options.get());
     loop->add_option("--cache", options->cache, "The cache's directory")->required();
     loop->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
         ->required();
@@ -352,7 +387,9 @@ Command add_loop(CLI::App& app) {
         ->capture_default_str();
     loop->add_flag("--ping-pong", options->ping_pong,
                    "There and back: behind the last frame the others again, down to the second");
-    loop->add_flag("--json", options->json, "Say what was done as one JSON document");
+    add_follow_options(*loop, options->follow);
+    loop->add_flag("--json", options->json,
+                   "Say what was done as one JSON document; with --follow one a line");
     loop->add_flag("--quiet", options->quiet, "No progress and no summary; warnings and errors");
     add_scene_options(*loop, options->scene);
     add_picture_plan_options(*loop, options->plan);
