@@ -164,6 +164,7 @@ void read_volume(TomlTable volume, SceneOptions& options) {
     read_number(volume, "exaggeration", {0.1, 100}, scene.vertical_exaggeration);
     read_number(volume, "opacity", {1e-3, 1e3}, scene.opacity);
     read_flag(volume, "curved_earth", scene.curved_earth);
+    read_flag(volume, "haze", scene.haze);
 }
 
 void read_labels(TomlTable labels, SceneOptions& options) {

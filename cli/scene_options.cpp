@@ -70,6 +70,8 @@ void add_view_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--sun", options.sun,
                    "AZIMUTH,ELEVATION in degrees of the light (default: 225,40)")
         ->group(group);
+    app.add_flag("--haze", scene.haze, "Of a volume: air that no beam saw is hazy, behind the echo")
+        ->group(group);
     app.add_flag("--curved-earth", scene.curved_earth,
                  "The ground falls away from the grid's middle, as the earth does")
         ->group(group);

@@ -10,6 +10,7 @@
 #include "render/products/product.h"
 #include "render/products/section.h"
 #include "render/shades.h"
+#include "render/volume/haze.h"
 #include "render/volume/slicer.h"
 
 namespace stormcellar::render {
@@ -47,6 +48,7 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
     }
     Image picture = canvas.image();
     if (volume) {
+        if (scene.haze) draw_haze(view, geometry, threads, picture);
         const VolumeSlicer slicer(
             colours, view.quantization, geometry,
             {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light});

@@ -58,6 +58,7 @@ struct Scene {
     Integration integration = Integration::second_order;
     double pixel_tolerance = 0;          // 0..0.1
     Light light;                         // off unless asked for
+    bool haze = false;                   // volumes: air that was not seen veils what is behind it
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // colour bar, title, time, rings

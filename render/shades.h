@@ -11,7 +11,8 @@ inline constexpr Rgba8 page = {11, 14, 19, 255};
 inline constexpr Rgba8 seen = {32, 38, 47, 255};        // ground, seen from low down
 inline constexpr Rgba8 seen_aloft = {22, 26, 33, 255};  // ground, seen only from higher up
 inline constexpr Rgba8 not_seen = {16, 18, 22, 255};
-inline constexpr Rgba8 hatch = {74, 78, 88, 255};  // the lines over not_seen
+inline constexpr Rgba8 hatch = {74, 78, 88, 255};    // the lines over not_seen
+inline constexpr Rgba8 haze = {104, 110, 122, 255};  // of air that was not seen
 inline constexpr Rgba8 border = {108, 120, 138, 255};
 inline constexpr Rgba8 ring = {150, 165, 185, 120};
 // The map: over its casing readable on echo, too grey to be taken for it.

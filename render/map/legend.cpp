@@ -33,6 +33,7 @@ void add_volume_rows(const Scene& scene, Legend& legend) {
     legend.rows = {{"seen below " + height, shades::seen, false},
                    {"seen above " + height, shades::seen_aloft, false},
                    {"not seen", shades::not_seen, true}};
+    if (scene.haze) legend.rows.push_back({"hazy: air not seen", shades::haze, false});
     legend.notes = {clear_words(scene, "and"), "are clear"};
 }
 

@@ -105,7 +105,7 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
         "[camera]\nazimuth_deg = 135\ntilt_deg = 120\nzoom = 2.5\nfield_of_view_deg = 35\n"
         "at_km = [-20, 5.5, 3]\n"
         "[light]\nkinds = [\"shadow\", \"gradient\"]\nsun_deg = [120, 30]\n"
-        "[volume]\nslices = 64\nexaggeration = 4\nopacity = 0.5\ncurved_earth = true\n"
+        "[volume]\nslices = 64\nexaggeration = 4\nopacity = 0.5\ncurved_earth = true\nhaze = true\n"
         "[labels]\nshow = false\nring_spacing_km = 25\ntime_zone = \"America/Chicago\"\n");
     ASSERT_TRUE(status) << status.error().message;
     const auto scene = scene_of(settings_.scene);
@@ -133,6 +133,7 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
     EXPECT_EQ(scene->vertical_exaggeration, 4);
     EXPECT_EQ(scene->opacity, 0.5);
     EXPECT_TRUE(scene->curved_earth);
+    EXPECT_TRUE(scene->haze);
     EXPECT_FALSE(scene->labels);
     EXPECT_EQ(scene->range_ring_spacing_m, 25e3);
     EXPECT_EQ(settings_.scene.time_zone, "America/Chicago");
