@@ -1,126 +1,24 @@
 // stormcellar loop: the grids of a time range as animations.
 #include <atomic>
-#include <future>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <CLI/CLI.hpp>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
-#include "base/version.h"
+#include "cache/grid_file.h"
 #include "cache/store.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/loop_encoding.h"
+#include "cli/loop_options.h"
+#include "cli/loop_report.h"
 #include "cli/picture.h"
-#include "cli/picture_plan.h"
 #include "cli/progress.h"
-#include "cli/query_options.h"
-#include "cli/scene_options.h"
-#include "render/animation/animation.h"
 #include "render/map/map_layer.h"
-#include "render/products/product.h"
 
 namespace stormcellar::cli {
 namespace {
-
-struct LoopOptions {
-    std::string cache;
-    std::string domain;
-    TimeRangeOptions range;
-    std::size_t last = 0;  // 0: all
-    double orbit_deg = 0;  // the camera's way round the grid over the loop
-    bool ping_pong = false;
-    std::vector<std::string> outputs;
-    bool json = false;
-    bool quiet = false;
-    render::AnimationOptions animation;
-    SceneOptions scene;
-    PicturePlanOptions plan;
-};
-
-struct Skipped {
-    std::filesystem::path path;
-    std::string reason;
-};
-
-struct LoopReport {
-    std::size_t frames = 0;
-    std::vector<Skipped> skipped;
-    UtcTime from, to;  // of the frames that were drawn
-    double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
-    bool interrupted = false;
-};
-
-using Writers = std::vector<std::unique_ptr<render::AnimationWriter>>;
-
-Result<Writers> make_writers(const LoopOptions& options) {
-    Writers writers;
-    for (const std::string& output : options.outputs) {
-        auto writer = render::AnimationWriter::create(output, options.animation);
-        if (!writer) return pass_on(writer);
-        writers.push_back(std::move(*writer));
-    }
-    return writers;
-}
-
-// Encodes one frame behind the one that is being drawn, each writer on a thread of its own.
-class Encoding {
-  public:
-    explicit Encoding(Writers writers) : writers_(std::move(writers)) {}
-
-    // Takes the frame; gives the outcome of the one before.
-    Status add(render::Image frame) {
-        if (auto before = wait(); !before) return before;
-        frame_ = std::move(frame);
-        for (const auto& writer : writers_) {
-            running_.push_back(std::async(std::launch::async, [this, &writer]() -> Timed {
-                const auto start = Clock::now();
-                auto status = writer->add(frame_);
-                return {std::move(status), seconds_since(start)};
-            }));
-        }
-        return {};
-    }
-
-    // Stops before the next file when the flag is set.
-    Status finish(const std::atomic<bool>& stop) {
-        if (auto before = wait(); !before) return before;
-        const auto start = Clock::now();
-        for (const auto& writer : writers_) {
-            if (stop) return {};
-            if (auto finished = writer->finish(); !finished) return finished;
-        }
-        encode_s_ += seconds_since(start);
-        return {};
-    }
-
-    // Summed over the writers; after finish().
-    [[nodiscard]] double encode_s() const { return encode_s_; }
-
-  private:
-    struct Timed {
-        Status status;
-        double seconds = 0;
-    };
-    // The first error, when all are done.
-    Status wait() {
-        Status outcome;
-        for (auto& running : running_) {
-            auto done = running.get();
-            encode_s_ += done.seconds;
-            if (outcome && !done.status) outcome = std::move(done.status);
-        }
-        running_.clear();
-        return outcome;
-    }
-
-    Writers writers_;
-    render::Image frame_;
-    double encode_s_ = 0;
-    std::vector<std::future<Timed>> running_;  // the last member: waited for before the rest goes
-};
 
 // What the frames of a loop share; how exactly they are drawn is planned for the first.
 struct Drawing {
@@ -164,10 +62,6 @@ Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
     return std::optional{std::move(*picture)};
 }
 
-void warn_skipped(const Skipped& skipped) {
-    fmt::print(stderr, "stormcellar: warning: frame left out: {}\n", printable(skipped.reason));
-}
-
 Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
                 const render::Scene& scene, const std::atomic<bool>& stop, Encoding& encoding,
                 LoopReport& report) {
@@ -194,7 +88,7 @@ Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions
 Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
                              const LoopOptions& options, const render::Scene& scene,
                              const std::atomic<bool>& stop, Clock::time_point start) {
-    auto writers = make_writers(options);
+    auto writers = make_writers(options.outputs, options.animation);
     if (!writers) return pass_on(writers);
     Encoding encoding(std::move(*writers));
     LoopReport report;
@@ -214,64 +108,6 @@ Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
     return report;
 }
 
-// What the file says of itself. The first grid stands for the method of all.
-std::vector<std::pair<std::string, std::string>> metadata_of(
-    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
-    const render::Scene& scene) {
-    std::vector<std::pair<std::string, std::string>> metadata{
-        {"Title", fmt::format("{} {} to {}", ascii(options.domain),
-                              format_utc(entries.front().time), format_utc(entries.back().time))}};
-    std::string description = render::product_title(scene);
-    if (const auto first = cache::GridFile::open(entries.front().path)) {
-        const auto& provenance = first->description().provenance;
-        description += fmt::format("; gridded by {}, {}; stations {}", provenance.method,
-                                   provenance.beam_model, fmt::join(provenance.stations, " "));
-    }
-    metadata.emplace_back("Description", ascii(description));
-    metadata.emplace_back("Software", fmt::format("stormcellar {}", software_version));
-    return metadata;
-}
-
-void print_report(const LoopOptions& options, const render::Scene& scene,
-                  const LoopReport& report) {
-    if (!options.json) {
-        if (options.quiet) return;
-        fmt::print(stderr, "{}: {} {} to {}, {}, {} frames of {} x {} pixels, {:.1f} s\n",
-                   printable(fmt::format("{}", fmt::join(options.outputs, ", "))),
-                   printable(options.domain), format_utc(report.from), format_utc(report.to),
-                   options.scene.product, report.frames, scene.width, scene.height, report.total_s);
-        return;
-    }
-    auto skipped = nlohmann::json::array();
-    for (const Skipped& grid : report.skipped) {
-        skipped.push_back({{"path", grid.path.native()}, {"reason", grid.reason}});
-    }
-    print_json({{"outputs", options.outputs},
-                {"domain", options.domain},
-                {"product", options.scene.product},
-                {"moment", options.scene.moment},
-                {"from", format_utc(report.from)},
-                {"to", format_utc(report.to)},
-                {"frames", report.frames},
-                {"skipped", skipped},
-                {"width", scene.width},
-                {"height", scene.height},
-                {"read_s", report.read_s},
-                {"render_s", report.render_s},
-                {"encode_s", report.encode_s},
-                {"total_s", report.total_s}});
-}
-
-Status check_outputs(const LoopOptions& options) {
-    std::set<std::filesystem::path> names;
-    for (const std::string& output : options.outputs) {
-        if (!names.insert(std::filesystem::path(output).lexically_normal()).second) {
-            return fail(ErrorCode::bad_argument, "{}: named twice as an output", output);
-        }
-    }
-    return {};
-}
-
 std::string range_text(const LoopOptions& options) {
     std::string text;
     if (!options.range.from.empty()) text += fmt::format(" from {}", options.range.from);
@@ -289,7 +125,7 @@ void turn_back(std::vector<cache::StoreEntry>& entries) {
 
 int run_loop(LoopOptions options) {
     const auto start = Clock::now();
-    if (auto fine = check_outputs(options); !fine) return report_error(fine.error());
+    if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
     const auto range = parse_time_range(options.range);
@@ -328,34 +164,7 @@ Command add_loop(CLI::App& app) {
     loop->footer(
         "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
         "at least one frame was written.\n");
-    loop->add_option("--cache", options->cache, "The cache's directory")->required();
-    loop->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
-        ->required();
-    add_time_range(*loop, options->range);
-    loop->add_option("--last", options->last, "Of these only the newest so many")
-        ->check(CLI::Range(1, 1'000'000));
-    loop->add_option("-o,--output", options->outputs,
-                     fmt::format("{}; several times: the same frames to each",
-                                 render::known_animation_endings()))
-        ->required()
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
-    loop->add_option("--fps", options->animation.frames_per_second, "Frames a second, 0.1 to 60")
-        ->capture_default_str();
-    loop->add_option("--dwell", options->animation.last_frame_dwell_s,
-                     "Seconds that the last frame stays longer, 0 to 60")
-        ->capture_default_str();
-    loop->add_option("--orbit", options->orbit_deg,
-                     "Degrees that the camera goes round the grid over the loop; 360 closes it")
-        ->check(CLI::Range(-3600.0, 3600.0))
-        ->capture_default_str();
-    loop->add_flag("--ping-pong", options->ping_pong,
-                   "There and back: behind the last frame the others again, down to the second");
-    loop->add_flag("--json", options->json, "Say what was done as one JSON document");
-    loop->add_flag("--quiet", options->quiet, "No progress and no summary; warnings and errors");
-    add_scene_options(*loop, options->scene);
-    add_picture_plan_options(*loop, options->plan);
+    add_loop_options(*loop, *options);
     return {loop, [options] { return run_loop(*options); }};
 }
 

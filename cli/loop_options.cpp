@@ -1,0 +1,52 @@
+#include "cli/loop_options.h"
+
+#include <filesystem>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace stormcellar::cli {
+
+void add_loop_options(CLI::App& loop, LoopOptions& options) {
+    loop.add_option("--cache", options.cache, "The cache's directory")->required();
+    loop.add_option("DOMAIN,--domain", options.domain, "Whose grids; a station's is its ICAO")
+        ->required();
+    add_time_range(loop, options.range);
+    loop.add_option("--last", options.last, "Of these only the newest so many")
+        ->check(CLI::Range(1, 1'000'000));
+    loop.add_option("-o,--output", options.outputs,
+                    fmt::format("{}; several times: the same frames to each",
+                                render::known_animation_endings()))
+        ->required()
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    loop.add_option("--fps", options.animation.frames_per_second, "Frames a second, 0.1 to 60")
+        ->capture_default_str();
+    loop.add_option("--dwell", options.animation.last_frame_dwell_s,
+                    "Seconds that the last frame stays longer, 0 to 60")
+        ->capture_default_str();
+    loop.add_option("--orbit", options.orbit_deg,
+                    "Degrees that the camera goes round the grid over the loop; 360 closes it")
+        ->check(CLI::Range(-3600.0, 3600.0))
+        ->capture_default_str();
+    loop.add_flag("--ping-pong", options.ping_pong,
+                  "There and back: behind the last frame the others again, down to the second");
+    loop.add_flag("--json", options.json, "Say what was done as one JSON document");
+    loop.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors");
+    add_scene_options(loop, options.scene);
+    add_picture_plan_options(loop, options.plan);
+}
+
+Status check_outputs(const std::vector<std::string>& outputs) {
+    std::set<std::filesystem::path> names;
+    for (const std::string& output : outputs) {
+        if (!names.insert(std::filesystem::path(output).lexically_normal()).second) {
+            return fail(ErrorCode::bad_argument, "{}: named twice as an output", output);
+        }
+    }
+    return {};
+}
+
+}  // namespace stormcellar::cli

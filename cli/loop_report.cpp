@@ -1,0 +1,65 @@
+#include "cli/loop_report.h"
+
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+#include "cache/grid_file.h"
+#include "cli/commands.h"
+#include "cli/picture.h"
+#include "render/products/product.h"
+
+namespace stormcellar::cli {
+
+void warn_skipped(const Skipped& skipped) {
+    fmt::print(stderr, "stormcellar: warning: frame left out: {}\n", printable(skipped.reason));
+}
+
+std::vector<std::pair<std::string, std::string>> metadata_of(
+    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
+    const render::Scene& scene) {
+    std::vector<std::pair<std::string, std::string>> metadata{
+        {"Title", fmt::format("{} {} to {}", ascii(options.domain),
+                              format_utc(entries.front().time), format_utc(entries.back().time))}};
+    std::string description = render::product_title(scene);
+    if (const auto first = cache::GridFile::open(entries.front().path)) {
+        const auto& provenance = first->description().provenance;
+        description += fmt::format("; gridded by {}, {}; stations {}", provenance.method,
+                                   provenance.beam_model, fmt::join(provenance.stations, " "));
+    }
+    metadata.emplace_back("Description", ascii(description));
+    metadata.emplace_back("Software", fmt::format("stormcellar {}", software_version));
+    return metadata;
+}
+
+void print_report(const LoopOptions& options, const render::Scene& scene,
+                  const LoopReport& report) {
+    if (!options.json) {
+        if (options.quiet) return;
+        fmt::print(stderr, "{}: {} {} to {}, {}, {} frames of {} x {} pixels, {:.1f} s\n",
+                   printable(fmt::format("{}", fmt::join(options.outputs, ", "))),
+                   printable(options.domain), format_utc(report.from), format_utc(report.to),
+                   options.scene.product, report.frames, scene.width, scene.height, report.total_s);
+        return;
+    }
+    auto skipped = nlohmann::json::array();
+    for (const Skipped& grid : report.skipped) {
+        skipped.push_back({{"path", grid.path.native()}, {"reason", grid.reason}});
+    }
+    print_json({{"outputs", options.outputs},
+                {"domain", options.domain},
+                {"product", options.scene.product},
+                {"moment", options.scene.moment},
+                {"from", format_utc(report.from)},
+                {"to", format_utc(report.to)},
+                {"frames", report.frames},
+                {"skipped", skipped},
+                {"width", scene.width},
+                {"height", scene.height},
+                {"read_s", report.read_s},
+                {"render_s", report.render_s},
+                {"encode_s", report.encode_s},
+                {"total_s", report.total_s}});
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,39 @@
+// cli/loop_report.h -- what `loop` did, and what the file that it made says of itself.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/utc_time.h"
+#include "cache/store.h"
+#include "cli/loop_options.h"
+#include "render/scene.h"
+
+namespace stormcellar::cli {
+
+struct Skipped {
+    std::filesystem::path path;
+    std::string reason;
+};
+
+struct LoopReport {
+    std::size_t frames = 0;
+    std::vector<Skipped> skipped;
+    UtcTime from, to;  // of the frames that were drawn
+    double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
+    bool interrupted = false;
+};
+
+void warn_skipped(const Skipped& skipped);  // on stderr
+
+// For people to stderr, with --json as one document to stdout.
+void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report);
+
+// What the file says of itself. The first grid stands for the method of all; `entries` has one.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> metadata_of(
+    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
+    const render::Scene& scene);
+
+}  // namespace stormcellar::cli
