@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/loop_encoding.h"
+#include "cli/loop_grids.h"
 #include "cli/loop_options.h"
 #include "cli/loop_report.h"
 #include "cli/picture.h"
@@ -108,13 +109,6 @@ Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
     return report;
 }
 
-std::string range_text(const LoopOptions& options) {
-    std::string text;
-    if (!options.range.from.empty()) text += fmt::format(" from {}", options.range.from);
-    if (!options.range.to.empty()) text += fmt::format(" to {}", options.range.to);
-    return text;
-}
-
 // Adds the way back, without the two ends.
 void turn_back(std::vector<cache::StoreEntry>& entries) {
     for (std::size_t i = entries.size(); i > 2; --i) {
@@ -128,30 +122,31 @@ int run_loop(LoopOptions options) {
     if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
-    const auto range = parse_time_range(options.range);
-    if (!range) return report_error(range.error());
-    const auto store = cache::Store::open_for_reading(options.cache);
-    if (!store) return report_error(store.error());
-    auto entries = store->list(options.domain, scene->moment, range->from, range->to);
-    if (!entries) return report_error(entries.error());
-    if (options.last > 0 && entries->size() > options.last) {
-        entries->erase(entries->begin(),
-                       entries->end() - static_cast<std::ptrdiff_t>(options.last));
-    }
-    if (entries->empty())
-        return report_no_grid(*store, options.domain, scene->moment, range_text(options));
-    options.animation.metadata = metadata_of(*entries, options, *scene);
-    if (options.ping_pong) turn_back(*entries);
-
     Interrupt interrupt;
-    const auto report = make_loop(*entries, options, *scene, interrupt.flag(), start);
+    auto grids = find_grids(options, *scene, interrupt);
+    if (!grids) return report_error(grids.error());
+    if (grids->entries.empty()) return exit_nothing_matched;
+    options.domain = grids->domain;
+    auto& entries = grids->entries;
+    if (options.last > 0 && entries.size() > options.last) {
+        entries.erase(entries.begin(), entries.end() - static_cast<std::ptrdiff_t>(options.last));
+    }
+    options.animation.metadata = metadata_of(entries, options, *scene);
+    if (options.ping_pong) turn_back(entries);
+
+    const auto report = make_loop(entries, options, *scene, interrupt.flag(), start);
     if (!report) return report_error(report.error());
     if (report->interrupted) {
         fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
         interrupt.end_by_signal();
         return exit_failed;
     }
-    print_report(options, *scene, *report);
+    if (grids->archive) {
+        if (auto left = leave_cache(*grids->call, *grids->archive); !left) {
+            return report_error(left.error());
+        }
+    }
+    print_report(options, *scene, *report, grids->archive);
     return exit_done;
 }
 

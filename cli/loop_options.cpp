@@ -9,10 +9,17 @@
 namespace stormcellar::cli {
 
 void add_loop_options(CLI::App& loop, LoopOptions& options) {
-    loop.add_option("--cache", options.cache, "The cache's directory")->required();
-    loop.add_option("DOMAIN,--domain", options.domain, "Whose grids; a station's is its ICAO")
-        ->required();
+    loop.add_option("--cache", options.cache,
+                    "The cache's directory; with --catalog where the grids are to be made");
+    loop.add_option("DOMAIN,--domain", options.domain,
+                    "Whose grids; a station's is its ICAO. With --catalog a mosaic's name");
     add_time_range(loop, options.range);
+    loop.add_option("--interval", options.interval,
+                    "From frame to frame, e.g. 60, 90s, 5min: frames between the grids are made as "
+                    "they are called for. Else each grid is a frame; of a mosaic from an archive "
+                    "every 5min");
+    loop.add_option("--time-method", options.time_method,
+                    "How: advected (the default), blend or nearest");
     loop.add_option("--last", options.last, "Of these only the newest so many")
         ->check(CLI::Range(1, 1'000'000));
     loop.add_option("-o,--output", options.outputs,
@@ -35,8 +42,30 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
                   "There and back: behind the last frame the others again, down to the second");
     loop.add_flag("--json", options.json, "Say what was done as one JSON document");
     loop.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors");
+    add_archive_options(loop, options.archive);
     add_scene_options(loop, options.scene);
     add_picture_plan_options(loop, options.plan);
+}
+
+Result<Rhythm> rhythm_of(const LoopOptions& options) {
+    Rhythm rhythm;
+    if (!options.interval.empty()) {
+        const auto interval = parse_interval("--interval", options.interval);
+        if (!interval) return pass_on(interval);
+        rhythm.interval = *interval;
+    }
+    if (options.time_method.empty()) return rhythm;
+    if (!rhythm.interval && !options.archive.asked()) {
+        return fail(ErrorCode::bad_argument, "--time-method goes with --interval");
+    }
+    const auto method = grid::time_method_from_name(options.time_method);
+    if (!method) {
+        return fail(ErrorCode::bad_argument,
+                    "--time-method takes one of advected, blend and nearest, not '{}'",
+                    options.time_method);
+    }
+    rhythm.method = *method;
+    return rhythm;
 }
 
 Status check_outputs(const std::vector<std::string>& outputs) {

@@ -32,8 +32,29 @@ std::vector<std::pair<std::string, std::string>> metadata_of(
     return metadata;
 }
 
-void print_report(const LoopOptions& options, const render::Scene& scene,
-                  const LoopReport& report) {
+namespace {
+
+void add_archive(const ArchiveGrids& archive, nlohmann::json& document) {
+    const pipeline::FillReport& report = archive.report;
+    auto left_out = nlohmann::json::array();
+    for (const pipeline::LeftOut& file : report.left_out)
+        left_out.push_back({{"path", file.path.native()}, {"reason", file.reason}});
+    document["cache"] = archive.directory.native();
+    document["cache_bytes"] = archive.bytes;
+    document["volumes"] = report.volumes;
+    document["grids_made"] = report.grids_made;
+    document["grids_found"] = report.grids_found;
+    document["left_out"] = left_out;
+    document["mosaics_made"] = report.frames_made;
+    document["mosaics_found"] = report.frames_found;
+    document["fill_s"] = archive.fill_s;
+    document["mosaic_s"] = archive.frames_s;
+}
+
+}  // namespace
+
+void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
+                  const std::optional<ArchiveGrids>& archive) {
     if (!options.json) {
         if (options.quiet) return;
         fmt::print(stderr, "{}: {} {} to {}, {}, {} frames of {} x {} pixels, {:.1f} s\n",
@@ -46,20 +67,22 @@ void print_report(const LoopOptions& options, const render::Scene& scene,
     for (const Skipped& grid : report.skipped) {
         skipped.push_back({{"path", grid.path.native()}, {"reason", grid.reason}});
     }
-    print_json({{"outputs", options.outputs},
-                {"domain", options.domain},
-                {"product", options.scene.product},
-                {"moment", options.scene.moment},
-                {"from", format_utc(report.from)},
-                {"to", format_utc(report.to)},
-                {"frames", report.frames},
-                {"skipped", skipped},
-                {"width", scene.width},
-                {"height", scene.height},
-                {"read_s", report.read_s},
-                {"render_s", report.render_s},
-                {"encode_s", report.encode_s},
-                {"total_s", report.total_s}});
+    nlohmann::json document{{"outputs", options.outputs},
+                            {"domain", options.domain},
+                            {"product", options.scene.product},
+                            {"moment", options.scene.moment},
+                            {"from", format_utc(report.from)},
+                            {"to", format_utc(report.to)},
+                            {"frames", report.frames},
+                            {"skipped", skipped},
+                            {"width", scene.width},
+                            {"height", scene.height},
+                            {"read_s", report.read_s},
+                            {"render_s", report.render_s},
+                            {"encode_s", report.encode_s},
+                            {"total_s", report.total_s}};
+    if (archive) add_archive(*archive, document);
+    print_json(document);
 }
 
 }  // namespace stormcellar::cli

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/utc_time.h"
 #include "cache/store.h"
+#include "cli/archive_loop.h"
 #include "cli/loop_options.h"
 #include "render/scene.h"
 
@@ -29,7 +31,8 @@ struct LoopReport {
 void warn_skipped(const Skipped& skipped);  // on stderr
 
 // For people to stderr, with --json as one document to stdout.
-void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report);
+void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
+                  const std::optional<ArchiveGrids>& archive = std::nullopt);
 
 // What the file says of itself. The first grid stands for the method of all; `entries` has one.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> metadata_of(

@@ -1,0 +1,103 @@
+#include "cli/loop_grids.h"
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/picture.h"
+
+namespace stormcellar::cli {
+namespace {
+
+std::string range_text(const LoopOptions& options) {
+    std::string text;
+    if (!options.range.from.empty()) text += fmt::format(" from {}", options.range.from);
+    if (!options.range.to.empty()) text += fmt::format(" to {}", options.range.to);
+    return text;
+}
+
+Result<ArchiveCall> call_of(const LoopOptions& options, const render::Scene& scene,
+                            const TimeRange& range) {
+    auto request = parse_archive(options.archive);
+    if (!request) return pass_on(request);
+    if (!range.from || !range.to) {
+        return fail(ErrorCode::bad_argument, "--catalog needs --from and --to");
+    }
+    if (!options.archive.keep_cache && !options.cache.empty()) {
+        return fail(ErrorCode::bad_argument,
+                    "--no-keep-cache is for the cache that is made without --cache");
+    }
+    ArchiveCall call;
+    call.request = std::move(*request);
+    call.catalog = options.archive.catalog;
+    call.cache = options.cache;
+    call.domain = options.domain;
+    call.range = range;
+    call.moment = scene.moment;
+    const auto rhythm = rhythm_of(options);
+    if (!rhythm) return pass_on(rhythm);
+    call.interval = rhythm->interval;
+    call.time = rhythm->method;
+    call.threads = thread_count(options.scene);
+    call.keep = options.archive.keep_cache;
+    call.quiet = options.quiet;
+    return call;
+}
+
+Status take_from_archive(const LoopOptions& options, const render::Scene& scene,
+                         Interrupt& interrupt, LoopGrids& grids) {
+    auto call = call_of(options, scene, grids.range);
+    if (!call) return pass_on(call);
+    auto archive = fill_from_archive(*call, interrupt);
+    if (!archive) return pass_on(archive);
+    if (!*archive) {
+        fmt::print(stderr, "stormcellar: {}: no volume of these stations{}\n",
+                   printable(options.archive.catalog), printable(range_text(options)));
+        return {};
+    }
+    grids.archive = std::move(**archive);
+    grids.call = std::move(*call);
+    grids.store = grids.archive->store;
+    grids.domain = grids.archive->domain;
+    grids.entries = grids.archive->entries;
+    if (grids.entries.empty()) {
+        fmt::print(stderr, "stormcellar: none of the {} volumes{} gives a frame\n",
+                   grids.archive->report.volumes, printable(range_text(options)));
+    }
+    return {};
+}
+
+Status take_from_cache(const LoopOptions& options, const render::Scene& scene, LoopGrids& grids) {
+    if (options.cache.empty() || options.domain.empty()) {
+        return fail(ErrorCode::bad_argument,
+                    "a loop needs --cache and --domain, or --catalog and --stations");
+    }
+    if (auto fine = parse_archive(options.archive); !fine) return pass_on(fine);
+    auto store = cache::Store::open_for_reading(options.cache);
+    if (!store) return pass_on(store);
+    auto entries = store->list(options.domain, scene.moment, grids.range.from, grids.range.to);
+    if (!entries) return pass_on(entries);
+    grids.domain = options.domain;
+    grids.entries = std::move(*entries);
+    if (grids.entries.empty()) {
+        report_no_grid(*store, options.domain, scene.moment, range_text(options));
+    }
+    grids.store = std::move(*store);
+    return {};
+}
+
+}  // namespace
+
+Result<LoopGrids> find_grids(const LoopOptions& options, const render::Scene& scene,
+                             Interrupt& interrupt) {
+    LoopGrids grids;
+    const auto range = parse_time_range(options.range);
+    if (!range) return pass_on(range);
+    grids.range = *range;
+    const Status taken = options.archive.asked()
+                             ? take_from_archive(options, scene, interrupt, grids)
+                             : take_from_cache(options, scene, grids);
+    if (!taken) return pass_on(taken);
+    return grids;
+}
+
+}  // namespace stormcellar::cli
