@@ -16,6 +16,7 @@ namespace {
 
 // Uncompressed bricks of the volumes at hand take 0.1 to 0.33; much echo takes more.
 constexpr double bytes_a_cell = 0.5;
+constexpr std::uint64_t bytes_a_file = 200'000;  // tables, and bricks that are not full
 
 IngestOptions ingest_options(const ArchiveOptions& options) {
     IngestOptions ingest;
@@ -160,7 +161,7 @@ std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) con
         cells = static_cast<double>(options_.nx) * options_.ny * static_cast<double>(levels) *
                 static_cast<double>(volumes);
     }
-    return static_cast<std::uint64_t>(cells * bytes_a_cell);
+    return static_cast<std::uint64_t>(cells * bytes_a_cell) + (volumes + frames) * bytes_a_file;
 }
 
 Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillProgress& progress,
