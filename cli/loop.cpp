@@ -28,52 +28,87 @@ struct Drawing {
     bool is_planned = false;
 };
 
-// One frame; none when the grid's file is damaged, which is noted.
-Result<std::optional<render::Image>> draw(const cache::StoreEntry& entry,
-                                          const LoopOptions& options, Drawing& drawing,
-                                          LoopReport& report) {
-    const auto start = Clock::now();
-    const auto file = cache::GridFile::open(entry.path);
-    report.read_s += seconds_since(start);
-    if (!file) {
-        report.skipped.push_back({entry.path, file.error().message});
-        return std::optional<render::Image>{};
+// A grid that stands, or one that was made for the instant.
+struct FrameGrid {
+    std::optional<cache::GridFile> file;
+    std::optional<pipeline::MosaicFrame> made;
+
+    [[nodiscard]] const cache::GridDescription& description() const {
+        return file ? file->description() : made->description;
     }
+    [[nodiscard]] grid::BrickView view() const {
+        return file ? file->view() : made->mosaic.cells.view();
+    }
+    [[nodiscard]] Status check_whole() const { return file ? file->check_whole() : Status{}; }
+};
+
+// not_found where no volume is near.
+Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between) {
+    FrameGrid grid;
+    if (frame.stored) {
+        auto file = cache::GridFile::open(frame.stored->path);
+        if (!file) return pass_on(file);
+        grid.file.emplace(std::move(*file));
+        return grid;
+    }
+    auto made = between->at(frame.time);
+    if (!made) return pass_on(made);
+    if (!*made) {
+        return fail(ErrorCode::not_found, "no volume is near {}", format_utc(frame.time));
+    }
+    grid.made = std::move(**made);
+    return grid;
+}
+
+// One frame; none when the grid's file is damaged, which is noted.
+Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOptions& options,
+                                          std::optional<pipeline::BetweenGrids>& between,
+                                          Drawing& drawing, LoopReport& report) {
+    const auto start = Clock::now();
+    const auto skip = [&](const Error& error) {
+        report.skipped.push_back(
+            {frame.stored ? frame.stored->path : std::filesystem::path{}, error.message});
+        return std::optional<render::Image>{};
+    };
+    const auto grid = grid_of(frame, between);
+    (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
+    if (!grid) return skip(grid.error());
     const auto opened = Clock::now();
-    const auto facts = facts_of(options.domain, file->description(), options.scene.time_zone);
+    auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
+    facts.interpolated = grid->made && options.time_method != "nearest";
     const int threads = thread_count(options.scene);
     if (!drawing.is_planned) {
-        if (auto planned = plan_picture(file->view(), facts, options.plan, options.json, threads,
+        if (auto planned = plan_picture(grid->view(), facts, options.plan, options.json, threads,
                                         drawing.scene);
             !planned) {
             return pass_on(planned);
         }
         drawing.is_planned = true;
     }
-    auto picture = render::render_frame(file->view(), facts, drawing.scene, threads, &drawing.map);
+    auto picture = render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.map);
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
-    if (const Status whole = file->check_whole(); !whole) {  // cut while it was drawn
-        report.skipped.push_back({entry.path, whole.error().message});
-        return std::optional<render::Image>{};
+    if (const Status whole = grid->check_whole(); !whole) {  // cut while it was drawn
+        return skip(whole.error());
     }
-    if (report.frames == 0) report.from = report.to = entry.time;
-    report.to = std::max(report.to, entry.time);
+    if (report.frames == 0) report.from = report.to = frame.time;
+    report.to = std::max(report.to, frame.time);
     ++report.frames;
+    if (grid->made) ++report.interpolated;
     return std::optional{std::move(*picture)};
 }
 
-Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
-                const render::Scene& scene, const std::atomic<bool>& stop, Encoding& encoding,
-                LoopReport& report) {
-    Progress progress("frames", entries.size(), !options.quiet);
+Status draw_all(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
+                const std::atomic<bool>& stop, Encoding& encoding, LoopReport& report) {
+    const std::vector<LoopFrame>& frames = grids.frames;
+    Progress progress("frames", frames.size(), !options.quiet);
     Drawing drawing{scene, {}};
-    for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
         if (stop) return {};
         drawing.scene.camera.azimuth_deg =
             scene.camera.azimuth_deg +
-            options.orbit_deg * static_cast<double>(i) / static_cast<double>(entries.size());
-        auto picture = draw(entries[i], options, drawing, report);
+            options.orbit_deg * static_cast<double>(i) / static_cast<double>(frames.size());
+        auto picture = draw(frames[i], options, grids.between, drawing, report);
         if (!picture) return pass_on(picture);
         if (*picture) {
             if (auto added = encoding.add(std::move(**picture)); !added) return added;
@@ -86,20 +121,20 @@ Status draw_all(const std::vector<cache::StoreEntry>& entries, const LoopOptions
     return {};
 }
 
-Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
-                             const LoopOptions& options, const render::Scene& scene,
-                             const std::atomic<bool>& stop, Clock::time_point start) {
+Result<LoopReport> make_loop(LoopGrids& grids, const LoopOptions& options,
+                             const render::Scene& scene, const std::atomic<bool>& stop,
+                             Clock::time_point start) {
     auto writers = make_writers(options.outputs, options.animation);
     if (!writers) return pass_on(writers);
     Encoding encoding(std::move(*writers));
     LoopReport report;
-    if (auto drawn = draw_all(entries, options, scene, stop, encoding, report); !drawn) {
+    if (auto drawn = draw_all(grids, options, scene, stop, encoding, report); !drawn) {
         return pass_on(drawn);
     }
     if (!stop) {
         if (report.frames == 0) {
             return fail(ErrorCode::corrupt, "{}: each of the {} grids is damaged; nothing written",
-                        options.cache, entries.size());
+                        grids.store->directory().native(), grids.frames.size());
         }
         if (auto finished = encoding.finish(stop); !finished) return pass_on(finished);
         report.encode_s = encoding.encode_s();
@@ -110,14 +145,40 @@ Result<LoopReport> make_loop(const std::vector<cache::StoreEntry>& entries,
 }
 
 // Adds the way back, without the two ends.
-void turn_back(std::vector<cache::StoreEntry>& entries) {
-    for (std::size_t i = entries.size(); i > 2; --i) {
-        const cache::StoreEntry entry = entries[i - 2];
-        entries.push_back(entry);
+void turn_back(std::vector<LoopFrame>& frames) {
+    for (std::size_t i = frames.size(); i > 2; --i) {
+        const LoopFrame frame = frames[i - 2];
+        frames.push_back(frame);
     }
 }
 
-int run_loop(LoopOptions options) {
+// Gives the exit status.
+int draw_loop(LoopGrids grids, LoopOptions options, const render::Scene& scene,
+              Interrupt& interrupt, Clock::time_point start) {
+    options.domain = grids.domain;
+    auto& frames = grids.frames;
+    if (options.last > 0 && frames.size() > options.last) {
+        frames.erase(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(options.last));
+    }
+    options.animation.metadata = metadata_of(grids, options, scene);
+    if (options.ping_pong) turn_back(frames);
+    const auto report = make_loop(grids, options, scene, interrupt.flag(), start);
+    if (!report) return report_error(report.error());
+    if (report->interrupted) {
+        fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
+        interrupt.end_by_signal();
+        return exit_failed;
+    }
+    if (grids.archive) {
+        if (auto left = leave_cache(*grids.call, *grids.archive); !left) {
+            return report_error(left.error());
+        }
+    }
+    print_report(options, scene, *report, grids.archive);
+    return exit_done;
+}
+
+int run_loop(const LoopOptions& options) {
     const auto start = Clock::now();
     if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
@@ -125,29 +186,8 @@ int run_loop(LoopOptions options) {
     Interrupt interrupt;
     auto grids = find_grids(options, *scene, interrupt);
     if (!grids) return report_error(grids.error());
-    if (grids->entries.empty()) return exit_nothing_matched;
-    options.domain = grids->domain;
-    auto& entries = grids->entries;
-    if (options.last > 0 && entries.size() > options.last) {
-        entries.erase(entries.begin(), entries.end() - static_cast<std::ptrdiff_t>(options.last));
-    }
-    options.animation.metadata = metadata_of(entries, options, *scene);
-    if (options.ping_pong) turn_back(entries);
-
-    const auto report = make_loop(entries, options, *scene, interrupt.flag(), start);
-    if (!report) return report_error(report.error());
-    if (report->interrupted) {
-        fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
-        interrupt.end_by_signal();
-        return exit_failed;
-    }
-    if (grids->archive) {
-        if (auto left = leave_cache(*grids->call, *grids->archive); !left) {
-            return report_error(left.error());
-        }
-    }
-    print_report(options, *scene, *report, grids->archive);
-    return exit_done;
+    if (grids->frames.empty()) return exit_nothing_matched;
+    return draw_loop(std::move(*grids), options, *scene, interrupt, start);
 }
 
 }  // namespace

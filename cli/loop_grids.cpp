@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/loop_report.h"
 #include "cli/picture.h"
 
 namespace stormcellar::cli {
@@ -13,6 +14,46 @@ std::string range_text(const LoopOptions& options) {
     if (!options.range.from.empty()) text += fmt::format(" from {}", options.range.from);
     if (!options.range.to.empty()) text += fmt::format(" to {}", options.range.to);
     return text;
+}
+
+void set_frames(const std::vector<cache::StoreEntry>& entries, LoopGrids& grids) {
+    for (const cache::StoreEntry& entry : entries)
+        grids.frames.push_back({entry.time, entry});
+    if (!entries.empty()) grids.sample = entries.front().path;
+}
+
+// Frames every so often in the place of those at the grids' own times. A mosaic's own frames are
+// taken where they stand by the same rules.
+Status set_rhythm(const LoopOptions& options, level2::Moment moment, const Rhythm& rhythm,
+                  LoopGrids& grids) {
+    std::vector<std::string> problems;
+    auto between = pipeline::BetweenGrids::open(
+        *grids.store, grids.domain, moment,
+        {rhythm.method, grids.range.from, grids.range.to, thread_count(options.scene)}, problems);
+    for (const std::string& problem : problems)
+        warn_skipped({{}, problem});
+    if (!between) return pass_on(between);
+    std::vector<LoopFrame> frames;
+    for (const UtcTime instant : between->instants(*rhythm.interval)) {
+        LoopFrame frame{instant, std::nullopt};
+        const auto path = grids.store->path_of(grids.domain, moment, instant);
+        if (path && between->stands(*path)) {
+            frame.stored = cache::StoreEntry{grids.domain, moment, instant, *path};
+        }
+        frames.push_back(std::move(frame));
+    }
+    if (frames.empty()) {
+        fmt::print(stderr,
+                   "stormcellar: no frame every {} s: the {} grids are too few, or farther apart "
+                   "than {} minutes\n",
+                   rhythm.interval->count(), grids.frames.size(),
+                   pipeline::BetweenGrids::longest_bridge.count());
+    } else if (!options.quiet && !options.json) {
+        fmt::print(stderr, "between the grids: {}\n", between->method_text());
+    }
+    grids.frames = std::move(frames);
+    grids.between.emplace(std::move(*between));
+    return {};
 }
 
 Result<ArchiveCall> call_of(const LoopOptions& options, const render::Scene& scene,
@@ -58,8 +99,8 @@ Status take_from_archive(const LoopOptions& options, const render::Scene& scene,
     grids.call = std::move(*call);
     grids.store = grids.archive->store;
     grids.domain = grids.archive->domain;
-    grids.entries = grids.archive->entries;
-    if (grids.entries.empty()) {
+    set_frames(grids.archive->entries, grids);
+    if (grids.frames.empty()) {
         fmt::print(stderr, "stormcellar: none of the {} volumes{} gives a frame\n",
                    grids.archive->report.volumes, printable(range_text(options)));
     }
@@ -77,8 +118,8 @@ Status take_from_cache(const LoopOptions& options, const render::Scene& scene, L
     auto entries = store->list(options.domain, scene.moment, grids.range.from, grids.range.to);
     if (!entries) return pass_on(entries);
     grids.domain = options.domain;
-    grids.entries = std::move(*entries);
-    if (grids.entries.empty()) {
+    set_frames(*entries, grids);
+    if (grids.frames.empty()) {
         report_no_grid(*store, options.domain, scene.moment, range_text(options));
     }
     grids.store = std::move(*store);
@@ -97,6 +138,12 @@ Result<LoopGrids> find_grids(const LoopOptions& options, const render::Scene& sc
                              ? take_from_archive(options, scene, interrupt, grids)
                              : take_from_cache(options, scene, grids);
     if (!taken) return pass_on(taken);
+    const auto rhythm = rhythm_of(options);
+    if (!rhythm) return pass_on(rhythm);
+    const bool every_so_often = rhythm->interval && !(grids.archive && grids.archive->mosaic);
+    if (every_so_often && !grids.frames.empty()) {
+        if (auto set = set_rhythm(options, scene.moment, *rhythm, grids); !set) return pass_on(set);
+    }
     return grids;
 }
 

@@ -10,17 +10,25 @@
 #include "cli/archive_loop.h"
 #include "cli/interrupt.h"
 #include "cli/loop_options.h"
+#include "pipeline/between_grids.h"
 #include "render/scene.h"
 
 namespace stormcellar::cli {
+
+// One frame: a grid that stands, or one that is made when the frame is drawn.
+struct LoopFrame {
+    UtcTime time;
+    std::optional<cache::StoreEntry> stored;
+};
 
 struct LoopGrids {
     std::optional<cache::Store> store;
     std::string domain;
     TimeRange range;
-    std::vector<cache::StoreEntry>
-        entries;                      // rising in time; empty: nothing matched, which was said
-    std::optional<ArchiveCall> call;  // of an archive, and what became of it
+    std::vector<LoopFrame> frames;  // rising in time; empty: nothing matched, which was said
+    std::filesystem::path sample;   // a grid that stands
+    std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not stand
+    std::optional<ArchiveCall> call;                // of an archive, and what became of it
     std::optional<ArchiveGrids> archive;
 };
 

@@ -15,14 +15,16 @@ void warn_skipped(const Skipped& skipped) {
     fmt::print(stderr, "stormcellar: warning: frame left out: {}\n", printable(skipped.reason));
 }
 
-std::vector<std::pair<std::string, std::string>> metadata_of(
-    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
-    const render::Scene& scene) {
+std::vector<std::pair<std::string, std::string>> metadata_of(const LoopGrids& grids,
+                                                             const LoopOptions& options,
+                                                             const render::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> metadata{
-        {"Title", fmt::format("{} {} to {}", ascii(options.domain),
-                              format_utc(entries.front().time), format_utc(entries.back().time))}};
+        {"Title",
+         fmt::format("{} {} to {}", ascii(options.domain), format_utc(grids.frames.front().time),
+                     format_utc(grids.frames.back().time))}};
     std::string description = render::product_title(scene);
-    if (const auto first = cache::GridFile::open(entries.front().path)) {
+    const auto& stored = grids.frames.front().stored;
+    if (const auto first = cache::GridFile::open(stored ? stored->path : grids.sample)) {
         const auto& provenance = first->description().provenance;
         description += fmt::format("; gridded by {}, {}; stations {}", provenance.method,
                                    provenance.beam_model, fmt::join(provenance.stations, " "));
@@ -74,6 +76,8 @@ void print_report(const LoopOptions& options, const render::Scene& scene, const 
                             {"from", format_utc(report.from)},
                             {"to", format_utc(report.to)},
                             {"frames", report.frames},
+                            {"interpolated", report.interpolated},
+                            {"between_s", report.between_s},
                             {"skipped", skipped},
                             {"width", scene.width},
                             {"height", scene.height},

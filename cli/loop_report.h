@@ -10,6 +10,7 @@
 #include "base/utc_time.h"
 #include "cache/store.h"
 #include "cli/archive_loop.h"
+#include "cli/loop_grids.h"
 #include "cli/loop_options.h"
 #include "render/scene.h"
 
@@ -23,7 +24,9 @@ struct Skipped {
 struct LoopReport {
     std::size_t frames = 0;
     std::vector<Skipped> skipped;
-    UtcTime from, to;  // of the frames that were drawn
+    UtcTime from, to;              // of the frames that were drawn
+    std::size_t interpolated = 0;  // of the frames
+    double between_s = 0;          // of making those
     double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
     bool interrupted = false;
 };
@@ -34,9 +37,9 @@ void warn_skipped(const Skipped& skipped);  // on stderr
 void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
                   const std::optional<ArchiveGrids>& archive = std::nullopt);
 
-// What the file says of itself. The first grid stands for the method of all; `entries` has one.
+// What the file says of itself. The first grid stands for the method of all; there is at least one
+// frame.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> metadata_of(
-    const std::vector<cache::StoreEntry>& entries, const LoopOptions& options,
-    const render::Scene& scene);
+    const LoopGrids& grids, const LoopOptions& options, const render::Scene& scene);
 
 }  // namespace stormcellar::cli

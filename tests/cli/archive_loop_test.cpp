@@ -162,6 +162,17 @@ TEST_F(ArchiveLoop, MakesAMosaicOfTheStationsThatReachTheBounds) {
     EXPECT_EQ(other.status, 3) << other.err;
 }
 
+TEST_F(ArchiveLoop, MakesFramesBetweenTheVolumesOfAStation) {
+    const auto result = run_station({"--interval", "2min", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 12);  // 02:48, behind the first middle, to 03:10
+    EXPECT_EQ(json["interpolated"], 12);
+    EXPECT_EQ(json["from"], "2005-08-22T02:48:00Z");
+    EXPECT_EQ(json["to"], "2005-08-22T03:10:00Z");
+    EXPECT_GT(json["between_s"], 0);
+}
+
 TEST_F(ArchiveLoop, ThePrivateCacheGoesWhereThatIsAskedFor) {
     ASSERT_EQ(run_station({"--no-keep-cache"}).status, 0);
     EXPECT_TRUE(fs::is_empty(loops()));

@@ -29,11 +29,11 @@ using ::testing::StartsWith;
 
 class Loop : public ::testing::Test {
   protected:
-    void commit(const std::string& compact_time, float dbz) {
+    void commit(const std::string& compact_time, float dbz, int cells = 40) {
         grid::Grid grid;
         grid.spec = grid::default_spec(42.2, -75.98);
-        grid.spec.nx = grid.spec.ny = 40;
-        grid.time = parse_compact(compact_time).value();
+        grid.spec.nx = grid.spec.ny = cells;
+        grid.time = grid.start_time = grid.end_time = parse_compact(compact_time).value();
         grid.sites = {{"KBGM", 42.2, -75.98, 490}};
         grid.values.assign(grid.spec.cell_count(), dbz);
         grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
@@ -114,6 +114,27 @@ TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
               (std::pair<std::string, int>("2005-08-22T02:44:00Z", 2)));
     EXPECT_EQ(frames({"--last", "1"}), (std::pair<std::string, int>("2005-08-22T02:56:00Z", 1)));
     EXPECT_EQ(frames({"--last", "9"}), (std::pair<std::string, int>("2005-08-22T02:44:00Z", 3)));
+}
+
+TEST_F(Loop, MakesFramesBetweenGridsWhenCalledFor) {
+    commit_three();
+    const auto result = run({"KBGM", "--interval", "3min", "--product", "composite", "--no-labels",
+                             "--json", "-o", out("frames/")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 4);  // 02:45, 02:48, 02:51, 02:54
+    EXPECT_EQ(json["interpolated"], 4);
+    const auto own = run({"KBGM", "--product", "composite", "--no-labels", "-o", out("own/")});
+    ASSERT_EQ(own.status, 0) << own.err;
+    const auto two =
+        run({"KBGM", "--interval", "120", "--from", "2005-08-22T02:50", "--to", "2005-08-22T02:50",
+             "--product", "composite", "--no-labels", "-o", out("two/")});
+    ASSERT_EQ(two.status, 0) << two.err;
+    EXPECT_EQ(render::decode_png_file(out("two/frame_0000.png")).rgba,
+              render::decode_png_file(out("own/frame_0001.png")).rgba);
+    EXPECT_EQ(run({"KBGM", "--time-method", "blend", "-o", out("a.gif")}).status, 2);
+    EXPECT_EQ(run({"KBGM", "--interval", "0", "-o", out("a.gif")}).status, 2);
+    EXPECT_EQ(run({"KBGM", "--interval", "1h", "-o", out("a.gif")}).status, 3);
 }
 
 TEST_F(Loop, DrawsTheProductAndMomentAskedFor) {
