@@ -209,7 +209,8 @@ TEST_F(ArchiveFillTest, TheGuessOfBytesIsOnTheSafeSide) {
     const cache::Store filled = store("filled");
     static_cast<void>(fill(filled, options()));
     std::uint64_t bytes = 0;
-    for (const cache::StoreEntry& entry : *filled.list("KBGM", level2::Moment::ref, {}, {}))
+    const auto entries = filled.list("KBGM", level2::Moment::ref, {}, {});
+    for (const cache::StoreEntry& entry : *entries)
         bytes += entry.bytes_on_disk;
     const ArchiveFill filling(filled, directory_ / "scratch", options());
     EXPECT_GE(filling.bytes_of(3, 0), bytes);

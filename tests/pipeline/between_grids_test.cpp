@@ -249,7 +249,8 @@ TEST_F(BetweenMosaics, NothingIsMadeByOtherRulesThanTheDomains) {
 
 TEST_F(BetweenMosaics, WithoutTheSitesGridsThereIsNothingBetween) {
     fill(domain());
-    for (const cache::StoreEntry& entry : *store_.list("north.KBGM", moment, {}, {}))
+    const auto partials = store_.list("north.KBGM", moment, {}, {});
+    for (const cache::StoreEntry& entry : *partials)
         ASSERT_TRUE(store_.remove(entry));
     std::filesystem::remove_all(directory_ / "cache" / "north.KBGM");
     const auto between = BetweenGrids::open(store_, "north", moment, {}, problems_);
