@@ -1,4 +1,5 @@
 // stormcellar loop: the grids of a time range as animations.
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -15,17 +16,18 @@
 #include "cli/loop_options.h"
 #include "cli/loop_report.h"
 #include "cli/picture.h"
+#include "cli/picture_metadata.h"
+#include "cli/picture_plan.h"
 #include "cli/progress.h"
 #include "render/map/map_layer.h"
 
 namespace stormcellar::cli {
 namespace {
 
-// What the frames of a loop share; how exactly they are drawn is planned for the first.
+// What the frames of a loop share.
 struct Drawing {
     render::Scene scene;
     render::MapKeeper map;
-    bool is_planned = false;
 };
 
 // A grid that stands, or one that was made for the instant.
@@ -77,14 +79,6 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
     facts.interpolated = grid->made && options.time_method != "nearest";
     const int threads = thread_count(options.scene);
-    if (!drawing.is_planned) {
-        if (auto planned = plan_picture(grid->view(), facts, options.plan, options.json, threads,
-                                        drawing.scene);
-            !planned) {
-            return pass_on(planned);
-        }
-        drawing.is_planned = true;
-    }
     auto picture = render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.map);
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
@@ -121,27 +115,61 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const render::Scen
     return {};
 }
 
-Result<LoopReport> make_loop(LoopGrids& grids, const LoopOptions& options,
-                             const render::Scene& scene, const std::atomic<bool>& stop,
-                             Clock::time_point start) {
+// Draws and writes; `report` goes on from what is in it.
+Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
+                 const std::atomic<bool>& stop, LoopReport& report) {
     auto writers = make_writers(options.outputs, options.animation);
     if (!writers) return pass_on(writers);
     Encoding encoding(std::move(*writers));
-    LoopReport report;
-    if (auto drawn = draw_all(grids, options, scene, stop, encoding, report); !drawn) {
-        return pass_on(drawn);
-    }
+    if (auto drawn = draw_all(grids, options, scene, stop, encoding, report); !drawn) return drawn;
     if (!stop) {
         if (report.frames == 0) {
             return fail(ErrorCode::corrupt, "{}: each of the {} grids is damaged; nothing written",
-                        grids.store->directory().native(), grids.frames.size());
+                        grids.store->directory().native(), report.skipped.size());
         }
-        if (auto finished = encoding.finish(stop); !finished) return pass_on(finished);
+        if (auto finished = encoding.finish(stop); !finished) return finished;
         report.encode_s = encoding.encode_s();
     }
     report.interrupted = stop;
-    report.total_s = seconds_since(start);
-    return report;
+    return {};
+}
+
+// What cannot be opened is named, so that the file says how many frames it has. Gives the first
+// that can: how all are drawn is planned for it, and its method stands for all.
+std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
+    std::optional<cache::GridFile> first;
+    const auto look_at = [&](const std::filesystem::path& path) {
+        auto file = cache::GridFile::open(path);
+        if (!file) {
+            report.skipped.push_back({path, file.error().message});
+            warn_skipped(report.skipped.back());
+        } else if (!first) {
+            first.emplace(std::move(*file));
+        }
+        return file.has_value();
+    };
+    std::erase_if(grids.frames, [&](const LoopFrame& frame) {
+        return frame.stored && !look_at(frame.stored->path);
+    });
+    if (!first && !grids.frames.empty()) look_at(grids.sample);
+    return first;
+}
+
+// Plans for the first grid, and says in the file's metadata what the loop is.
+Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions& options,
+               render::Scene& scene) {
+    const auto& description = first.description();
+    const auto facts = facts_of(options.domain, description, options.scene.time_zone);
+    const auto error = plan_picture(first.view(), facts, options.plan, options.json,
+                                    thread_count(options.scene), scene);
+    if (!error) return pass_on(error);
+    const std::string between = grids.between ? grids.between->method_text() : "";
+    const auto by_time = [](const LoopFrame& a, const LoopFrame& b) { return a.time < b.time; };
+    const auto [from, to] = std::minmax_element(grids.frames.begin(), grids.frames.end(), by_time);
+    options.animation.metadata =
+        metadata_of({options.domain, from->time, to->time, grids.frames.size(), between, *error},
+                    description, scene);
+    return {};
 }
 
 // Adds the way back, without the two ends.
@@ -153,18 +181,26 @@ void turn_back(std::vector<LoopFrame>& frames) {
 }
 
 // Gives the exit status.
-int draw_loop(LoopGrids grids, LoopOptions options, const render::Scene& scene,
-              Interrupt& interrupt, Clock::time_point start) {
+int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
+              Clock::time_point start) {
     options.domain = grids.domain;
     auto& frames = grids.frames;
     if (options.last > 0 && frames.size() > options.last) {
         frames.erase(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(options.last));
     }
-    options.animation.metadata = metadata_of(grids, options, scene);
+    LoopReport report;
+    const auto first = keep_readable(grids, report);
     if (options.ping_pong) turn_back(frames);
-    const auto report = make_loop(grids, options, scene, interrupt.flag(), start);
-    if (!report) return report_error(report.error());
-    if (report->interrupted) {
+    if (first) {
+        if (auto prepared = prepare(grids, *first, options, scene); !prepared) {
+            return report_error(prepared.error());
+        }
+    }
+    if (auto made = make_loop(grids, options, scene, interrupt.flag(), report); !made) {
+        return report_error(made.error());
+    }
+    report.total_s = seconds_since(start);
+    if (report.interrupted) {
         fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
         interrupt.end_by_signal();
         return exit_failed;
@@ -174,7 +210,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, const render::Scene& scene,
             return report_error(left.error());
         }
     }
-    print_report(options, scene, *report, grids.archive);
+    print_report(options, scene, report, grids.archive);
     return exit_done;
 }
 

@@ -15,25 +15,6 @@ void warn_skipped(const Skipped& skipped) {
     fmt::print(stderr, "stormcellar: warning: frame left out: {}\n", printable(skipped.reason));
 }
 
-std::vector<std::pair<std::string, std::string>> metadata_of(const LoopGrids& grids,
-                                                             const LoopOptions& options,
-                                                             const render::Scene& scene) {
-    std::vector<std::pair<std::string, std::string>> metadata{
-        {"Title",
-         fmt::format("{} {} to {}", ascii(options.domain), format_utc(grids.frames.front().time),
-                     format_utc(grids.frames.back().time))}};
-    std::string description = render::product_title(scene);
-    const auto& stored = grids.frames.front().stored;
-    if (const auto first = cache::GridFile::open(stored ? stored->path : grids.sample)) {
-        const auto& provenance = first->description().provenance;
-        description += fmt::format("; gridded by {}, {}; stations {}", provenance.method,
-                                   provenance.beam_model, fmt::join(provenance.stations, " "));
-    }
-    metadata.emplace_back("Description", ascii(description));
-    metadata.emplace_back("Software", fmt::format("stormcellar {}", software_version));
-    return metadata;
-}
-
 namespace {
 
 void add_archive(const ArchiveGrids& archive, nlohmann::json& document) {

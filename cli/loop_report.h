@@ -37,9 +37,4 @@ void warn_skipped(const Skipped& skipped);  // on stderr
 void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
                   const std::optional<ArchiveGrids>& archive = std::nullopt);
 
-// What the file says of itself. The first grid stands for the method of all; there is at least one
-// frame.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> metadata_of(
-    const LoopGrids& grids, const LoopOptions& options, const render::Scene& scene);
-
 }  // namespace stormcellar::cli
