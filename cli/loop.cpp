@@ -138,6 +138,7 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Sce
 // that can: how all are drawn is planned for it, and its method stands for all.
 std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
     std::optional<cache::GridFile> first;
+    bool is_mixed = false;
     const auto look_at = [&](const std::filesystem::path& path) {
         auto file = cache::GridFile::open(path);
         if (!file) {
@@ -145,6 +146,8 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
             warn_skipped(report.skipped.back());
         } else if (!first) {
             first.emplace(std::move(*file));
+        } else {
+            is_mixed = is_mixed || file->description().spec != first->description().spec;
         }
         return file.has_value();
     };
@@ -152,6 +155,10 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
         return frame.stored && !look_at(frame.stored->path);
     });
     if (!first && !grids.frames.empty()) look_at(grids.sample);
+    if (is_mixed) {
+        print_note(
+            "grids of this domain differ in place or size, so the view differs between frames");
+    }
     return first;
 }
 
@@ -219,6 +226,10 @@ int run_loop(const LoopOptions& options) {
     if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
+    // What could never be written is refused before any grid is made.
+    if (const auto writers = make_writers(options.outputs, options.animation); !writers) {
+        return report_error(writers.error());
+    }
     Interrupt interrupt;
     auto grids = find_grids(options, *scene, interrupt);
     if (!grids) return report_error(grids.error());
