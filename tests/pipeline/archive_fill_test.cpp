@@ -11,6 +11,7 @@
 #include "pipeline/mosaic_keeper.h"
 #include "pipeline/rebuild_catalog.h"
 #include "tests/testing/data.h"
+#include "tests/testing/metered_file_system.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
@@ -195,6 +196,23 @@ TEST_F(ArchiveFillTest, AGridOfAFileThatIsGoneSinceStands) {
     ArchiveOptions finer = options();
     finer.nx = 100;
     EXPECT_THAT(*ArchiveFill(filled, directory_ / "scratch", finer).missing(all), SizeIs(3));
+}
+
+TEST_F(ArchiveFillTest, AFullDiskIsAnErrorAndWhatWasMadeStays) {
+    testing::MeteredFileSystem disk(directory_ / "filled");
+    const auto filled = cache::Store::open_for_writing(disk, directory_ / "filled", true);
+    ASSERT_TRUE(filled);
+    disk.set_capacity(300'000);  // one grid of this size, not three
+    FillReport report;
+    ArchiveOptions alone = options();
+    alone.threads = 1;
+    ArchiveFill filling(*filled, directory_ / "scratch", alone);
+    const Status full = filling.fill(volumes(), {}, stop_, report);
+    ASSERT_FALSE(full);
+    EXPECT_EQ(full.error().code, ErrorCode::no_space);
+    EXPECT_EQ(report.grids_made, 1U);
+    disk.set_capacity(100'000'000);
+    EXPECT_EQ(fill(*filled, alone).grids_made, 2U);
 }
 
 TEST_F(ArchiveFillTest, NoVolumeBeginsOnceItIsToStop) {
