@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <system_error>
+#include <thread>
 
 #include <fmt/ranges.h>
 
@@ -143,7 +144,9 @@ Result<Plan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
         plan.mosaic = plan.fill.domain = std::move(*mosaic);
     }
     if (!call.cache.empty()) {
-        plan.cache = call.cache;
+        std::error_code error;
+        plan.cache = fs::absolute(call.cache, error);
+        if (error) return fail(ErrorCode::io, "{}: {}", call.cache.native(), error.message());
         return plan;
     }
     auto cache = private_cache(call, plan);
@@ -248,8 +251,14 @@ Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
     return entries;
 }
 
+// A process that was just killed may hold the lock a moment longer.
 Result<cache::Store> open_cache(const fs::path& directory) {
     auto store = cache::Store::open_rolling(real_file_system(), directory, {});
+    for (int tries = 1; tries < 20 && !store; ++tries) {
+        if (store.error().code != ErrorCode::bad_argument) break;
+        std::this_thread::sleep_for(glance);
+        store = cache::Store::open_rolling(real_file_system(), directory, {});
+    }
     if (!store && store.error().code == ErrorCode::bad_argument) {
         return fail(ErrorCode::io, "{} (another loop of the same grids, or a daemon)",
                     store.error().message);

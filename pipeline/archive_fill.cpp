@@ -89,7 +89,8 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment mom
              Ledger& ledger) {
     const auto outcome = ingestor.ingest_again(volume.path);
     if (!outcome) {
-        if (outcome.error().code == ErrorCode::not_found) {
+        const auto stamp = stamp_of(volume.path);
+        if (!stamp && stamp.error().code == ErrorCode::not_found) {
             ledger.left_out(volume.path, "is gone");
         } else {
             ledger.failed(outcome.error());

@@ -99,6 +99,16 @@ TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
     EXPECT_FALSE(fs::exists(loops()));
 }
 
+// 2026-11-22: every raw file was called gone, for a cache's directory had no parent to be synced.
+TEST_F(ArchiveLoop, TheCacheMayBeNamedByOneWord) {
+    const fs::path before = fs::current_path();
+    fs::current_path(directory_ / "drop");
+    const auto result = run_station({"--cache", "word", "--quiet"});
+    fs::current_path(before);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(fs::exists(directory_ / "drop" / "word" / "KBGM"));
+}
+
 TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {
     std::vector<std::string> all =
         arguments({"--stations", "KBGM", "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00",
