@@ -102,7 +102,10 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     const auto error = plan_picture(first.view(), facts, options.plan, options.json,
                                     thread_count(options.scene), scene);
     if (!error) return pass_on(error);
-    const std::string between = grids.between ? grids.between->method_text() : "";
+    const bool some_between =
+        std::any_of(grids.frames.begin(), grids.frames.end(),
+                    [](const LoopFrame& frame) { return !frame.stored.has_value(); });
+    const std::string between = some_between ? grids.between->method_text() : "";
     const auto by_time = [](const LoopFrame& a, const LoopFrame& b) { return a.time < b.time; };
     const auto [from, to] = std::minmax_element(grids.frames.begin(), grids.frames.end(), by_time);
     options.animation.metadata =

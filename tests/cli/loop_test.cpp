@@ -259,6 +259,8 @@ TEST_F(Loop, MakesFramesBetweenGridsWhenCalledFor) {
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["frames"], 4);  // 02:45, 02:48, 02:51, 02:54
     EXPECT_EQ(json["interpolated"], 4);
+    EXPECT_EQ(png_texts(out("frames/frame_0000.png"))["Between grids"],
+              "advected, each volume as of its middle");
     const auto own = run({"KBGM", "--product", "composite", "--no-labels", "-o", out("own/")});
     ASSERT_EQ(own.status, 0) << own.err;
     const auto two =
