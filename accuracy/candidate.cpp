@@ -11,13 +11,9 @@ Candidate evaluate(const Chain& chain, const Choice& choice) {
     candidate.choice = choice;
     candidate.cost_s = cost_s(chain, choice);
     candidate.effort = effort(chain, choice);
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        const std::vector<Effect>& effects = chain.steps[i].effects;
-        for (std::size_t k = choice.rungs[i]; k < effects.size(); ++k) {
-            candidate.left_off += effects[k].predicted;
-            ++candidate.off;
-        }
-    }
+    candidate.left_off = left_off(chain, choice);
+    for (std::size_t i = 0; i < chain.steps.size(); ++i)
+        candidate.off += chain.steps[i].effects.size() - choice.rungs[i];
     return candidate;
 }
 

@@ -86,8 +86,10 @@ double effort(const Chain& chain, const Choice& choice) {
 ErrorSize left_off(const Chain& chain, const Choice& choice) {
     ErrorSize sum;
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        for (std::size_t k = choice.rungs[i]; k < chain.steps[i].effects.size(); ++k)
-            sum += chain.steps[i].effects[k].predicted;
+        for (std::size_t k = choice.rungs[i]; k < chain.steps[i].effects.size(); ++k) {
+            const Effect& effect = chain.steps[i].effects[k];
+            if (effect.setting != Setting::not_asked) sum += effect.predicted;
+        }
     }
     return sum;
 }
@@ -95,12 +97,26 @@ ErrorSize left_off(const Chain& chain, const Choice& choice) {
 RungRange allowed_rungs(const Step& step) {
     RungRange range{0, step.effects.size()};
     for (std::size_t i = step.effects.size(); i > 0; --i) {
-        if (step.effects[i - 1].setting == Setting::off) range.most = i - 1;
+        const Setting setting = step.effects[i - 1].setting;
+        if (setting == Setting::off || setting == Setting::not_asked) range.most = i - 1;
     }
     for (std::size_t i = 0; i < step.effects.size(); ++i) {
         if (step.effects[i].setting == Setting::on) range.least = i + 1;
     }
     return range;
+}
+
+Choice exact_choice(const Chain& chain) {
+    Choice exact;
+    for (const Step& step : chain.steps) {
+        const auto is_asked = [](const Effect& effect) {
+            return effect.setting != Setting::not_asked;
+        };
+        const auto first_unasked =
+            std::find_if_not(step.effects.begin(), step.effects.end(), is_asked);
+        exact.rungs.push_back(static_cast<std::size_t>(first_unasked - step.effects.begin()));
+    }
+    return exact;
 }
 
 Status validate(const Chain& chain) {

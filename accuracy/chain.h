@@ -51,7 +51,10 @@ struct Choice {
 // The same sum of efforts, the cheapest choice counting as 0.
 [[nodiscard]] double effort(const Chain& chain, const Choice& choice);
 
-// The sum of the predicted sizes of the effects above the choice's rungs.
+// The exact form: every effect on that the scene asks for.
+[[nodiscard]] Choice exact_choice(const Chain& chain);
+
+// The sum of the predicted sizes of the effects above the choice's rungs, of those asked for.
 [[nodiscard]] ErrorSize left_off(const Chain& chain, const Choice& choice);
 
 // The rungs that the effects' settings leave to choose from, both included.

@@ -15,7 +15,9 @@
 
 namespace stormcellar::accuracy {
 
-enum class Setting { automatic, on, off };
+// not_asked: the scene does not ask for it, so that the exact form is without it too and leaving it
+// off is no error. Light is such: a picture without shadows is not wrong.
+enum class Setting { automatic, on, off, not_asked };
 
 // How a predicted size is known.
 enum class Evidence {

@@ -53,7 +53,7 @@ std::vector<Line> lines_of(const Plan& plan) {
     std::vector<Line> lines{{"", "effect", "predicted", "of budget", "by", ""}};
     std::size_t off = 0;
     for (const Decision& decision : plan.decisions) {
-        if (!decision.on) ++off;
+        if (!decision.on && decision.is_asked) ++off;
         lines.push_back(
             {decision.on ? "on" : "off", decision.effect,
              format_size(decision.predicted, plan.value_unit), percent(plan, decision.share),

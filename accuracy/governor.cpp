@@ -14,6 +14,7 @@ bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         const std::vector<Effect>& effects = chain.steps[i].effects;
         for (std::size_t k = choice.rungs[i]; k < effects.size(); ++k) {
+            if (effects[k].setting == Setting::not_asked) continue;
             if (effects[k].evidence == Evidence::sample && effects[k].predicted.of(quantity) > 0) {
                 return false;
             }

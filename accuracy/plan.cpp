@@ -63,6 +63,7 @@ std::string reason_on(const Situation& situation, std::size_t at, std::size_t in
 std::string reason_off(const Situation& situation, const Step& step, std::size_t index) {
     const Effect& effect = step.effects[index];
     if (effect.setting == Setting::off) return "set off";
+    if (effect.setting == Setting::not_asked) return "the scene does not ask for it";
     const std::size_t most = allowed_rungs(step).most;
     if (most <= index) return fmt::format("needs {}, which is set off", step.effects[most].name);
     if (effect.predicted == ErrorSize{}) return "changes nothing here";
@@ -99,6 +100,7 @@ Plan make_plan(const Chain& chain, const Budget& budget, const Candidate& candid
             decision.what = effect.what;
             decision.step = step.name;
             decision.on = k < rung;
+            decision.is_asked = effect.setting != Setting::not_asked;
             decision.predicted = effect.predicted;
             decision.evidence = effect.evidence;
             decision.share = worst_share(effect.predicted, budget);

@@ -19,6 +19,7 @@ struct Decision {
     std::string what;  // the effect's own sentence
     std::string step;
     bool on = false;
+    bool is_asked = true;  // false where Setting::not_asked: no part of what is left off
     ErrorSize predicted;
     Evidence evidence = Evidence::sample;
     double share = 0;    // worst_share() of it alone: what leaving it off takes or would take

@@ -11,14 +11,16 @@
 //   threads   that draw
 //   fps       1 / (t1 + t2 + t3)
 //   t1_s      opening and validating the file, mapping it
-//   t2_s      preparing: what the view and the table need; a loop does it once, here each frame
-//   does t3_s      drawing and compositing over the page's colour: 8 bits a channel de_mean, de_p99
-//   CIEDE2000 against the reference marcher in double precision with 8,192 steps,
-//                     over every fifth pixel both ways of the first time step
+//   t2_s      what the rays need of the grid: which steps may show anything, codes put together
+//   t3_s      the rays, and compositing over the page's colour: 8 bits a channel
+//   de_mean, de_p99   CIEDE2000 against the reference marcher in double precision with 8,192
+//                     steps, over every fifth pixel both ways of the first time step
 //   de_echo_mean, de_echo_p99   the same over the pixels where the reference has echo
-//   paper_fps what the paper's renderer had, with a graphics card of 2008
-// Times are the least of the runs, each the mean of five frames. The files come from the page
-// cache.
+//   paper_fps what the paper's renderer had, with a graphics card of 2008; 0 for numbers of slices
+//             that it had not
+// What view and colours alone need is made once for all frames, as in a loop. Times are the least
+// of the runs, each the mean of five frames. The files come from the page cache.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -50,6 +52,9 @@ constexpr std::array<Method, 4> methods = {{
     {"smooth", Integration::first_order, 2.0 / 255},
 }};
 
+// The paper's, and some between.
+constexpr std::array<int, 7> measured_slices = {64, 128, 160, 192, 256, 512, 1024};
+
 struct Phases {
     double read_s = 0, prepare_s = 0, render_s = 0;
     [[nodiscard]] double total_s() const { return read_s + prepare_s + render_s; }
@@ -61,30 +66,41 @@ struct Case {
     int threads = 1;
 };
 
-// The picture of one time step from its file.
-render::Image draw_frame(const Case& drawn, const fs::path& path, Phases& phases) {
-    std::optional<cache::GridFile> file;
-    phases.read_s += seconds_of([&] { file.emplace(std::move(*cache::GridFile::open(path))); });
-    std::optional<render::ViewGeometry> geometry;
-    std::optional<render::VolumeSlicer> slicer;
-    phases.prepare_s += seconds_of([&] {
-        geometry.emplace(drawn.scene->view());
-        slicer.emplace(render::nws_reflectivity(), file->view().quantization, *geometry,
-                       drawn.options);
-    });
-    render::Image picture;
-    phases.render_s +=
-        seconds_of([&] { picture = finished(slicer->draw(file->view(), drawn.threads)); });
-    return picture;
-}
+// Pictures of time steps, as a loop makes them.
+class Drawing {
+  public:
+    Drawing(const Case& drawn, const grid::Quantization& quantization)
+        : geometry_(drawn.scene->view()),
+          slicer_(render::nws_reflectivity(), quantization, geometry_, drawn.options),
+          threads_(drawn.threads) {}
+
+    // From its file; finished in `picture`.
+    void draw(const fs::path& path, Phases& phases, render::Image& picture) {
+        std::optional<cache::GridFile> file;
+        phases.read_s += seconds_of([&] { file.emplace(std::move(*cache::GridFile::open(path))); });
+        phases.prepare_s += seconds_of([&] { slicer_.prepare(file->view(), threads_, room_); });
+        phases.render_s += seconds_of([&] {
+            slicer_.cast(file->view(), threads_, room_);
+            picture = finished(room_.layer, threads_);
+        });
+    }
+
+  private:
+    render::ViewGeometry geometry_;
+    render::VolumeSlicer slicer_;
+    int threads_;
+    render::SlicerRoom room_;
+};
 
 Phases time_frames(const Case& drawn, int runs) {
     Phases least{std::numeric_limits<double>::infinity(), 0, 0};
     const auto& files = drawn.scene->files();
+    Drawing drawing(drawn, cache::GridFile::open(files.front())->view().quantization);
+    render::Image picture;
     for (int run = 0; run < runs; ++run) {
         Phases sum;
         for (const fs::path& file : files)
-            static_cast<void>(draw_frame(drawn, file, sum));
+            drawing.draw(file, sum, picture);
         const auto frames = static_cast<double>(files.size());
         const Phases mean{sum.read_s / frames, sum.prepare_s / frames, sum.render_s / frames};
         if (mean.total_s() < least.total_s()) least = mean;
@@ -92,22 +108,30 @@ Phases time_frames(const Case& drawn, int runs) {
     return least;
 }
 
+double paper_fps(const PaperVolume& volume, int slices) {
+    const auto* found = std::find(paper_slices.begin(), paper_slices.end(), slices);
+    if (found == paper_slices.end()) return 0;
+    return volume.fps[static_cast<std::size_t>(found - paper_slices.begin())];
+}
+
 void measure_volume(const PaperVolume& volume, const RenderScene& scene, const Request& request,
                     Table& table) {
     const auto first = cache::GridFile::open(scene.files().front());
     const auto geometry = scene.view();
     const ReferencePixels reference(first->view(), geometry, 2);
-    for (std::size_t s = 0; s < paper_slices.size(); ++s) {
+    for (const int slices : measured_slices) {
         for (const Method& method : methods) {
-            Case drawn{&scene, {paper_slices[s], method.integration, 1, method.tolerance}, 1};
+            Case drawn{&scene, {slices, method.integration, 1, method.tolerance}, 1};
             Phases ignored;
-            const PictureError error =
-                compare(reference, draw_frame(drawn, scene.files().front(), ignored));
+            render::Image picture;
+            Drawing(drawn, first->view().quantization)
+                .draw(scene.files().front(), ignored, picture);
+            const PictureError error = compare(reference, picture);
             for (const int threads : request.threads) {
                 drawn.threads = threads;
                 const Phases phases = time_frames(drawn, request.runs);
                 table.add({{"volume", volume.name},
-                           {"slices", paper_slices[s]},
+                           {"slices", slices},
                            {"method", method.name},
                            {"threads", threads},
                            {"fps", {1 / phases.total_s(), 1}},
@@ -118,7 +142,7 @@ void measure_volume(const PaperVolume& volume, const RenderScene& scene, const R
                            {"de_p99", {error.p99, 2}},
                            {"de_echo_mean", {error.echo_mean, 3}},
                            {"de_echo_p99", {error.echo_p99, 2}},
-                           {"paper_fps", {volume.fps[s], 1}}});
+                           {"paper_fps", {paper_fps(volume, slices), 1}}});
             }
         }
     }

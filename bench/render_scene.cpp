@@ -114,9 +114,9 @@ double RenderScene::footprint() const {
     return static_cast<double>(inside) / (picture_width * picture_height);
 }
 
-render::Image finished(const render::Layer& layer) {
+render::Image finished(const render::Layer& layer, int threads) {
     render::Image picture(layer.width, layer.height, render::shades::page);
-    render::composite_over(layer, picture, 0, 0);
+    render::composite_over(layer, picture, 0, 0, threads);
     return picture;
 }
 

@@ -50,7 +50,7 @@ class RenderScene {
 };
 
 // Over the page's colour, as every frame of the benchmark is.
-[[nodiscard]] render::Image finished(const render::Layer& layer);
+[[nodiscard]] render::Image finished(const render::Layer& layer, int threads);
 
 // Every `stride`-th pixel of the picture as the reference has it. Odd, so that pixels on and
 // between the coarser grids of rays count alike.

@@ -15,6 +15,7 @@
 #include "cli/held_out.h"
 #include "cli/ladder_markdown.h"
 #include "cli/mosaic_accuracy.h"
+#include "cli/picture_ladder.h"
 #include "cli/site_pairs.h"
 #include "cli/stopwatch.h"
 #include "cli/truth_errors.h"
@@ -35,6 +36,7 @@ struct AccuracyOptions {
     bool markdown = false;
     bool held_out = false;
     bool compare_sites = false;
+    bool picture = false;
 };
 
 // The volume of a file, or the first one of a simulated scene.
@@ -91,13 +93,18 @@ nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
 
 Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueUnit unit,
                   const std::string& title, const std::string& file) {
+    const bool of_picture = std::any_of(
+        rows.begin(), rows.end(), [](const auto& row) { return row.image_p99_de && !row.value; });
     accuracy::Plot plot;
     plot.title = title;
-    plot.error_label = fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
-    plot.time_label = "Time of a whole grid, geometry kept";
+    plot.error_label =
+        of_picture ? "Colour difference, 99th percentile (CIEDE2000)"
+                   : fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
+    plot.time_label = of_picture ? "Time of a picture" : "Time of a whole grid, geometry kept";
     for (const accuracy::LadderRow& row : rows) {
-        plot.points.push_back({row.name, row.step, row.kept_time_s.value_or(row.time_s),
-                               row.value ? row.value->p99 : 0, row.pareto});
+        const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);
+        plot.points.push_back(
+            {row.name, row.step, row.kept_time_s.value_or(row.time_s), error, row.pareto});
     }
     const auto svg = accuracy::draw_plot(plot);
     if (!svg) return pass_on(svg);
@@ -105,11 +112,13 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
     return write_file_atomically(real_file_system(), file, bytes);
 }
 
+enum class Table { grid, picture };
+
 void print_tables(const std::string& subject, const Measured& measured, accuracy::ValueUnit unit,
-                  bool markdown) {
+                  bool markdown, Table picture) {
     const auto& [rows, truth] = measured;
-    fmt::print("{}\n\nEach rung against the chain's exact form on the same gates:\n\n{}",
-               printable(subject),
+    fmt::print("{}\n\nEach rung against the chain's exact form on the same {}:\n\n{}",
+               printable(subject), picture == Table::picture ? "grid" : "gates",
                markdown ? ladder_markdown(rows, unit) : accuracy::format_table(rows, unit));
     if (truth.empty()) return;
     fmt::print("\nAgainst the truth of the scene (sampling error; never budgeted):\n\n{}",
@@ -141,6 +150,11 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
 Result<Measured> measure(const Subject& subject, const GridRequest& request,
                          const grid::GridSpec& spec, const EffectRequest& effects,
                          const AccuracyOptions& options) {
+    if (options.picture) {
+        auto rows = ladder_of_picture(subject.source, request, spec, options.rounds);
+        if (!rows) return pass_on(rows);
+        return Measured{std::move(*rows), {}};
+    }
     auto scene = grid::GridScene::make(
         subject.source.volume, subject.source.site, spec,
         {request.moment, 0, effects.profile, request.threads, request.frame_time});
@@ -173,6 +187,11 @@ Status check_site_options(const AccuracyOptions& options) {
 
 Status check_options(AccuracyOptions& options) {
     const std::size_t files = options.grid.files.size();
+    if (options.picture && (options.compare_sites || options.held_out || files > 1)) {
+        return fail(ErrorCode::bad_argument,
+                    "--picture takes one FILE or a scene, and neither --held-out nor "
+                    "--compare-sites");
+    }
     if (options.compare_sites) return check_site_options(options);
     if (options.scene.empty() == (files == 0)) {
         return fail(ErrorCode::bad_argument, "name one FILE or more, or a scene with --scene");
@@ -233,11 +252,12 @@ int report_ladder(const AccuracyOptions& options, const GridRequest& request,
             return report_error(drawn.error());
         }
     }
-    note_without_values(measured.rows);
+    if (!options.picture) note_without_values(measured.rows);
     if (options.grid.json) {
         print_json(subject, request.moment, measured, unit);
     } else {
-        print_tables(subject, measured, unit, options.markdown);
+        print_tables(subject, measured, unit, options.markdown,
+                     options.picture ? Table::picture : Table::grid);
     }
     return exit_done;
 }
@@ -316,6 +336,9 @@ Command add_accuracy(CLI::App& app) {
     command->add_flag("--compare-sites", options->compare_sites,
                       "Compare sites that overlap: bias, azimuth, elevation and clock of each "
                       "pair; of a site with two FILEs the motion of the weather is known");
+    command->add_flag("--picture", options->picture,
+                      "Of one FILE or a scene: what the accuracy of its picture costs instead: "
+                      "slices, integration, rays and light");
     command->add_option("--scene", options->scene,
                         "A simulated scene instead; its truth is compared with too");
     add_spec_options(*command, options->grid);

@@ -14,6 +14,7 @@
 #include "cli/picture.h"
 #include "cli/picture_metadata.h"
 #include "cli/picture_plan.h"
+#include "cli/scene_file.h"
 #include "cli/scene_options.h"
 #include "render/png_file.h"
 #include "render/products/probe.h"
@@ -31,6 +32,7 @@ struct FrameOptions {
     std::string probe;     // "X,Y"
     std::string probe_at;  // "LAT,LON"
     bool json = false;
+    SceneFile scene_file;
     SceneOptions scene;
     PicturePlanOptions plan;
 };
@@ -208,6 +210,7 @@ Status check_options(const FrameOptions& options) {
 
 int run_frame(const FrameOptions& options) {
     const auto start = Clock::now();
+    if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
@@ -236,6 +239,7 @@ int run_frame(const FrameOptions& options) {
 Command add_frame(CLI::App& app) {
     const auto options = std::make_shared<FrameOptions>();
     CLI::App* frame = app.add_subcommand("frame", "Draw one still picture of a grid in the cache");
+    add_scene_file(*frame, options->scene_file, options->scene, options->plan, nullptr);
     frame->add_option("--cache", options->cache, "The cache's directory")->required();
     frame->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
         ->required();

@@ -1,5 +1,7 @@
 #include "cli/ladder_markdown.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "accuracy/quantity.h"
@@ -24,9 +26,26 @@ std::string value_of(const accuracy::LadderRow& row) {
                        format_number(row.value->max));
 }
 
+bool is_of_pictures(std::span<const accuracy::LadderRow> rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const auto& row) { return row.image_p99_de && !row.value; });
+}
+
+std::string picture_markdown(std::span<const accuracy::LadderRow> rows) {
+    std::string text =
+        "| step | rung | time_s | colour p99 (dE) | Pareto |\n|---|---|--:|--:|---|\n";
+    for (const accuracy::LadderRow& row : rows) {
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} |\n", row.step, row.name, format_number(row.time_s),
+            row.image_p99_de ? format_number(*row.image_p99_de) : none, row.pareto ? "yes" : "no");
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string ladder_markdown(std::span<const accuracy::LadderRow> rows, accuracy::ValueUnit unit) {
+    if (is_of_pictures(rows)) return picture_markdown(rows);
     std::string text = fmt::format(
         "| step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max ({}) | "
         "status differs (%) | Pareto |\n|---|---|--:|--:|--:|--:|---|\n",

@@ -5,6 +5,7 @@
 //   status differs (%) | Pareto
 // time_s is the time with kept geometry, or the first time where there is no other. Figures have
 // three significant digits, rounded up, percentages two decimals; "-" where a row has none.
+// Of pictures (cli/picture_ladder.h): step | rung | time_s | colour p99 (dE) | Pareto.
 // Threads: pure.
 #pragma once
 

@@ -10,7 +10,9 @@
 #include "cache/grid_file.h"
 #include "cache/store.h"
 #include "cli/commands.h"
+#include "cli/follow.h"
 #include "cli/interrupt.h"
+#include "cli/kept_frames.h"
 #include "cli/loop_draw.h"
 #include "cli/loop_encoding.h"
 #include "cli/loop_grids.h"
@@ -122,7 +124,7 @@ void turn_back(std::vector<LoopFrame>& frames) {
     }
 }
 
-// Gives the exit status.
+// Gives the exit status. An interrupted loop that is followed is no failure.
 int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
               Clock::time_point start) {
     options.domain = grids.domain;
@@ -143,6 +145,7 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     }
     report.total_s = seconds_since(start);
     if (report.interrupted) {
+        if (options.follow.wanted) return exit_done;
         fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
         interrupt.end_by_signal();
         return exit_failed;
@@ -156,8 +159,26 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     return exit_done;
 }
 
+// Each time of the grids that then stand.
+int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
+    auto store = cache::Store::open_for_reading(options.cache);
+    if (!store) return report_error(store.error());
+    KeptFrames kept;
+    options.kept = &kept;
+    return follow({options.cache, options.domain, scene.moment,
+                   [&] { return entries_now(*store, options, scene.moment); },
+                   [&](const auto& entries) {
+                       kept.next_loop();
+                       return draw_loop(grids_of(*store, options.domain, entries), options, scene,
+                                        interrupt, Clock::now());
+                   },
+                   options.quiet},
+                  options.follow, interrupt.flag());
+}
+
 int run_loop(const LoopOptions& options) {
     const auto start = Clock::now();
+    if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
     const auto scene = scene_of(options.scene);
     if (!scene) return report_error(scene.error());
@@ -165,7 +186,9 @@ int run_loop(const LoopOptions& options) {
     if (const auto writers = make_writers(options.outputs, options.animation); !writers) {
         return report_error(writers.error());
     }
+    if (auto fine = check_sources(options); !fine) return report_error(fine.error());
     Interrupt interrupt;
+    if (options.follow.wanted) return follow_loop(options, *scene, interrupt);
     auto grids = find_grids(options, *scene, interrupt);
     if (!grids) return report_error(grids.error());
     if (grids->frames.empty()) return exit_nothing_matched;

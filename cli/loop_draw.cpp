@@ -1,6 +1,7 @@
 #include "cli/loop_draw.h"
 
 #include "cache/grid_file.h"
+#include "cli/kept_frames.h"
 #include "cli/picture.h"
 #include "render/render.h"
 
@@ -57,7 +58,12 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
     facts.interpolated = grid->made && options.time_method != "nearest";
     const int threads = thread_count(options.scene);
-    auto picture = render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.map);
+    const auto render = [&] {
+        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.map);
+    };
+    auto picture = options.kept != nullptr && frame.stored
+                       ? options.kept->frame(frame.stored->path, drawing.scene, render)
+                       : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
     if (const Status whole = grid->check_whole(); !whole) {  // cut while it was drawn

@@ -108,10 +108,6 @@ Status take_from_archive(const LoopOptions& options, const render::Scene& scene,
 }
 
 Status take_from_cache(const LoopOptions& options, const render::Scene& scene, LoopGrids& grids) {
-    if (options.cache.empty() || options.domain.empty()) {
-        return fail(ErrorCode::bad_argument,
-                    "a loop needs --cache and --domain, or --catalog and --stations");
-    }
     if (auto fine = parse_archive(options.archive); !fine) return pass_on(fine);
     auto store = cache::Store::open_for_reading(options.cache);
     if (!store) return pass_on(store);
@@ -127,6 +123,28 @@ Status take_from_cache(const LoopOptions& options, const render::Scene& scene, L
 }
 
 }  // namespace
+
+LoopGrids grids_of(const cache::Store& store, const std::string& domain,
+                   const std::vector<cache::StoreEntry>& entries) {
+    LoopGrids grids;
+    grids.store = store;
+    grids.domain = domain;
+    set_frames(entries, grids);
+    return grids;
+}
+
+Result<std::vector<cache::StoreEntry>> entries_now(const cache::Store& store,
+                                                   const LoopOptions& options,
+                                                   level2::Moment moment) {
+    const auto range = parse_time_range(options.range);
+    if (!range) return pass_on(range);
+    auto entries = store.list(options.domain, moment, range->from, range->to);
+    if (entries && options.last > 0 && entries->size() > options.last) {
+        entries->erase(entries->begin(),
+                       entries->end() - static_cast<std::ptrdiff_t>(options.last));
+    }
+    return entries;
+}
 
 Result<LoopGrids> find_grids(const LoopOptions& options, const render::Scene& scene,
                              Interrupt& interrupt) {

@@ -32,6 +32,14 @@ struct LoopGrids {
     std::optional<ArchiveGrids> archive;
 };
 
+// Of a cache's grids as they are.
+[[nodiscard]] LoopGrids grids_of(const cache::Store& store, const std::string& domain,
+                                 const std::vector<cache::StoreEntry>& entries);
+// The grids of a cache that are asked for, as of now: relative times count from the call.
+[[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::Store& store,
+                                                                 const LoopOptions& options,
+                                                                 level2::Moment moment);
+
 // Errors: bad_argument, naming options that are missing or go ill together; those of the cache, the
 // catalog and of filling.
 [[nodiscard]] Result<LoopGrids> find_grids(const LoopOptions& options, const render::Scene& scene,

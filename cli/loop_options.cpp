@@ -9,6 +9,7 @@
 namespace stormcellar::cli {
 
 void add_loop_options(CLI::App& loop, LoopOptions& options) {
+    add_scene_file(loop, options.scene_file, options.scene, options.plan, &options);
     loop.add_option("--cache", options.cache,
                     "The cache's directory; with --catalog where the grids are to be made");
     loop.add_option("DOMAIN,--domain", options.domain,
@@ -40,7 +41,9 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
         ->capture_default_str();
     loop.add_flag("--ping-pong", options.ping_pong,
                   "There and back: behind the last frame the others again, down to the second");
-    loop.add_flag("--json", options.json, "Say what was done as one JSON document");
+    add_follow_options(loop, options.follow);
+    loop.add_flag("--json", options.json,
+                  "Say what was done as one JSON document; with --follow one a line");
     loop.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors");
     add_archive_options(loop, options.archive);
     add_scene_options(loop, options.scene);
@@ -66,6 +69,17 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
     }
     rhythm.method = *method;
     return rhythm;
+}
+
+Status check_sources(const LoopOptions& options) {
+    if (options.follow.wanted && (options.archive.asked() || !options.interval.empty())) {
+        return fail(ErrorCode::bad_argument, "--follow goes with neither --catalog nor --interval");
+    }
+    if (!options.archive.asked() && (options.cache.empty() || options.domain.empty())) {
+        return fail(ErrorCode::bad_argument,
+                    "a loop needs --cache and --domain, or --catalog and --stations");
+    }
+    return {};
 }
 
 Status check_outputs(const std::vector<std::string>& outputs) {

@@ -8,29 +8,29 @@
 
 #include "base/result.h"
 #include "cli/archive_options.h"
+#include "cli/follow.h"
 #include "cli/picture_plan.h"
 #include "cli/query_options.h"
+#include "cli/scene_file.h"
 #include "cli/scene_options.h"
 #include "render/animation/animation.h"
 
 namespace stormcellar::cli {
 
-struct LoopOptions {
+class KeptFrames;
+
+struct LoopOptions : LoopSettings {
     std::string cache;
-    std::string domain;
-    TimeRangeOptions range;
     ArchiveOptions archive;
+    SceneFile scene_file;
+    FollowOptions follow;
     std::string interval;     // from frame to frame; empty: each grid that there is
     std::string time_method;  // empty: advected
-    std::size_t last = 0;     // 0: all
-    double orbit_deg = 0;     // the camera's way round the grid over the loop
-    bool ping_pong = false;
-    std::vector<std::string> outputs;
     bool json = false;
     bool quiet = false;
-    render::AnimationOptions animation;
     SceneOptions scene;
     PicturePlanOptions plan;
+    KeptFrames* kept = nullptr;  // of a loop that is followed
 };
 
 // Puts the options that are the loop's own on its subcommand, and those of the scene and the plan.
@@ -44,6 +44,9 @@ struct Rhythm {
 };
 // bad_argument, naming the option.
 [[nodiscard]] Result<Rhythm> rhythm_of(const LoopOptions& options);
+
+// bad_argument where the grids' source is not said, or --follow goes with what cannot be followed.
+[[nodiscard]] Status check_sources(const LoopOptions& options);
 
 // bad_argument when two outputs are the same file.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& outputs);

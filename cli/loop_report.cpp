@@ -67,7 +67,7 @@ void print_report(const LoopOptions& options, const render::Scene& scene, const 
                             {"encode_s", report.encode_s},
                             {"total_s", report.total_s}};
     if (archive) add_archive(*archive, document);
-    print_json(document);
+    (options.follow.wanted ? print_json_line : print_json)(document);
 }
 
 }  // namespace stormcellar::cli

@@ -11,12 +11,13 @@ namespace stormcellar::cli {
 namespace {
 
 struct PictureRequest {
-    accuracy::Chain chain = render::volume_chain();
+    accuracy::Chain chain;
     std::optional<accuracy::Budget> budget;
 };
 
-Result<PictureRequest> parse_plan(const PicturePlanOptions& options) {
+Result<PictureRequest> parse_plan(const PicturePlanOptions& options, const render::Light& light) {
     PictureRequest request;
+    request.chain = render::volume_chain(light);
     std::vector<accuracy::EffectOverride> overrides;
     for (const std::string& text : options.effects) {
         const auto parsed = accuracy::parse_override(text, accuracy::effect_names(request.chain));
@@ -35,7 +36,8 @@ Result<PictureRequest> parse_plan(const PicturePlanOptions& options) {
 }
 
 render::VolumeChoice choice_of(const render::Scene& scene) {
-    return {scene.slices, scene.integration, !(scene.pixel_tolerance > 0)};
+    return {scene.slices,         scene.integration,  !(scene.pixel_tolerance > 0),
+            scene.light.gradient, scene.light.shadow, scene.light.scattering};
 }
 
 // What the settings leave of the default.
@@ -87,15 +89,16 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
                     "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
                     render::product_name(scene.product));
     }
-    const auto request = parse_plan(options);
+    const auto request = parse_plan(options, scene.light);
     if (!request) return pass_on(request);
     if (auto valid = render::check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto layout = render::layout_of(view, facts, scene);
     if (!layout) return pass_on(layout);
     render::VolumeScene drawn(view, render::colours_of(scene), scene, layout->width, layout->height,
                               threads);
-    const auto planned = render::plan_volume(drawn, request->chain, request->budget,
-                                             by_default(request->chain, scene));
+    const auto planned = render::plan_volume(
+        drawn, request->chain, request->budget, by_default(request->chain, scene),
+        options.explain ? render::Predicted::all : render::Predicted::asked);
     if (!planned) return pass_on(planned);
     if (options.explain) {
         fmt::print(json ? stderr : stdout, "{}", accuracy::explain(planned->plan));
@@ -105,6 +108,9 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
     scene.slices = planned->choice.slices;
     scene.integration = planned->choice.integration;
     scene.pixel_tolerance = planned->choice.every_pixel ? 0 : render::interpolated_tolerance;
+    scene.light.gradient = planned->choice.gradient;
+    scene.light.shadow = planned->choice.shadow;
+    scene.light.scattering = planned->choice.scattering;
     return error_text(planned->plan);
 }
 

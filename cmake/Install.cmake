@@ -11,3 +11,6 @@ install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
   ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
   DESTINATION ${STORMCELLAR_CMAKE_DIR})
 install(FILES LICENSE README.md docs/operations.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Scenes of pictures, for stormcellar frame and loop.
+install(FILES scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
+  scenes/storm-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)

@@ -253,6 +253,8 @@ Result<Config> load_config(const std::filesystem::path& file) {
     config.ingest.domains = pipeline::read_domains(root);
     read_cache(root.section("cache"), config);
     read_rest(root.section("watch"), root.section("log"), config);
+    config.loops = read_loops(root, std::filesystem::absolute(file).parent_path(),
+                              {config.drop, config.state, config.cache});
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;
 }

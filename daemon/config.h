@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "cache/budget.h"
+#include "daemon/loop_config.h"
 #include "pipeline/ingest.h"
 
 namespace stormcellar::daemon {
@@ -35,6 +37,7 @@ struct Config {
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
     std::string log_level = "info";
+    std::vector<LoopConfig> loops;
 
     [[nodiscard]] int worker_count() const;
 };

@@ -32,7 +32,8 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       status_file_(parts_.file_system, config_.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
       pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }),
-      cache_keeper_(parts_.sink, [this] { wake_up_.set(); }) {}
+      cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
+      loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {}
 
 void Service::request_stop() {
     stop_requested_ = true;
@@ -58,6 +59,7 @@ bool Service::start() {
     spdlog::info("ready: watching {} ({} directories), {} files to look at, {} workers",
                  printable(config_.drop.native()), watcher_.directory_count(),
                  pending.waiting + pending.growing, config_.worker_count());
+    loop_keeper_.set(config_.loops);
     return true;
 }
 
@@ -135,6 +137,8 @@ void Service::apply(const Config& fresh) {
     if (fresh.budgets != config_.budgets) cache_keeper_.roll_soon();
     config_.budgets = fresh.budgets;
     config_.log_level = fresh.log_level;
+    config_.loops = fresh.loops;
+    loop_keeper_.set(config_.loops);
     pool_.resize(config_.worker_count());
     intake_.set_times(config_);
     next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
@@ -225,6 +229,10 @@ void Service::keep_house() {
         status_.set_usage(*usage);
         status_file_.changed();
     }
+    if (auto loops = loop_keeper_.news()) {
+        status_.set_loops(std::move(*loops));
+        status_file_.changed();
+    }
     status_file_.publish(status_, intake_.pending(), now, false);
     if (watchdog_.is_due(now, pool_.oldest_start())) parts_.notifier.send("WATCHDOG=1");
 }
@@ -262,7 +270,10 @@ Stopped Service::stop() {
     parts_.notifier.send("STOPPING=1");
     status_.set_state("stopping");
     status_file_.publish(status_, intake_.pending(), parts_.clock.steady(), true);
+    loop_keeper_.stop();
     const bool drained = pool_.drain(time_to_drain);
+    loop_keeper_.wait();
+    if (auto loops = loop_keeper_.news()) status_.set_loops(std::move(*loops));
     collect();
     const std::size_t left = intake_.pending().waiting;
     if (!drained) {

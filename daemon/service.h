@@ -5,6 +5,7 @@
 //   start    scan the drop directory, queue what is there, then say READY
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
+// Loops are other programs, which end with the service (daemon/loop_keeper.h).
 // The cache is brought within its budgets every few seconds, in a thread of its own.
 // Thread contract: run() once; request_stop(), is_idle() and sites_compared() from any thread.
 #pragma once
@@ -21,6 +22,7 @@
 #include "daemon/config.h"
 #include "daemon/inotify.h"
 #include "daemon/intake.h"
+#include "daemon/loop_keeper.h"
 #include "daemon/notify.h"
 #include "daemon/reporter.h"
 #include "daemon/signals.h"
@@ -99,6 +101,7 @@ class Service {
     // The last members: their threads are waited for before the rest goes.
     std::future<void> missing_;
     CacheKeeper cache_keeper_;
+    LoopKeeper loop_keeper_;
 };
 
 }  // namespace stormcellar::daemon

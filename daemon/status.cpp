@@ -60,6 +60,39 @@ nlohmann::ordered_json json_of(const pipeline::PairReport& report) {
             {"faults", report.faults}};
 }
 
+nlohmann::ordered_json time_or_null(const std::optional<UtcTime>& time) {
+    if (!time) return nullptr;
+    return format_utc(*time);
+}
+
+nlohmann::ordered_json json_of(const std::vector<LoopState>& loops) {
+    std::size_t running = 0;
+    std::uint64_t restarts = 0;
+    std::uint64_t made = 0;
+    std::optional<UtcTime> last_made;
+    auto each = nlohmann::ordered_json::array();
+    for (const LoopState& loop : loops) {
+        running += loop.is_running ? 1 : 0;
+        restarts += loop.restarts;
+        made += loop.made;
+        last_made = std::max(last_made, loop.last_made);
+        nlohmann::ordered_json problem = nullptr;
+        if (!loop.last_problem.empty()) problem = loop.last_problem;
+        each.push_back({{"name", loop.name},
+                        {"running", loop.is_running},
+                        {"restarts", loop.restarts},
+                        {"made", loop.made},
+                        {"last_made", time_or_null(loop.last_made)},
+                        {"frames", loop.frames},
+                        {"last_problem", problem}});
+    }
+    return {{"running", running},
+            {"restarts", restarts},
+            {"made", made},
+            {"last_made", time_or_null(last_made)},
+            {"each", each}};
+}
+
 }  // namespace
 
 std::optional<double> latency_of(const Finished& finished) {
@@ -173,6 +206,7 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
     document["sites"] = nlohmann::ordered_json::array();
     for (const auto& [key, report] : sites_)
         document["sites"].push_back(json_of(report));
+    document["loops"] = json_of(loops_);
     // Texts were made printable; whatever else a name may bring must not end the service.
     return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

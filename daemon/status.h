@@ -26,6 +26,9 @@
 //                  "cells","correlation","apart_s","faults"}; each of the four, of B against A
 //                  (grid/site_comparison.h), is {"value","standard_error"} or, where it could not
 //                  be told, {"untold"}; faults: those that are named, one text each
+//   loops          {"running","restarts","made","last_made" (null: none yet)} of all [[loop]]
+//                  tables, and "each": [{"name","running","restarts","made","last_made","frames",
+//                  "last_problem" (null: none)}]
 // Thread contract: one thread.
 #pragma once
 
@@ -36,11 +39,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file_system.h"
 #include "base/utc_time.h"
 #include "cache/store.h"
+#include "daemon/loop_config.h"
 #include "daemon/worker_pool.h"
 #include "pipeline/site_watch.h"
 
@@ -66,6 +71,7 @@ class StatusBook {
     void count_scan(std::size_t directories);
     void set_state(std::string state) { state_ = std::move(state); }
     void add(pipeline::PairReport report);
+    void set_loops(std::vector<LoopState> loops) { loops_ = std::move(loops); }
     void set_usage(const cache::StoreUsage& usage) { usage_ = usage; }
 
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
@@ -90,6 +96,7 @@ class StatusBook {
     std::uint64_t overflows_ = 0, scans_ = 0;
     std::size_t directories_ = 0;
     std::optional<cache::StoreUsage> usage_;
+    std::vector<LoopState> loops_;
     std::deque<double> latencies_;
     std::deque<Volume> volumes_;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites_;  // by domain, a, b

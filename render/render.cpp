@@ -51,7 +51,7 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
             colours, view.quantization, geometry,
             {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light});
         const Layer layer = slicer.draw(view, threads);
-        composite_over(layer, picture, 0, 0);
+        composite_over(layer, picture, 0, 0, threads);
     }
     return picture;
 }

@@ -253,8 +253,22 @@ std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
     return stand_of(site, *latitude_deg, *longitude_deg);
 }
 
-Result<Scene> scene_of(TomlFile& file) {
+// Scenes of pictures are .toml files too.
+Status check_kind(const TomlTable& root, const std::string& name) {
+    if (root.has("radar")) return {};
+    for (const char* section : {"picture", "camera", "light", "volume", "labels", "plan", "loop"}) {
+        if (!root.has(section)) continue;
+        return fail(ErrorCode::bad_argument,
+                    "{}: a picture's scene ([{}]), for stormcellar frame and loop; a scene of "
+                    "simulated storms has [radar]",
+                    name, section);
+    }
+    return {};
+}
+
+Result<Scene> scene_of(TomlFile& file, const std::string& name) {
     TomlTable root = file.root();
+    if (auto kind = check_kind(root, name); !kind) return pass_on(kind);
     Scene scene;
     scene.site = read_site(root.section("radar"));
     scene.schedule = read_schedule(root.section("volumes"), root);
@@ -297,13 +311,13 @@ UtcTime Schedule::start_of(int volume) const {
 Result<Scene> parse_scene(std::string_view toml, const std::string& name) {
     auto file = TomlFile::parse(toml, name);
     if (!file) return pass_on(file);
-    return scene_of(*file);
+    return scene_of(*file, name);
 }
 
 Result<Scene> read_scene(const std::filesystem::path& path) {
     auto file = TomlFile::open(path);
     if (!file) return pass_on(file);
-    return scene_of(*file);
+    return scene_of(*file, path.native());
 }
 
 }  // namespace stormcellar::synth

@@ -15,7 +15,16 @@ constexpr double effort_of_a_slice = 1e-3;
 constexpr double effort_of_a_table = 1e-3;
 constexpr double effort_of_every_pixel = 2e-2;
 
-enum StepNumber : std::size_t { slices_step, integration_step, pixels_step };
+constexpr double effort_of_gradient = 0.2;
+constexpr double effort_of_light_volume = 0.1;
+
+enum StepNumber : std::size_t {
+    slices_step,
+    integration_step,
+    pixels_step,
+    surface_step,
+    light_step
+};
 
 accuracy::Effect effect(std::string name, std::string what, std::string rung, double effort) {
     accuracy::Effect made;
@@ -37,9 +46,16 @@ accuracy::Step slices() {
     return step;
 }
 
+accuracy::Effect light(std::string name, std::string what, std::string rung, double effort,
+                       bool is_asked) {
+    accuracy::Effect made = effect(std::move(name), std::move(what), std::move(rung), effort);
+    if (!is_asked) made.setting = accuracy::Setting::not_asked;
+    return made;
+}
+
 }  // namespace
 
-accuracy::Chain volume_chain() {
+accuracy::Chain volume_chain(const Light& asked) {
     accuracy::Chain chain;
     chain.steps.push_back(slices());
     chain.steps.push_back(
@@ -53,6 +69,18 @@ accuracy::Chain volume_chain() {
                            "interpolated where the picture is straight",
                            {effect("every_pixel", "The picture bends between two rays.",
                                    "a ray for each pixel", effort_of_every_pixel)}});
+    chain.steps.push_back(
+        {"surface",
+         "as bright whatever way it faces",
+         {light("gradient_light", "Steep surfaces turned away from the sun are darker.",
+                "darker turned away from the sun", effort_of_gradient, asked.gradient)}});
+    chain.steps.push_back(
+        {"light",
+         "everywhere the same",
+         {light("shadow_light", "Echo throws shadows, and hides the sky from itself.",
+                "sun and sky that come through", effort_of_light_volume, asked.needs_volume()),
+          light("scattering_light", "Echo sends more of the light on than back.",
+                "sun and sky, scattered once", effort_of_light_volume, asked.scattering)}});
     return chain;
 }
 
@@ -64,6 +92,9 @@ VolumeChoice volume_choice(const accuracy::Chain& chain, const accuracy::Choice&
     made.slices = fewest_slices << choice.rungs[slices_step];
     made.integration = integrations[choice.rungs[integration_step]];
     made.every_pixel = choice.rungs[pixels_step] == 1;
+    made.gradient = choice.rungs[surface_step] == 1;
+    made.shadow = choice.rungs[light_step] >= 1;
+    made.scattering = choice.rungs[light_step] == 2;
     return made;
 }
 
@@ -75,13 +106,8 @@ accuracy::Choice rungs_of(const accuracy::Chain& chain, const VolumeChoice& choi
         ++rung;
     made.rungs[integration_step] = static_cast<std::size_t>(choice.integration);
     made.rungs[pixels_step] = choice.every_pixel ? 1 : 0;
-    return made;
-}
-
-accuracy::Choice exact_volume_choice(const accuracy::Chain& chain) {
-    accuracy::Choice made;
-    for (const accuracy::Step& step : chain.steps)
-        made.rungs.push_back(step.effects.size());
+    made.rungs[surface_step] = choice.gradient ? 1 : 0;
+    made.rungs[light_step] = choice.scattering ? 2 : choice.shadow ? 1 : 0;
     return made;
 }
 

@@ -37,26 +37,33 @@ VolumeScene::VolumeScene(const grid::BrickView& view, const ColourTable& table, 
       threads_(threads) {}
 
 const VolumeScene::Drawn& VolumeScene::draw(const VolumeChoice& choice) {
-    const std::array<int, 3> key = {choice.slices, static_cast<int>(choice.integration),
-                                    choice.every_pixel ? 1 : 0};
-    if (const auto known = drawn_.find(key); known != drawn_.end()) return known->second;
+    const auto known = std::find_if(drawn_.begin(), drawn_.end(),
+                                    [&](const auto& one) { return one.first == choice; });
+    if (known != drawn_.end()) return known->second;
+    Light light = scene_.light;
+    light.gradient = choice.gradient;
+    light.shadow = choice.shadow;
+    light.scattering = choice.scattering;
     const auto start = std::chrono::steady_clock::now();
     const ViewGeometry geometry(*view_.spec, scene_.camera, scene_.vertical_exaggeration, width_,
                                 height_, scene_.curved_earth);
     const VolumeSlicer slicer(table_, view_.quantization, geometry,
                               {choice.slices, choice.integration, scene_.opacity,
-                               choice.every_pixel ? 0 : interpolated_tolerance, scene_.light});
+                               choice.every_pixel ? 0 : interpolated_tolerance, light});
     Drawn drawn{Image(width_, height_, shades::page), 0};
     composite_over(slicer.draw(view_, threads_), drawn.picture, 0, 0);
     drawn.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return drawn_.emplace(key, std::move(drawn)).first->second;
+    return drawn_.emplace_back(choice, std::move(drawn)).second;
 }
 
-Status predict(VolumeScene& scene, Chain& chain) {
-    const Choice exact = exact_volume_choice(chain);
+Status predict(VolumeScene& scene, Chain& chain, Predicted which) {
+    const Choice exact = accuracy::exact_choice(chain);
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         for (std::size_t k = 0; k < chain.steps[i].effects.size(); ++k) {
             accuracy::Effect& effect = chain.steps[i].effects[k];
+            if (effect.setting == accuracy::Setting::not_asked && which == Predicted::asked) {
+                continue;
+            }
             const auto& without = scene.draw(volume_choice(chain, with_rung(exact, i, k)));
             const auto& with = scene.draw(volume_choice(chain, with_rung(exact, i, k + 1)));
             const auto size = difference(without.picture, with.picture);
@@ -74,12 +81,12 @@ Status predict(VolumeScene& scene, Chain& chain) {
 
 Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
                                const std::optional<accuracy::Budget>& budget,
-                               const VolumeChoice& by_default) {
+                               const VolumeChoice& by_default, Predicted which) {
     if (budget && (budget->position_m || budget->value)) {
         return fail(ErrorCode::bad_argument,
                     "a picture's tolerance is a colour difference (\"dE 2\") or a time");
     }
-    if (auto done = predict(scene, chain); !done) return pass_on(done);
+    if (auto done = predict(scene, chain, which); !done) return pass_on(done);
     if (!budget) {
         accuracy::Candidate candidate;
         candidate.choice = rungs_of(chain, by_default);
@@ -88,7 +95,7 @@ Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
         return VolumePlan{accuracy::make_plan(chain, {}, candidate, accuracy::Outcome::met),
                           by_default};
     }
-    const Image& exact = scene.draw(volume_choice(chain, exact_volume_choice(chain))).picture;
+    const Image& exact = scene.draw(volume_choice(chain, accuracy::exact_choice(chain))).picture;
     const auto measure = [&](const Choice& choice) -> Result<accuracy::Measured> {
         const auto off = difference(scene.draw(volume_choice(chain, choice)).picture, exact);
         if (!off) return pass_on(off);
@@ -103,11 +110,12 @@ Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
 }
 
 Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene, const Chain& chain) {
-    const Choice exact = exact_volume_choice(chain);
+    const Choice exact = accuracy::exact_choice(chain);
     const Image& truth = scene.draw(volume_choice(chain, exact)).picture;
     std::vector<accuracy::LadderRow> rows;
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        for (std::size_t k = 0; k < chain.steps[i].rung_count(); ++k) {
+        if (exact.rungs[i] == 0) continue;  // nothing of it is asked for
+        for (std::size_t k = 0; k <= exact.rungs[i]; ++k) {
             const auto& drawn = scene.draw(volume_choice(chain, with_rung(exact, i, k)));
             const auto off = difference(drawn.picture, truth);
             if (!off) return pass_on(off);

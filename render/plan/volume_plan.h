@@ -8,9 +8,10 @@
 // Threads: a VolumeScene is used by one thread at a time; it draws on `threads`.
 #pragma once
 
-#include <array>
-#include <map>
+#include <deque>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "accuracy/budget.h"
 #include "accuracy/ladder.h"
@@ -39,11 +40,15 @@ class VolumeScene {
     const ColourTable& table_;
     Scene scene_;
     int width_, height_, threads_;
-    std::map<std::array<int, 3>, Drawn> drawn_;
+    std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // references to them stay
 };
 
+// Of what the scene does not ask for, a size is told to who wants to know all; no plan needs it.
+enum class Predicted { asked, all };
+
 // Each effect's size and cost for this scene; settings stay.
-[[nodiscard]] Status predict(VolumeScene& scene, accuracy::Chain& chain);
+[[nodiscard]] Status predict(VolumeScene& scene, accuracy::Chain& chain,
+                             Predicted which = Predicted::asked);
 
 struct VolumePlan {
     accuracy::Plan plan;
@@ -54,9 +59,11 @@ struct VolumePlan {
 // bounds other errors than the picture's.
 [[nodiscard]] Result<VolumePlan> plan_volume(VolumeScene& scene, accuracy::Chain chain,
                                              const std::optional<accuracy::Budget>& budget,
-                                             const VolumeChoice& by_default);
+                                             const VolumeChoice& by_default,
+                                             Predicted which = Predicted::asked);
 
-// A row for each rung of each step, the others exact, against the exact chain's picture.
+// A row for each rung of each step that the scene asks for, the others exact, against the exact
+// chain's picture.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 

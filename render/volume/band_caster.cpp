@@ -6,21 +6,26 @@
 
 namespace stormcellar::render {
 
-// The steps of a row of tiles, and the pixels of one of its tiles that wait for their rays.
+// The steps of a row of tiles, and the pixels of it that wait for their rays. Where few pixels of a
+// tile ask for one, those of the next tiles fill the packet; its rays then take the steps of all.
 class BandCaster::Tiles {
   public:
     Tiles(const BandCaster& caster, int tile_row) : caster_(caster) {
         any_ = caster.mask_.fill_band(tile_row, words_);
+        packet_words_.resize(caster.mask_.words_per_tile());
     }
     [[nodiscard]] bool any() const { return any_; }
 
     // False for a tile in which nothing shows.
     bool enter(int tile) {
-        const std::size_t per_tile = caster_.mask_.words_per_tile();
-        bits_ = words_.data() + static_cast<std::size_t>(tile) * per_tile;
-        return std::any_of(bits_, bits_ + per_tile, [](std::uint64_t w) { return w != 0; });
+        tile_ = tile;
+        has_joined_ = false;
+        if (tile - first_tile_ == most_tiles) cast_wanted();
+        const auto words = words_of(tile);
+        return std::any_of(words.begin(), words.end(), [](std::uint64_t w) { return w != 0; });
     }
     void want(int x, int y) {
+        if (!has_joined_) join();
         wanted_[count_++] = {x, y};
         if (count_ == wanted_.size()) cast_wanted();
     }
@@ -28,18 +33,38 @@ class BandCaster::Tiles {
         if (count_ == 0) return;
         const std::span<const PixelPlace> pixels = std::span(wanted_).first(count_);
         float colours[packet_rays * 4];
-        cast_packet(caster_.volume_, caster_.maker_.packet(pixels), bits_,
-                    caster_.mask_.words_per_tile(), colours);
+        cast_packet(caster_.volume_, caster_.maker_.packet(pixels), packet_words_.data(),
+                    packet_words_.size(), colours);
         for (std::size_t i = 0; i < count_; ++i)
             std::copy_n(colours + i * 4, 4, caster_.at(wanted_[i].x, wanted_[i].y));
         count_ = 0;
+        has_joined_ = false;
     }
 
   private:
+    static constexpr int most_tiles = 4;
+
+    [[nodiscard]] std::span<const std::uint64_t> words_of(int tile) const {
+        const std::size_t count = packet_words_.size();
+        return std::span(words_).subspan(static_cast<std::size_t>(tile) * count, count);
+    }
+    void join() {
+        const auto words = words_of(tile_);
+        if (count_ == 0) {
+            first_tile_ = tile_;
+            std::copy(words.begin(), words.end(), packet_words_.begin());
+        } else {
+            for (std::size_t w = 0; w < words.size(); ++w)
+                packet_words_[w] |= words[w];
+        }
+        has_joined_ = true;
+    }
+
     const BandCaster& caster_;
     bool any_ = false;
-    std::vector<std::uint64_t> words_;
-    const std::uint64_t* bits_ = nullptr;
+    std::vector<std::uint64_t> words_, packet_words_;
+    int tile_ = 0, first_tile_ = 0;
+    bool has_joined_ = false;  // this tile's steps are among the packet's
     std::array<PixelPlace, packet_rays> wanted_{};
     std::size_t count_ = 0;
 };
@@ -60,22 +85,54 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
         if (!tiles.enter(tile)) continue;
         const int left = tile * tile_edge;
         const int right = std::min(left + tile_edge, width_);
-        for (int y = top; y < bottom; y += stride) {
-            for (int x = left; x < right; x += stride)
-                ask(tiles, x, y);
+        // By quarters: sixteen rays of a square find more of the same than those of two rows.
+        const int edge = std::max(tile_edge / 2, stride);
+        for (int from_y = top; from_y < bottom; from_y += edge) {
+            for (int from_x = left; from_x < right; from_x += edge) {
+                for (int y = from_y; y < std::min(from_y + edge, bottom); y += stride) {
+                    for (int x = from_x; x < std::min(from_x + edge, right); x += stride)
+                        ask(tiles, x, y);
+                }
+            }
         }
-        tiles.cast_wanted();
     }
+    tiles.cast_wanted();
 }
 
 void BandCaster::cast_first(int tile_row, int stride) const {
+    const int rows = std::min(tile_edge, height_ - tile_row * tile_edge);
+    std::fill_n(at(0, tile_row * tile_edge), static_cast<std::ptrdiff_t>(rows) * width_ * 4, 0.0F);
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 
+// Where the picture bends at the pixels of a grid, for the rows that a row of tiles leans on.
+class BandCaster::Bends {
+  public:
+    Bends(const BandCaster& caster, int tile_row, int stride, float most)
+        : stride_(stride), top_(tile_row * tile_edge), across_((caster.width_ - 1) / stride + 1) {
+        for (int y = top_; y <= top_ + tile_edge && y < caster.height_; y += stride) {
+            for (int x = 0; x < caster.width_; x += stride)
+                bends_.push_back(caster.bends(x, y, stride, most) ? 1 : 0);
+        }
+    }
+    // At a corner of the grid's cell that begins at a pixel.
+    [[nodiscard]] bool any(int x, int y) const {
+        const char* corner = bends_.data() +
+                             static_cast<std::ptrdiff_t>((y - top_) / stride_) * across_ +
+                             x / stride_;
+        return (corner[0] | corner[1] | corner[across_] | corner[across_ + 1]) != 0;
+    }
+
+  private:
+    int stride_, top_, across_;
+    std::vector<char> bends_;
+};
+
 void BandCaster::refine(int tile_row, int stride, float tolerance) const {
-    for_each_pixel(tile_row, stride, [&](Tiles& tiles, int x, int y) {
-        refine_cell(tiles, x, y, stride, tolerance);
-    });
+    // A straight line through two neighbours is off by an eighth of their second difference.
+    const Bends bends(*this, tile_row, stride, 8 * tolerance);
+    for_each_pixel(tile_row, stride,
+                   [&](Tiles& tiles, int x, int y) { refine_cell(tiles, x, y, stride, bends); });
 }
 
 // Whether the picture bends at a pixel of the grid, along a row or a column. Where the picture ends
@@ -83,10 +140,10 @@ void BandCaster::refine(int tile_row, int stride, float tolerance) const {
 bool BandCaster::bends(int x, int y, int stride, float most) const {
     const float* here = at(x, y);
     const auto bends_between = [&](const float* before, const float* after) {
-        float largest = 0;
+        bool bends = false;
         for (int c = 0; c < 4; ++c)
-            largest = std::max(largest, std::abs(before[c] - 2 * here[c] + after[c]));
-        return largest > most;
+            bends |= std::abs(before[c] - 2 * here[c] + after[c]) > most;
+        return bends;
     };
     if (x >= stride && x + stride < width_ && bends_between(at(x - stride, y), at(x + stride, y))) {
         return true;
@@ -96,15 +153,11 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
 }
 
 // Beside the picture's last column and below its last row there is nobody to lean on.
-void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, float tolerance) const {
-    const int half = stride / 2;
-    if (x + stride < width_ && y + stride < height_) {
-        const float most = 8 * tolerance;
-        if (!bends(x, y, stride, most) && !bends(x + stride, y, stride, most) &&
-            !bends(x, y + stride, stride, most) && !bends(x + stride, y + stride, stride, most)) {
-            return interpolate(x, y, stride);
-        }
+void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
+    if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
+        return interpolate(x, y, stride);
     }
+    const int half = stride / 2;
     const bool has_right = x + half < width_;
     const bool has_below = y + half < height_;
     if (has_right) tiles.want(x + half, y);

@@ -26,17 +26,18 @@ struct PixelSteps {
 
 class BandCaster {
   public:
-    // All must outlive this; `rgba` has four floats a pixel of the whole picture, zeros at first.
+    // All must outlive this; `rgba` has four floats a pixel of the whole picture.
     BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask, int width,
                int height, float* rgba);
 
-    // Every `stride`-th pixel both ways.
+    // Clears the row of tiles, and draws every `stride`-th pixel both ways.
     void cast_first(int tile_row, int stride) const;
     // From a grid of `stride` pixels to one of half of it.
     void refine(int tile_row, int stride, float tolerance) const;
 
   private:
     class Tiles;
+    class Bends;
     [[nodiscard]] float* at(int x, int y) const {
         return rgba_ + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                         static_cast<std::size_t>(x)) *
@@ -45,7 +46,7 @@ class BandCaster {
     template <class Ask>
     void for_each_pixel(int tile_row, int stride, Ask ask) const;
     [[nodiscard]] bool bends(int x, int y, int stride, float most) const;
-    void refine_cell(Tiles& tiles, int x, int y, int stride, float tolerance) const;
+    void refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const;
     void interpolate(int x, int y, int stride) const;
 
     const PacketVolume& volume_;

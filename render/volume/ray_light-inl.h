@@ -1,4 +1,4 @@
-// render/volume/ray_light-inl.h -- how light eight samples are.
+// render/volume/ray_light-inl.h -- how light samples are.
 //
 // Part of render/volume/ray_packet.cpp, compiled once for each SIMD target.
 #if defined(STORMCELLAR_RAY_LIGHT_INL) == defined(HWY_TARGET_TOGGLE)
@@ -20,31 +20,29 @@ namespace stormcellar::render::HWY_NAMESPACE {
 constexpr float darkest = 0.35F;  // of a steep surface turned away from the sun
 
 // Codes of cells with values, 0 of others.
-HWY_INLINE FloatVec density_of(CodeVec codes, int part) {
-    const Floats f;
-    const FloatVec code = floats_of(codes, part);
-    return hn::IfThenElseZero(hn::Ge(code, hn::Set(f, static_cast<float>(grid::first_value_code))),
-                              code);
+HWY_INLINE FloatVec density_of(IntVec code) {
+    const IntVec last_state = hn::Set(Ints(), grid::first_value_code - 1);
+    return hn::ConvertTo(Floats(), hn::IfThenElseZero(hn::Gt(code, last_state), code));
 }
 
 // 1 where the surface looks to the sun, down to `darkest` where it is steep and turned away; by the
 // gradient of the trilinear mix of the eight cells.
 HWY_INLINE FloatVec gradient_light(const PacketLight& light, const Corners& corners,
-                                   const Weights& weights, int part) {
+                                   const Places& at) {
     const Floats f;
     FloatVec low[4], high[4], column[4];
     for (int c = 0; c < 4; ++c) {
-        low[c] = density_of(corners.low[c], part);
-        high[c] = density_of(corners.high[c], part);
-        column[c] = mix(low[c], high[c], weights.z);
+        low[c] = density_of(corners.code[c]);
+        high[c] = density_of(corners.code[c + 4]);
+        column[c] = mix(low[c], high[c], at.z.beyond);
     }
     const auto rise = [&](int c) { return hn::Sub(high[c], low[c]); };
     const FloatVec east =
-        mix(hn::Sub(column[1], column[0]), hn::Sub(column[3], column[2]), weights.y);
+        mix(hn::Sub(column[1], column[0]), hn::Sub(column[3], column[2]), at.y.beyond);
     const FloatVec north =
-        mix(hn::Sub(column[2], column[0]), hn::Sub(column[3], column[1]), weights.x);
+        mix(hn::Sub(column[2], column[0]), hn::Sub(column[3], column[1]), at.x.beyond);
     const FloatVec up =
-        mix(mix(rise(0), rise(1), weights.x), mix(rise(2), rise(3), weights.x), weights.y);
+        mix(mix(rise(0), rise(1), at.x.beyond), mix(rise(2), rise(3), at.x.beyond), at.y.beyond);
     const FloatVec gradient[3] = {hn::Mul(east, hn::Set(f, light.per_cell[0])),
                                   hn::Mul(north, hn::Set(f, light.per_cell[1])),
                                   hn::Mul(up, hn::Set(f, light.per_cell[2]))};
@@ -63,80 +61,26 @@ HWY_INLINE FloatVec gradient_light(const PacketLight& light, const Corners& corn
     return hn::Sub(hn::Set(f, 1.0F), dark);
 }
 
-// Places in cells and levels, of each ray.
-struct Places {
-    HWY_ALIGN float x[packet_rays], y[packet_rays], z[packet_rays];
-};
-
-HWY_INLINE void light_samples(const PacketLight& light, const Corners& corners,
-                              const Weights* weights, const Places& places, Samples& samples) {
+// Of samples at positions in cells and levels.
+HWY_INLINE FloatVec light_of(const PacketLight& light, const Corners& corners, const Places& at,
+                             FloatVec valued) {
     const Floats f;
-    for (int ray = 0; ray < packet_rays; ++ray) {
-        const bool shows = light.volume != nullptr && samples.valued[ray] > 0;
-        samples.light[ray] =
-            shows ? light.volume->at(places.x[ray], places.y[ray], places.z[ray]) : 1.0F;
-    }
-    if (!light.gradient) return;
-    for (int part = 0; part < parts; ++part) {
-        float* lit = samples.light + part * lanes;
-        hn::Store(hn::Mul(hn::Load(f, lit), gradient_light(light, corners, weights[part], part)), f,
-                  lit);
-    }
-}
-
-// At slice t, or where the ray enters or leaves the box when that is nearer to its middle.
-template <bool curved, bool lit>
-HWY_INLINE void take_samples(const PacketVolume& volume, const RayPacket& rays, float t,
-                             Samples& samples) {
-    const Floats f;
-    const Ints i;
-    Addresses where;
-    Weights weights[parts];
-    Places places;
-    for (int part = 0; part < parts; ++part) {
-        const int ray = part * lanes;
-        const FloatVec held = hn::Min(hn::Max(hn::Set(f, t), hn::LoadU(f, rays.enter + ray)),
-                                      hn::LoadU(f, rays.leave + ray));
-        const auto position = [&](const float* start, const float* step) {
-            return hn::Add(hn::LoadU(f, start + ray), hn::Mul(held, hn::LoadU(f, step + ray)));
+    FloatVec factor = hn::Set(f, 1.0F);
+    if (light.volume != nullptr) {
+        HWY_ALIGN float x[lanes], y[lanes], z[lanes], share[lanes], factors[lanes];
+        const auto store = [&](const Place& place, float* to) {
+            hn::Store(hn::Add(hn::ConvertTo(f, place.cell), place.beyond), f, to);
         };
-        const FloatVec x = position(rays.x, rays.step_x);
-        const FloatVec y = position(rays.y, rays.step_y);
-        FloatVec z = position(rays.z, rays.step_z);
-        if constexpr (curved) z = hn::Add(z, drop(*volume.curve, x, y));
-        IntVec at = hn::Zero(i);
-        IntVec east, north, up;
-        bool follows_x = false, follows_y = false, follows_z = false;
-        weights[part].x =
-            place_on_axis<next_x>(x, volume.last_x, volume.brick_stride_x, at, east, follows_x);
-        weights[part].y =
-            place_on_axis<next_y>(y, volume.last_y, volume.brick_stride_y, at, north, follows_y);
-        const FloatVec level = level_of(volume, z);
-        if constexpr (lit) {
-            hn::Store(x, f, places.x + ray);
-            hn::Store(y, f, places.y + ray);
-            hn::Store(level, f, places.z + ray);
+        store(at.x, x);
+        store(at.y, y);
+        store(at.z, z);
+        hn::Store(valued, f, share);
+        for (int lane = 0; lane < lanes; ++lane) {
+            factors[lane] = share[lane] > 0 ? light.volume->at(x[lane], y[lane], z[lane]) : 1.0F;
         }
-        weights[part].z = place_on_axis<1>(
-            level, volume.last_z, static_cast<std::int32_t>(grid::brick_cells), at, up, follows_z);
-        where.inside_bricks = where.inside_bricks && follows_x && follows_y;
-        where.paired = where.paired && follows_z;
-        hn::Store(at, i, where.column[0] + ray);
-        hn::Store(hn::Add(at, east), i, where.column[1] + ray);
-        hn::Store(hn::Add(at, north), i, where.column[2] + ray);
-        hn::Store(hn::Add(hn::Add(at, east), north), i, where.column[3] + ray);
-        hn::Store(up, i, where.up + ray);
+        factor = hn::Load(f, factors);
     }
-    Corners corners;
-    load_corners(volume, where, corners);
-    mix_corners(volume, corners, weights, samples);
-    if constexpr (lit) {
-        if (samples.any) {
-            light_samples(*volume.light, corners, weights, places, samples);
-        } else {
-            std::fill(samples.light, samples.light + packet_rays, 1.0F);
-        }
-    }
+    return light.gradient ? hn::Mul(factor, gradient_light(light, corners, at)) : factor;
 }
 
 }  // namespace stormcellar::render::HWY_NAMESPACE

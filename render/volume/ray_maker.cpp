@@ -1,12 +1,90 @@
 #include "render/volume/ray_maker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-namespace stormcellar::render {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/volume/ray_maker.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which compiles this file once for each target.
+#include <hwy/highway.h>
 
-constexpr double no_step = 1e-30;  // stands for a step of 0 along an axis, which never leaves a box
+HWY_BEFORE_NAMESPACE();
+namespace stormcellar::render::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::CappedTag<double, packet_rays>;
+using DoubleVec = hn::Vec<Doubles>;
+
+HWY_INLINE DoubleVec at(const RayLines::Linear& linear, std::size_t axis, DoubleVec x,
+                        DoubleVec y) {
+    const Doubles d;
+    return hn::Add(
+        hn::Add(hn::Set(d, linear.origin[axis]), hn::Mul(x, hn::Set(d, linear.per_x[axis]))),
+        hn::Mul(y, hn::Set(d, linear.per_y[axis])));
+}
+
+struct Steps {
+    DoubleVec step[3], inverse[3], length;
+
+    HWY_INLINE Steps(const RayLines& lines, DoubleVec x, DoubleVec y) {
+        constexpr double no_step = 1e-30;  // stands for 0 along an axis, which never leaves a box
+        const Doubles d;
+        DoubleVec square = hn::Zero(d);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            step[axis] = at(lines.step, axis, x, y);
+            const auto stands = hn::Eq(step[axis], hn::Zero(d));
+            inverse[axis] =
+                hn::Div(hn::Set(d, 1.0), hn::IfThenElse(stands, hn::Set(d, no_step), step[axis]));
+            square = hn::Add(square, hn::Mul(step[axis], step[axis]));
+        }
+        length = hn::Div(hn::Sqrt(square), hn::Set(d, lines.step_m));
+    }
+};
+
+// The rays of the pixels at x and y, clipped to the box.
+void make_packet(const RayLines& lines, const double* px, const double* py, RayPacket& rays) {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> f;
+    const auto lanes = static_cast<int>(hn::Lanes(d));
+    float* const starts[3] = {rays.x, rays.y, rays.z};
+    float* const moves[3] = {rays.step_x, rays.step_y, rays.step_z};
+    Steps steps(lines, hn::Zero(d), hn::Zero(d));
+    for (int ray = 0; ray < packet_rays; ray += lanes) {
+        const DoubleVec x = hn::LoadU(d, px + ray), y = hn::LoadU(d, py + ray);
+        if (!lines.parallel) steps = Steps(lines, x, y);
+        DoubleVec first = hn::Zero(d), last = hn::Set(d, lines.slices);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const DoubleVec start = at(lines.start, axis, x, y);
+            const DoubleVec scale = hn::Set(d, lines.scale[axis]);
+            const DoubleVec position =
+                hn::Add(hn::Set(d, lines.offset[axis]), hn::Mul(start, scale));
+            hn::StoreU(hn::DemoteTo(f, position), f, starts[axis] + ray);
+            hn::StoreU(hn::DemoteTo(f, hn::Mul(steps.step[axis], scale)), f, moves[axis] + ray);
+            const auto meets = [&](double side) {
+                return hn::Mul(hn::Sub(hn::Set(d, side), start), steps.inverse[axis]);
+            };
+            const DoubleVec a = meets(lines.low[axis]), b = meets(lines.high[axis]);
+            first = hn::Max(first, hn::Min(a, b));
+            last = hn::Min(last, hn::Max(a, b));
+        }
+        const auto crosses = hn::Lt(first, last);
+        hn::StoreU(hn::DemoteTo(f, steps.length), f, rays.length + ray);
+        hn::StoreU(hn::DemoteTo(f, hn::IfThenElseZero(crosses, first)), f, rays.enter + ray);
+        hn::StoreU(hn::DemoteTo(f, hn::IfThenElseZero(crosses, last)), f, rays.leave + ray);
+    }
+}
+
+}  // namespace stormcellar::render::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace stormcellar::render {
+
+HWY_EXPORT(make_packet);
+
+namespace {
 
 Vec3 difference(const Vec3& a, const Vec3& b, double scale) {
     return {(a[0] - b[0]) * scale, (a[1] - b[1]) * scale, (a[2] - b[2]) * scale};
@@ -55,107 +133,63 @@ struct Stretch {
 
 RayMaker::RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry,
                    const LevelPosition& levels, int slices)
-    : geometry_(geometry),
-      slices_(slices),
-      step_m_((geometry.far_m() - geometry.near_m()) / slices) {
+    : geometry_(geometry) {
+    lines_.slices = slices;
+    lines_.step_m = (geometry.far_m() - geometry.near_m()) / slices;
+    lines_.parallel = !geometry.is_perspective();
     const Pixel first{0.5, 0.5}, right{1.5, 0.5}, down{0.5, 1.5};
     const double near_m = geometry.near_m();
-    start_.origin = geometry.point(first, near_m);
-    start_.per_x = difference(geometry.point(right, near_m), start_.origin, 1);
-    start_.per_y = difference(geometry.point(down, near_m), start_.origin, 1);
+    RayLines::Linear& start = lines_.start;
+    start.origin = geometry.point(first, near_m);
+    start.per_x = difference(geometry.point(right, near_m), start.origin, 1);
+    start.per_y = difference(geometry.point(down, near_m), start.origin, 1);
     const Vec3 along = geometry.along(first);
-    step_.origin = difference(along, {}, step_m_);
-    step_.per_x = difference(geometry.along(right), along, step_m_);
-    step_.per_y = difference(geometry.along(down), along, step_m_);
+    lines_.step.origin = difference(along, {}, lines_.step_m);
+    lines_.step.per_x = difference(geometry.along(right), along, lines_.step_m);
+    lines_.step.per_y = difference(geometry.along(down), along, lines_.step_m);
     const double z_slope = levels.is_uniform() ? levels.slope() : 1;
-    scale_ = {1 / spec.cell_width_m(), 1 / spec.cell_height_m(), z_slope};
-    offset_ = {-spec.x_from_middle_m(0) / spec.cell_width_m(),
-               -spec.y_from_middle_m(0) / spec.cell_height_m(),
-               levels.is_uniform() ? levels.offset() : 0};
+    lines_.scale = {1 / spec.cell_width_m(), 1 / spec.cell_height_m(), z_slope};
+    lines_.offset = {-spec.x_from_middle_m(0) / spec.cell_width_m(),
+                     -spec.y_from_middle_m(0) / spec.cell_height_m(),
+                     levels.is_uniform() ? levels.offset() : 0};
+    const double exaggeration = geometry.exaggeration();
+    lines_.low = {-geometry.half_x_m(), -geometry.half_y_m(), geometry.bottom_m() * exaggeration};
+    lines_.high = {geometry.half_x_m(), geometry.half_y_m(), geometry.top_m() * exaggeration};
     if (geometry.drop_per_m2() > 0) {
-        const double factor = geometry.drop_per_m2() * geometry.exaggeration() * z_slope;
-        curve_ = CurvedLevels{static_cast<float>(factor / (scale_[0] * scale_[0])),
-                              static_cast<float>(factor / (scale_[1] * scale_[1])),
-                              static_cast<float>(offset_[0]), static_cast<float>(offset_[1])};
+        const double factor = geometry.drop_per_m2() * exaggeration * z_slope;
+        const Vec3& scale = lines_.scale;
+        curve_ = CurvedLevels{static_cast<float>(factor / (scale[0] * scale[0])),
+                              static_cast<float>(factor / (scale[1] * scale[1])),
+                              static_cast<float>(lines_.offset[0]),
+                              static_cast<float>(lines_.offset[1])};
     }
 }
 
 RayPacket RayMaker::packet(std::span<const PixelPlace> pixels) const {
-    std::array<Lane, 3> start{}, step{};
-    Lane px{}, py{};
+    std::array<double, packet_rays> x{}, y{};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        px[i] = pixels[i].x;
-        py[i] = pixels[i].y;
+        x[i] = pixels[i].x;
+        y[i] = pixels[i].y;
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < packet_rays; ++i) {
-            start[axis][i] =
-                start_.origin[axis] + px[i] * start_.per_x[axis] + py[i] * start_.per_y[axis];
-            step[axis][i] =
-                step_.origin[axis] + px[i] * step_.per_x[axis] + py[i] * step_.per_y[axis];
-        }
-    }
-    RayPacket rays{};
-    const auto to_cells = [&](std::size_t axis, float* position, float* steps) {
-        for (std::size_t i = 0; i < packet_rays; ++i) {
-            position[i] = static_cast<float>(offset_[axis] + start[axis][i] * scale_[axis]);
-            steps[i] = static_cast<float>(step[axis][i] * scale_[axis]);
-        }
-    };
-    to_cells(0, rays.x, rays.step_x);
-    to_cells(1, rays.y, rays.step_y);
-    to_cells(2, rays.z, rays.step_z);
-    for (std::size_t i = 0; i < packet_rays; ++i) {
-        rays.length[i] = static_cast<float>(
-            std::sqrt(step[0][i] * step[0][i] + step[1][i] * step[1][i] + step[2][i] * step[2][i]) /
-            step_m_);
-    }
-    if (curve_) {
-        clip_to_curved_box(start, step, rays);
-    } else {
-        clip_to_box(start, step, rays);
-    }
+    RayPacket rays;
+    HWY_DYNAMIC_DISPATCH(make_packet)(lines_, x.data(), y.data(), rays);
+    if (curve_) clip_to_curved_box(pixels, rays);
     for (std::size_t i = pixels.size(); i < packet_rays; ++i)
         rays.enter[i] = rays.leave[i] = 0;
     return rays;
 }
 
-// Without a branch, so that compilers take the rays side by side.
-void RayMaker::clip_to_box(const std::array<Lane, 3>& start, const std::array<Lane, 3>& step,
-                           RayPacket& rays) const {
-    const Vec3 low = {-geometry_.half_x_m(), -geometry_.half_y_m(),
-                      geometry_.bottom_m() * geometry_.exaggeration()};
-    const Vec3 high = {geometry_.half_x_m(), geometry_.half_y_m(),
-                       geometry_.top_m() * geometry_.exaggeration()};
-    Lane first{}, last{};
-    last.fill(slices_);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < packet_rays; ++i) {
-            const double moved = step[axis][i] == 0 ? no_step : step[axis][i];
-            const double a = (low[axis] - start[axis][i]) / moved;
-            const double b = (high[axis] - start[axis][i]) / moved;
-            const double from = a < b ? a : b;
-            const double to = a < b ? b : a;
-            first[i] = first[i] < from ? from : first[i];
-            last[i] = last[i] > to ? to : last[i];
-        }
-    }
-    for (std::size_t i = 0; i < packet_rays; ++i) {
-        const bool crosses = first[i] < last[i];
-        rays.enter[i] = crosses ? static_cast<float>(first[i]) : 0;
-        rays.leave[i] = crosses ? static_cast<float>(last[i]) : 0;
-    }
-}
-
 // Heights above the curved sea level are a polynomial of the step. Below the box a ray has met the
 // earth: what lies beyond is hidden.
-void RayMaker::clip_to_curved_box(const std::array<Lane, 3>& start, const std::array<Lane, 3>& step,
-                                  RayPacket& rays) const {
+void RayMaker::clip_to_curved_box(std::span<const PixelPlace> pixels, RayPacket& rays) const {
     const double curve = geometry_.drop_per_m2() * geometry_.exaggeration();
-    for (std::size_t i = 0; i < packet_rays; ++i) {
-        const Vec3 s = {start[0][i], start[1][i], start[2][i]};
-        const Vec3 d = {step[0][i], step[1][i], step[2][i]};
-        Stretch inside{0, slices_};
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        Vec3 s, d;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            s[axis] = lines_.start.at(axis, pixels[i].x, pixels[i].y);
+            d[axis] = lines_.step.at(axis, pixels[i].x, pixels[i].y);
+        }
+        Stretch inside{0, lines_.slices};
         inside.keep_below(s[0] - geometry_.half_x_m(), d[0], 0);
         inside.keep_below(-s[0] - geometry_.half_x_m(), -d[0], 0);
         inside.keep_below(s[1] - geometry_.half_y_m(), d[1], 0);
@@ -165,6 +199,7 @@ void RayMaker::clip_to_curved_box(const std::array<Lane, 3>& start, const std::a
         const double c = curve * (d[0] * d[0] + d[1] * d[1]);
         inside.keep_below(a - geometry_.top_m() * geometry_.exaggeration(), b, c);
         inside.keep_above(a - geometry_.bottom_m() * geometry_.exaggeration(), b, c);
+        rays.enter[i] = rays.leave[i] = 0;
         if (!(inside.first < inside.last)) continue;
         rays.enter[i] = static_cast<float>(inside.first);
         rays.leave[i] = static_cast<float>(inside.last);
@@ -172,3 +207,4 @@ void RayMaker::clip_to_curved_box(const std::array<Lane, 3>& start, const std::a
 }
 
 }  // namespace stormcellar::render
+#endif

@@ -1,9 +1,9 @@
 // render/volume/ray_maker.h -- pixels -> rays in cell positions, clipped to the box of the cells.
 //
-// Thread contract: immutable.
+// SIMD by Highway; the same bits on every target. Thread contract: immutable.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -16,6 +16,22 @@ namespace stormcellar::render {
 // The middle of a pixel is half a pixel further.
 struct PixelPlace {
     int x = 0, y = 0;
+};
+
+// What the rays of a picture have in common, in drawn space: start and step of a ray are linear in
+// the pixel.
+struct RayLines {
+    struct Linear {
+        Vec3 origin{}, per_x{}, per_y{};
+        [[nodiscard]] double at(std::size_t axis, double x, double y) const {
+            return origin[axis] + x * per_x[axis] + y * per_y[axis];
+        }
+    };
+    Linear start, step;
+    Vec3 scale{}, offset{};  // to cell positions
+    Vec3 low{}, high{};      // the box of the cells
+    double slices = 1, step_m = 1;
+    bool parallel = true;
 };
 
 class RayMaker {
@@ -31,20 +47,10 @@ class RayMaker {
     [[nodiscard]] const CurvedLevels* curve() const { return curve_ ? &*curve_ : nullptr; }
 
   private:
-    using Lane = std::array<double, packet_rays>;
-    void clip_to_box(const std::array<Lane, 3>& start, const std::array<Lane, 3>& step,
-                     RayPacket& rays) const;
-    void clip_to_curved_box(const std::array<Lane, 3>& start, const std::array<Lane, 3>& step,
-                            RayPacket& rays) const;
+    void clip_to_curved_box(std::span<const PixelPlace> pixels, RayPacket& rays) const;
 
-    // Drawn space: a ray's start and its step are linear in the pixel.
-    struct Linear {
-        Vec3 origin{}, per_x{}, per_y{};
-    };
     const ViewGeometry& geometry_;
-    double slices_, step_m_;
-    Linear start_, step_;
-    Vec3 scale_{}, offset_{};  // from drawn space to cell positions
+    RayLines lines_;
     std::optional<CurvedLevels> curve_;
 };
 

@@ -30,182 +30,236 @@ HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const FloatVec exponent = hn::Min(hn::Mul(depth, hn::Set(f, log2_e)), hn::Set(f, 120.0F));
     const IntVec whole = hn::ConvertTo(i, hn::Add(exponent, hn::Set(f, 0.5F)));
     const FloatVec part = hn::Sub(hn::ConvertTo(f, whole), exponent);
-    constexpr float series[] = {1.5403530e-4F, 1.3333558e-3F, 9.6181291e-3F, 5.5504109e-2F,
-                                2.4022651e-1F, 6.9314718e-1F, 1.0F};  // ln(2)^n / n!
-    FloatVec power = hn::Set(f, series[0]);
-    for (std::size_t n = 1; n < std::size(series); ++n)
-        power = hn::Add(hn::Mul(power, part), hn::Set(f, series[n]));
+    // ln(2)^n / n!, paired so that few operations wait for each other.
+    const auto term = [&](float constant, float slope) {
+        return hn::Add(hn::Set(f, constant), hn::Mul(hn::Set(f, slope), part));
+    };
+    const FloatVec square = hn::Mul(part, part);
+    const FloatVec low =
+        hn::Add(term(1.0F, 6.9314718e-1F), hn::Mul(term(2.4022651e-1F, 5.5504109e-2F), square));
+    const FloatVec high =
+        hn::Add(term(9.6181291e-3F, 1.3333558e-3F), hn::Mul(hn::Set(f, 1.5403530e-4F), square));
+    const FloatVec power = hn::Add(low, hn::Mul(high, hn::Mul(square, square)));
     const IntVec scale = hn::ShiftLeft<23>(hn::Sub(hn::Set(i, 127), whole));
     return hn::Sub(hn::Set(f, 1.0F), hn::Mul(power, hn::BitCast(f, scale)));
 }
 
-// Entries of the transfer function, taken apart.
-struct Looks {
-    FloatVec red, green, blue, depth;
+// Some of a packet's rays, one a lane.
+struct Rays {
+    FloatVec x, y, z, step_x, step_y, step_z, length, enter, leave;
+
+    Rays(const RayPacket& rays, int first) {
+        const Floats f;
+        const auto load = [&](const float* numbers) { return hn::LoadU(f, numbers + first); };
+        x = load(rays.x);
+        y = load(rays.y);
+        z = load(rays.z);
+        step_x = load(rays.step_x);
+        step_y = load(rays.step_y);
+        step_z = load(rays.step_z);
+        length = load(rays.length);
+        enter = load(rays.enter);
+        leave = load(rays.leave);
+    }
 };
 
-// Those at indices[0] and on, one for each lane.
-#if HWY_TARGET == HWY_SCALAR
-HWY_INLINE Looks looks_at(const TransferEntry* entries, const std::int32_t* indices) {
-    const TransferEntry& entry = entries[indices[0]];
-    const Floats f;
-    return {hn::Set(f, entry.red), hn::Set(f, entry.green), hn::Set(f, entry.blue),
-            hn::Set(f, entry.depth)};
-}
-#else
-template <int width = lanes>
-HWY_INLINE Looks looks_at(const TransferEntry* entries, const std::int32_t* indices) {
-    const Floats f;
-    const hn::Full128<float> quad;  // one entry
-    const auto load = [&](int lane) {
-        return hn::LoadU(quad, reinterpret_cast<const float*>(entries + indices[lane]));
-    };
-    const auto entry = [&](int lane) {
-        if constexpr (width == 8) {
-            return hn::Combine(f, load(lane + 4), load(lane));
-        } else {
-            return load(lane);
-        }
-    };
-    // Four by four, in each block of 128 bits.
-    const FloatVec a = entry(0), b = entry(1), c = entry(2), d = entry(3);
-    const FloatVec ac_low = hn::InterleaveLower(f, a, c), ac_high = hn::InterleaveUpper(f, a, c);
-    const FloatVec bd_low = hn::InterleaveLower(f, b, d), bd_high = hn::InterleaveUpper(f, b, d);
-    return {hn::InterleaveLower(f, ac_low, bd_low), hn::InterleaveUpper(f, ac_low, bd_low),
-            hn::InterleaveLower(f, ac_high, bd_high), hn::InterleaveUpper(f, ac_high, bd_high)};
-}
-#endif
+// What the rays found at one slice.
+struct SliceFinds {
+    HWY_ALIGN std::int32_t bin[lanes];
+    HWY_ALIGN float valued[lanes];
+    HWY_ALIGN float light[lanes];
+    float t = 0;          // the slice
+    bool any = false;     // some ray found a value
+    bool joined = false;  // the slice before is the one in front of it
+};
 
-template <bool curved, bool lit>
-class Caster {
+// The slices at both ends of the steps whose bits are set.
+class MarkedSlices {
   public:
-    Caster(const PacketVolume& volume, const RayPacket& rays)
-        : volume_(volume), rays_(rays), entries_(&volume.transfer->entry(0, 0)) {
-        const Floats f;
-        for (int part = 0; part < parts; ++part) {
-            through_[part] = hn::Set(f, 1.0F);
-            red_[part] = green_[part] = blue_[part] = hn::Zero(f);
-        }
-    }
+    HWY_INLINE MarkedSlices(const std::uint64_t* mask, std::size_t words, int first, float leave)
+        : mask_(mask),
+          words_(words),
+          word_(static_cast<std::size_t>(first) / 64),
+          leave_(leave),
+          bits_(word_ < words ? mask[word_] & ~std::uint64_t{0} << (first % 64) : 0) {}
 
-    void cast(const std::uint64_t* mask, std::size_t words) {
-        const float enter = *std::min_element(rays_.enter, rays_.enter + packet_rays);
-        const float leave = *std::max_element(rays_.leave, rays_.leave + packet_rays);
-        if (!(enter < leave)) return;
-        const int first = static_cast<int>(enter);
-        Samples samples[2];
-        int back = 0;
-        int last_done = -2;
-        for (auto w = static_cast<std::size_t>(first) / 64; w < words; ++w) {
-            for (std::uint64_t bits = mask[w]; bits != 0; bits &= bits - 1) {
-                const int k = static_cast<int>(w) * 64 + std::countr_zero(bits);
-                if (k < first) continue;
-                if (static_cast<float>(k) >= leave) return;
-                if (k != last_done + 1) {
-                    take_samples<curved, lit>(volume_, rays_, static_cast<float>(k), samples[back]);
-                }
-                back ^= 1;
-                take_samples<curved, lit>(volume_, rays_, static_cast<float>(k + 1), samples[back]);
-                last_done = k;
-                if (!samples[0].any && !samples[1].any) continue;
-                if (add_step(samples[back ^ 1], samples[back], static_cast<float>(k))) return;
-            }
+    // False behind the last. `joined`: the one before is the other end of its step.
+    HWY_INLINE bool next(float& t, bool& joined) {
+        if (half_done_) {
+            half_done_ = false;
+            joined = true;
+            t = static_cast<float>(++last_);
+            return true;
         }
-    }
-
-    void store(float* rgba) const {
-        const Floats f;
-        for (int part = 0; part < parts; ++part) {
-            hn::StoreInterleaved4(red_[part], green_[part], blue_[part],
-                                  hn::Sub(hn::Set(f, 1.0F), through_[part]), f,
-                                  rgba + part * lanes * 4);
+        while (bits_ == 0) {
+            if (++word_ >= words_) return false;
+            bits_ = mask_[word_];
         }
+        const int step = static_cast<int>(word_) * 64 + std::countr_zero(bits_);
+        if (static_cast<float>(step) >= leave_) return false;
+        bits_ &= bits_ - 1;
+        joined = step == last_;
+        half_done_ = !joined;
+        last_ = joined ? step + 1 : step;
+        t = static_cast<float>(last_);
+        return true;
     }
 
   private:
-    // The step from slice k to the next; an end without a value takes that of the other. True when
-    // no light comes through any more.
-    HWY_INLINE bool add_step(const Samples& front, const Samples& back, float k) {
+    const std::uint64_t* mask_;
+    std::size_t words_, word_;
+    float leave_;
+    std::uint64_t bits_;
+    int last_ = -1;           // the last slice that was given
+    bool half_done_ = false;  // of a step the near end alone
+};
+
+// Slices are sampled some at a time, and then their steps added up: no sample waits for another, so
+// that the processor works on several at once. `Source` is where codes come from.
+template <class Source, bool lit>
+class Caster {
+  public:
+    HWY_INLINE Caster(const PacketVolume& volume, const RayPacket& rays, int first)
+        : volume_(volume),
+          rays_(rays, first),
+          entries_(reinterpret_cast<const std::byte*>(&volume.transfer->entry(0, 0))) {
+        const Floats f;
+        through_ = hn::Set(f, 1.0F);
+        red_ = green_ = blue_ = hn::Zero(f);
+        enter_ = *std::min_element(rays.enter + first, rays.enter + first + lanes);
+        leave_ = *std::max_element(rays.leave + first, rays.leave + first + lanes);
+    }
+
+    HWY_INLINE void cast(const std::uint64_t* mask, std::size_t words) {
+        if (!(enter_ < leave_)) return;
+        MarkedSlices slices(mask, words, static_cast<int>(enter_), leave_);
+        SliceFinds finds[batch + 1];  // the first is the last of the batch before
+        int count = batch;
+        while (count == batch) {
+            count = 0;
+            while (count < batch && slices.next(finds[count + 1].t, finds[count + 1].joined))
+                ++count;
+            if (take_batch(finds, count)) return;
+            finds[0] = finds[count];
+        }
+    }
+
+    HWY_INLINE void store(float* rgba) const {
+        const Floats f;
+        hn::StoreInterleaved4(red_, green_, blue_, hn::Sub(hn::Set(f, 1.0F), through_), f, rgba);
+    }
+
+  private:
+    static constexpr int batch = 8;
+
+    // True when no light comes through any more.
+    HWY_INLINE bool take_batch(SliceFinds* finds, int count) {
+        for (int slice = 1; slice <= count; ++slice)
+            take_samples(finds[slice]);
+        for (int slice = 1; slice <= count; ++slice) {
+            const SliceFinds& front = finds[slice - 1];
+            const SliceFinds& back = finds[slice];
+            if (!back.joined || (!front.any && !back.any)) continue;
+            if (add_step(front, back)) return true;
+        }
+        return false;
+    }
+
+    // At the slice, or where the ray enters or leaves the box when that is nearer to its middle.
+    HWY_INLINE void take_samples(SliceFinds& finds) const {
+        const Floats f;
+        const FloatVec held = hn::Min(hn::Max(hn::Set(f, finds.t), rays_.enter), rays_.leave);
+        const FloatVec x = hn::Add(rays_.x, hn::Mul(held, rays_.step_x));
+        const FloatVec y = hn::Add(rays_.y, hn::Mul(held, rays_.step_y));
+        FloatVec z = hn::Add(rays_.z, hn::Mul(held, rays_.step_z));
+        if (volume_.curve != nullptr) z = hn::Add(z, drop(*volume_.curve, x, y));
+        const Places at{place_of(x, volume_.last_x), place_of(y, volume_.last_y),
+                        place_of(level_of(volume_, z), volume_.last_z)};
+        const Corners corners = Source::corners(volume_, at);
+        Samples samples;
+        finds.any = mix_corners(volume_, corners, at, samples);
+        hn::Store(samples.bin, Ints(), finds.bin);
+        hn::Store(samples.valued, f, finds.valued);
+        if constexpr (lit) {
+            hn::Store(finds.any ? light_of(*volume_.light, corners, at, samples.valued)
+                                : hn::Set(f, 1.0F),
+                      f, finds.light);
+        }
+    }
+
+    // An end of the step without a value takes that of the other.
+    HWY_INLINE bool add_step(const SliceFinds& front, const SliceFinds& back) {
         const Floats f;
         const Ints i;
-        bool all_opaque = true;
-        for (int part = 0; part < parts; ++part) {
-            const int ray = part * lanes;
-            const FloatVec from = hn::Max(hn::Set(f, k), hn::LoadU(f, rays_.enter + ray));
-            const FloatVec to = hn::Min(hn::Set(f, k + 1), hn::LoadU(f, rays_.leave + ray));
-            const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
-            const FloatVec front_share = hn::Load(f, front.valued + ray);
-            const FloatVec back_share = hn::Load(f, back.valued + ray);
-            const FloatVec share = hn::Mul(hn::Set(f, 0.5F), hn::Add(front_share, back_share));
-            const FloatVec length =
-                hn::Mul(hn::Mul(inside, share), hn::LoadU(f, rays_.length + ray));
-            if (hn::AllFalse(f, hn::Gt(length, hn::Zero(f)))) {
-                all_opaque = false;
-                continue;
-            }
-            const IntVec front_bin = hn::Load(i, front.bin + ray);
-            const IntVec back_bin = hn::Load(i, back.bin + ray);
-            const auto valued = [&](FloatVec part_share) {
-                return hn::RebindMask(i, hn::Gt(part_share, hn::Zero(f)));
-            };
-            const IntVec one = hn::IfThenElse(valued(front_share), front_bin, back_bin);
-            const IntVec other = hn::IfThenElse(valued(back_share), back_bin, front_bin);
-            HWY_ALIGN std::int32_t indices[lanes];
-            hn::Store(hn::Add(hn::ShiftLeft<8>(one), other), i, indices);
-            Looks looks = looks_at(entries_, indices);
-            if constexpr (lit) {
-                const FloatVec front_light = hn::Load(f, front.light + ray);
-                const FloatVec back_light = hn::Load(f, back.light + ray);
-                const auto in_front = hn::Gt(front_share, hn::Zero(f));
-                const auto behind = hn::Gt(back_share, hn::Zero(f));
-                darken(looks, hn::Mul(hn::Set(f, 0.5F),
-                                      hn::Add(hn::IfThenElse(in_front, front_light, back_light),
-                                              hn::IfThenElse(behind, back_light, front_light))));
-            }
-            all_opaque = add_looks(looks, length, part) && all_opaque;
+        const FloatVec from = hn::Max(hn::Set(f, front.t), rays_.enter);
+        const FloatVec to = hn::Min(hn::Set(f, back.t), rays_.leave);
+        const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
+        const FloatVec front_share = hn::Load(f, front.valued);
+        const FloatVec back_share = hn::Load(f, back.valued);
+        const FloatVec share = hn::Mul(hn::Set(f, 0.5F), hn::Add(front_share, back_share));
+        const FloatVec length = hn::Mul(hn::Mul(inside, share), rays_.length);
+        const auto in_front = hn::Gt(front_share, hn::Zero(f));
+        const auto behind = hn::Gt(back_share, hn::Zero(f));
+        const IntVec front_bin = hn::Load(i, front.bin);
+        const IntVec back_bin = hn::Load(i, back.bin);
+        const IntVec one = hn::IfThenElse(hn::RebindMask(i, in_front), front_bin, back_bin);
+        const IntVec other = hn::IfThenElse(hn::RebindMask(i, behind), back_bin, front_bin);
+        constexpr int entry_bits = std::countr_zero(sizeof(TransferEntry));
+        const LaneNumbers at(hn::ShiftLeft<entry_bits>(hn::Add(hn::ShiftLeft<8>(one), other)));
+        Fours looks =
+            fours_of([&](int lane) { return reinterpret_cast<const float*>(entries_ + at[lane]); });
+        if constexpr (lit) {
+            const FloatVec front_light = hn::Load(f, front.light);
+            const FloatVec back_light = hn::Load(f, back.light);
+            const FloatVec light =
+                hn::Mul(hn::Set(f, 0.5F), hn::Add(hn::IfThenElse(in_front, front_light, back_light),
+                                                  hn::IfThenElse(behind, back_light, front_light)));
+            looks.first = hn::Mul(looks.first, light);
+            looks.second = hn::Mul(looks.second, light);
+            looks.third = hn::Mul(looks.third, light);
         }
-        return all_opaque;
+        return add_looks(looks, length);
     }
 
-    HWY_INLINE void darken(Looks& looks, FloatVec light) {
-        looks.red = hn::Mul(looks.red, light);
-        looks.green = hn::Mul(looks.green, light);
-        looks.blue = hn::Mul(looks.blue, light);
-    }
-
-    HWY_INLINE bool add_looks(const Looks& looks, FloatVec length, int part) {
+    // Red, green, blue and depth of a whole step.
+    HWY_INLINE bool add_looks(const Fours& looks, FloatVec length) {
         const Floats f;
-        const FloatVec seen = hn::Mul(through_[part], opacity_of(hn::Mul(looks.depth, length)));
-        red_[part] = hn::Add(red_[part], hn::Mul(seen, looks.red));
-        green_[part] = hn::Add(green_[part], hn::Mul(seen, looks.green));
-        blue_[part] = hn::Add(blue_[part], hn::Mul(seen, looks.blue));
-        through_[part] = hn::Sub(through_[part], seen);
-        return hn::AllTrue(f, hn::Lt(through_[part], hn::Set(f, opaque_enough)));
+        const FloatVec enough = hn::Set(f, opaque_enough);
+        const FloatVec open = hn::IfThenElseZero(hn::Ge(through_, enough), through_);
+        const FloatVec seen = hn::Mul(open, opacity_of(hn::Mul(looks.fourth, length)));
+        red_ = hn::Add(red_, hn::Mul(seen, looks.first));
+        green_ = hn::Add(green_, hn::Mul(seen, looks.second));
+        blue_ = hn::Add(blue_, hn::Mul(seen, looks.third));
+        through_ = hn::Sub(through_, seen);
+        return hn::AllTrue(f, hn::Lt(through_, enough));
     }
 
     const PacketVolume& volume_;
-    const RayPacket& rays_;
-    const TransferEntry* entries_;
-    FloatVec through_[parts], red_[parts], green_[parts], blue_[parts];
+    const Rays rays_;
+    const std::byte* entries_;
+    float enter_, leave_;
+    FloatVec through_, red_, green_, blue_;
 };
 
-template <bool curved, bool lit>
+template <class Source, bool lit>
 HWY_INLINE void cast_as(const PacketVolume& volume, const RayPacket& rays,
                         const std::uint64_t* mask, std::size_t words, float* rgba) {
-    Caster<curved, lit> caster(volume, rays);
-    caster.cast(mask, words);
-    caster.store(rgba);
+    for (int first = 0; first < packet_rays; first += lanes) {
+        Caster<Source, lit> caster(volume, rays, first);
+        caster.cast(mask, words);
+        caster.store(rgba + first * 4);
+    }
 }
 
 void cast_one_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
                      std::size_t words, float* rgba) {
     const bool lit = volume.light != nullptr;
-    if (volume.curve != nullptr) {
-        lit ? cast_as<true, true>(volume, rays, mask, words, rgba)
-            : cast_as<true, false>(volume, rays, mask, words, rgba);
+    if (volume.words != nullptr) {
+        lit ? cast_as<FromTable, true>(volume, rays, mask, words, rgba)
+            : cast_as<FromTable, false>(volume, rays, mask, words, rgba);
     } else {
-        lit ? cast_as<false, true>(volume, rays, mask, words, rgba)
-            : cast_as<false, false>(volume, rays, mask, words, rgba);
+        lit ? cast_as<FromBricks, true>(volume, rays, mask, words, rgba)
+            : cast_as<FromBricks, false>(volume, rays, mask, words, rgba);
     }
 }
 
@@ -228,6 +282,12 @@ PacketVolume::PacketVolume(const grid::BrickView& view, const LevelPosition& lev
       last_z(view.spec->nz() - 1),
       levels(level_position.is_uniform() ? nullptr : &level_position),
       transfer(&transfer_function) {}
+
+void PacketVolume::use(const CornerTable& table) {
+    words = table.words();
+    word_stride_x = table.stride_x();
+    word_stride_y = table.stride_y();
+}
 
 bool PacketVolume::can_address(const grid::BrickView& view) {
     const double codes = static_cast<double>(view.bricks_x) * view.bricks_y * view.bricks_z *

@@ -1,4 +1,4 @@
-// render/volume/ray_packet.h -- eight rays at once through the bricks: the slicer's inner loop.
+// render/volume/ray_packet.h -- sixteen rays through the volume: the slicer's inner loop.
 //
 // SIMD by Highway, the target chosen at run time. No operation is fused or reordered, so that every
 // target gives the same bits. What a ray does is said in render/volume/slicer.h.
@@ -9,13 +9,14 @@
 #include <cstdint>
 
 #include "grid/brick_view.h"
+#include "render/volume/corner_table.h"
 #include "render/volume/level_position.h"
 #include "render/volume/light_volume.h"
 #include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
 
-inline constexpr int packet_rays = 8;
+inline constexpr int packet_rays = 16;
 
 // The earth's curve in cell positions.
 struct CurvedLevels {
@@ -35,8 +36,10 @@ struct PacketVolume {
     const std::byte* codes = nullptr;
     int code_bytes = 1;
     std::int32_t brick_stride_x = 0, brick_stride_y = 0;  // codes from brick to brick
-    std::int32_t last_x = 0, last_y = 0, last_z = 0;      // cells
-    const LevelPosition* levels = nullptr;                // none: z of a ray is a level
+    const std::byte* words = nullptr;  // of a CornerTable; none: the bricks serve
+    std::int32_t word_stride_x = 0, word_stride_y = 0;
+    std::int32_t last_x = 0, last_y = 0, last_z = 0;  // cells
+    const LevelPosition* levels = nullptr;            // none: z of a ray is a level
     const TransferFunction* transfer = nullptr;
     const CurvedLevels* curve = nullptr;  // none: the earth is flat
     const PacketLight* light = nullptr;   // none: the table's own colours
@@ -44,6 +47,8 @@ struct PacketVolume {
     // `levels` and `transfer` must outlive this.
     PacketVolume(const grid::BrickView& view, const LevelPosition& levels,
                  const TransferFunction& transfer);
+    // From here on codes are taken from the table, which must outlive this.
+    void use(const CornerTable& table);
     // Whether every code of the view has a number that fits.
     [[nodiscard]] static bool can_address(const grid::BrickView& view);
 };

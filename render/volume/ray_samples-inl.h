@@ -1,9 +1,8 @@
-// render/volume/ray_samples-inl.h -- what eight rays find at one slice.
+// render/volume/ray_samples-inl.h -- what the rays of all lanes find at one slice.
 //
 // Part of render/volume/ray_packet.cpp, compiled once for each SIMD target.
 // The eight codes round a point are loaded one ray after the other (gathers cost more on today's
-// machines) and put together in general registers, two codes a load: writing them to memory and
-// reading them back as a vector would wait for the store.
+// machines) and put together in general registers.
 #if defined(STORMCELLAR_RAY_SAMPLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_RAY_SAMPLES_INL
 #undef STORMCELLAR_RAY_SAMPLES_INL
@@ -11,201 +10,234 @@
 #define STORMCELLAR_RAY_SAMPLES_INL
 #endif
 
-#include <algorithm>
-#include <cstring>
-
 #include <hwy/highway.h>
 
-#include "render/volume/code_vector-inl.h"
+#include "render/volume/lanes-inl.h"
 #include "render/volume/ray_packet.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-// A bin of the transfer function and the share of valued cells, for each ray.
+// A bin of the transfer function and the share of valued cells, for each ray; where the volume is
+// lit, how light it is there.
 struct Samples {
-    HWY_ALIGN std::int32_t bin[packet_rays];
-    HWY_ALIGN float valued[packet_rays];
-    HWY_ALIGN float light[packet_rays];  // where the volume is lit
-    bool any = false;                    // a share above 0
+    IntVec bin;
+    FloatVec valued;
+    FloatVec light;
 };
 
-// The codes round the samples, by the sides in x (bit 0) and y (bit 1), at both levels.
-struct Corners {
-    CodeVec low[4], high[4];
+// A place along one axis: the cell below it, and how far beyond that it lies.
+struct Place {
+    IntVec cell;
+    FloatVec beyond;
 };
 
-// Where they are: numbers of codes, for each side in x and y at the lower level. What is not inside
-// bricks, or whose upper neighbours do not follow, needs more than the first column.
-struct Addresses {
-    HWY_ALIGN std::int32_t column[4][packet_rays];
-    HWY_ALIGN std::int32_t up[packet_rays];  // from the lower to the upper level
-    bool inside_bricks = true;               // each of the eight is in the brick of the first
-    bool paired = true;                      // the upper code follows the lower one
-};
-
-// How far beyond the cell below it a position lies.
-struct Weights {
-    FloatVec x, y, z;
-};
-
-constexpr std::int32_t next_x = grid::brick_edge * grid::brick_edge, next_y = grid::brick_edge;
-
-// The place along one axis of the cell below a position; adds up the addresses. `across`: to the
-// next cell, 0 at the grid's end. `next_follows`: to all of them it is `next`.
-template <std::int32_t next>
-HWY_INLINE FloatVec place_on_axis(FloatVec position, std::int32_t last, std::int32_t brick_stride,
-                                  IntVec& at, IntVec& across, bool& next_follows) {
+HWY_INLINE Place place_of(FloatVec position, std::int32_t last) {
     const Floats f;
-    const Ints i;
     const FloatVec held =
         hn::Min(hn::Max(position, hn::Zero(f)), hn::Set(f, static_cast<float>(last)));
-    const IntVec cell = hn::ConvertTo(i, held);
-    const IntVec edge = hn::Set(i, grid::brick_edge - 1);
-    const IntVec in_brick = hn::And(cell, edge);
-    at = hn::Add(at, hn::Add(hn::Mul(hn::ShiftRight<4>(cell), hn::Set(i, brick_stride)),
-                             hn::Mul(in_brick, hn::Set(i, next))));
-    const auto at_edge = hn::Eq(in_brick, edge);
-    const auto at_end = hn::Eq(cell, hn::Set(i, last));
-    across = hn::IfThenZeroElse(
-        at_end, hn::IfThenElse(at_edge, hn::Set(i, brick_stride - next * (grid::brick_edge - 1)),
-                               hn::Set(i, next)));
-    next_follows = hn::AllFalse(i, hn::Or(at_edge, at_end));
-    return hn::Sub(held, hn::ConvertTo(f, cell));
+    const IntVec cell = hn::ConvertTo(Ints(), held);
+    return {cell, hn::Sub(held, hn::ConvertTo(f, cell))};
 }
 
-template <class Code>
-HWY_INLINE std::uint64_t load(const std::byte* from) {
-    Code code;
-    std::memcpy(&code, from, sizeof(Code));
-    return code;
-}
+// Of a sample of each ray.
+struct Places {
+    Place x, y, z;
+};
 
-// One code, or two in one number, from each ray's place. Unrolled by hand: the eight loads do not
-// wait for each other.
-template <class Code, int bytes>
-HWY_INLINE CodeVec for_rays(const std::byte* codes, const std::int32_t* at) {
-    const std::uint64_t first = load<Code>(codes + std::int64_t{at[0]} * bytes) |
-                                load<Code>(codes + std::int64_t{at[1]} * bytes) << 16 |
-                                load<Code>(codes + std::int64_t{at[2]} * bytes) << 32 |
-                                load<Code>(codes + std::int64_t{at[3]} * bytes) << 48;
-    const std::uint64_t last = load<Code>(codes + std::int64_t{at[4]} * bytes) |
-                               load<Code>(codes + std::int64_t{at[5]} * bytes) << 16 |
-                               load<Code>(codes + std::int64_t{at[6]} * bytes) << 32 |
-                               load<Code>(codes + std::int64_t{at[7]} * bytes) << 48;
-    return codes_of(first, last);
-}
+// The eight codes round it: by the sides in x (bit 0), y (bit 1) and z (bit 2).
+struct Corners {
+    IntVec code[8];
+};
 
-HWY_INLINE void load_pairs(const std::byte* codes, const std::int32_t* at, int c,
-                           Corners& corners) {
-    const CodeVec pairs = for_rays<std::uint16_t, 1>(codes, at);
-    corners.low[c] = low_bytes(pairs);
-    corners.high[c] = high_bytes(pairs);
-}
+// From a CornerTable.
+struct FromTable {
+    static HWY_INLINE Corners corners(const PacketVolume& volume, const Places& at) {
+        const Ints i;
+        const LaneNumbers words(
+            hn::Add(hn::Add(hn::Mul(at.x.cell, hn::Set(i, volume.word_stride_x)),
+                            hn::Mul(at.y.cell, hn::Set(i, volume.word_stride_y))),
+                    at.z.cell));
+        const Halves levels = halves_of(
+            [&](int lane) { return load_as<std::uint64_t>(volume.words + words[lane] * 4); });
+        const IntVec byte = hn::Set(i, 0xFF);
+        const auto unpack = [&](IntVec word, IntVec* codes) {
+            codes[0] = hn::And(word, byte);
+            codes[1] = hn::And(hn::ShiftRight<8>(word), byte);
+            codes[2] = hn::And(hn::ShiftRight<16>(word), byte);
+            codes[3] = hn::And(hn::ShiftRight<24>(word), byte);
+        };
+        Corners corners;
+        unpack(levels.low, corners.code);
+        unpack(levels.high, corners.code + 4);
+        return corners;
+    }
+};
 
-template <class Code>
-HWY_INLINE void load_singly(const std::byte* codes, const Addresses& where, Corners& corners) {
-    const Ints i;
-    for (int c = 0; c < 4; ++c) {
-        HWY_ALIGN std::int32_t above[packet_rays];
-        for (int ray = 0; ray < packet_rays; ray += lanes) {
-            hn::Store(hn::Add(hn::Load(i, where.column[c] + ray), hn::Load(i, where.up + ray)), i,
-                      above + ray);
+// From the bricks themselves.
+struct FromBricks {
+    // Where the lower codes are, by the sides in x and y.
+    using Columns = LaneNumbers[4];
+
+    // Adds up where the cell's code is; gives the way to the next cell, 0 at the grid's end.
+    template <std::int32_t next>
+    static HWY_INLINE IntVec step_along(IntVec cell, std::int32_t last, std::int32_t brick_stride,
+                                        IntVec& at) {
+        const Ints i;
+        const IntVec edge = hn::Set(i, grid::brick_edge - 1);
+        const IntVec in_brick = hn::And(cell, edge);
+        at = hn::Add(at, hn::Add(hn::Mul(hn::ShiftRight<4>(cell), hn::Set(i, brick_stride)),
+                                 hn::Mul(in_brick, hn::Set(i, next))));
+        const IntVec across = hn::IfThenElse(
+            hn::Eq(in_brick, edge), hn::Set(i, brick_stride - next * (grid::brick_edge - 1)),
+            hn::Set(i, next));
+        return hn::IfThenZeroElse(hn::Eq(cell, hn::Set(i, last)), across);
+    }
+
+    static HWY_INLINE Corners corners(const PacketVolume& volume, const Places& at) {
+        constexpr std::int32_t next_y = grid::brick_edge, next_x = next_y * grid::brick_edge;
+        const Ints i;
+        IntVec here = hn::Zero(i);
+        const IntVec east =
+            step_along<next_x>(at.x.cell, volume.last_x, volume.brick_stride_x, here);
+        const IntVec north =
+            step_along<next_y>(at.y.cell, volume.last_y, volume.brick_stride_y, here);
+        const IntVec up = step_along<1>(at.z.cell, volume.last_z,
+                                        static_cast<std::int32_t>(grid::brick_cells), here);
+        const Columns columns{LaneNumbers(here), LaneNumbers(hn::Add(here, east)),
+                              LaneNumbers(hn::Add(here, north)),
+                              LaneNumbers(hn::Add(hn::Add(here, east), north))};
+        if (volume.code_bytes == 1 && hn::AllTrue(i, hn::Eq(up, hn::Set(i, 1)))) {
+            return paired(volume.codes, columns);
         }
-        corners.low[c] = for_rays<Code, sizeof(Code)>(codes, where.column[c]);
-        corners.high[c] = for_rays<Code, sizeof(Code)>(codes, above);
+        const LaneNumbers rise(up);
+        return volume.code_bytes == 1 ? singly<std::uint8_t>(volume.codes, columns, rise)
+                                      : singly<std::uint16_t>(volume.codes, columns, rise);
     }
-}
 
-HWY_INLINE void load_corners(const PacketVolume& volume, const Addresses& where, Corners& corners) {
-    if (volume.code_bytes == 2) return load_singly<std::uint16_t>(volume.codes, where, corners);
-    if (!where.paired) return load_singly<std::uint8_t>(volume.codes, where, corners);
-    if (where.inside_bricks) {
-        load_pairs(volume.codes, where.column[0], 0, corners);
-        load_pairs(volume.codes + next_x, where.column[0], 1, corners);
-        load_pairs(volume.codes + next_y, where.column[0], 2, corners);
-        load_pairs(volume.codes + next_x + next_y, where.column[0], 3, corners);
-    } else {
-        for (int c = 0; c < 4; ++c)
-            load_pairs(volume.codes, where.column[c], c, corners);
+    // Both levels of a column in one number.
+    static HWY_INLINE Corners paired(const std::byte* codes, const Columns& columns) {
+        const Ints i;
+        const Halves words = halves_of([&](int lane) {
+            const auto pair = [&](int c) {
+                return std::uint64_t{load_as<std::uint16_t>(codes + columns[c][lane])};
+            };
+            return pair(0) | pair(1) << 16 | pair(2) << 32 | pair(3) << 48;
+        });
+        const IntVec byte = hn::Set(i, 0xFF);
+        Corners corners;
+        const auto unpack = [&](IntVec word, int c) {
+            corners.code[c] = hn::And(word, byte);
+            corners.code[c + 4] = hn::And(hn::ShiftRight<8>(word), byte);
+            corners.code[c + 1] = hn::And(hn::ShiftRight<16>(word), byte);
+            corners.code[c + 5] = hn::And(hn::ShiftRight<24>(word), byte);
+        };
+        unpack(words.low, 0);
+        unpack(words.high, 2);
+        return corners;
     }
-}
+
+    template <class Code>
+    static HWY_INLINE Corners singly(const std::byte* codes, const Columns& columns,
+                                     const LaneNumbers& rise) {
+        const Ints i;
+        const IntVec low = hn::Set(i, 0xFFFF);
+        Corners corners;
+        for (int level = 0; level < 2; ++level) {
+            const Halves words = halves_of([&](int lane) {
+                const auto code = [&](int c) {
+                    const std::int64_t at = columns[c][lane] + level * rise[lane];
+                    return std::uint64_t{
+                        load_as<Code>(codes + at * static_cast<std::int64_t>(sizeof(Code)))};
+                };
+                return code(0) | code(1) << 16 | code(2) << 32 | code(3) << 48;
+            });
+            IntVec* level_codes = corners.code + 4 * level;
+            level_codes[0] = hn::And(words.low, low);
+            level_codes[1] = hn::And(hn::ShiftRight<16>(words.low), low);
+            level_codes[2] = hn::And(words.high, low);
+            level_codes[3] = hn::And(hn::ShiftRight<16>(words.high), low);
+        }
+        return corners;
+    }
+};
 
 HWY_INLINE FloatVec mix(FloatVec from, FloatVec to, FloatVec share) {
     return hn::Add(from, hn::Mul(hn::Sub(to, from), share));
 }
 
 // All eight cells have values: their mean by weights.
-HWY_INLINE FloatVec mean_of_all(const Corners& corners, const Weights& weights, int part) {
+HWY_INLINE FloatVec mean_of_all(const Corners& corners, const Places& at) {
+    const Floats f;
     FloatVec column[4];
     for (int c = 0; c < 4; ++c) {
-        column[c] =
-            mix(floats_of(corners.low[c], part), floats_of(corners.high[c], part), weights.z);
+        column[c] = mix(hn::ConvertTo(f, corners.code[c]), hn::ConvertTo(f, corners.code[c + 4]),
+                        at.z.beyond);
     }
-    return mix(mix(column[0], column[1], weights.x), mix(column[2], column[3], weights.x),
-               weights.y);
+    return mix(mix(column[0], column[1], at.x.beyond), mix(column[2], column[3], at.x.beyond),
+               at.y.beyond);
 }
 
 // The mean of those with values, and their share.
-HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Weights& weights, int part,
-                                 FloatVec& valued) {
+HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, FloatVec& valued) {
     const Floats f;
     const FloatVec one = hn::Set(f, 1.0F);
-    const FloatVec x0 = hn::Sub(one, weights.x);
-    const FloatVec y0 = hn::Sub(one, weights.y);
-    const FloatVec z0 = hn::Sub(one, weights.z);
-    const FloatVec column[4] = {hn::Mul(x0, y0), hn::Mul(weights.x, y0), hn::Mul(x0, weights.y),
-                                hn::Mul(weights.x, weights.y)};
+    const FloatVec x0 = hn::Sub(one, at.x.beyond);
+    const FloatVec y0 = hn::Sub(one, at.y.beyond);
+    const FloatVec z0 = hn::Sub(one, at.z.beyond);
+    const FloatVec column[4] = {hn::Mul(x0, y0), hn::Mul(at.x.beyond, y0), hn::Mul(x0, at.y.beyond),
+                                hn::Mul(at.x.beyond, at.y.beyond)};
+    const IntVec last_state = hn::Set(Ints(), grid::first_value_code - 1);
     FloatVec sum = hn::Zero(f);
     valued = hn::Zero(f);
-    const auto add = [&](CodeVec codes, FloatVec weight) {
-        const FloatVec code = floats_of(codes, part);
-        const auto counts = hn::Ge(code, hn::Set(f, static_cast<float>(grid::first_value_code)));
+    const auto add = [&](IntVec code, FloatVec weight) {
+        const auto counts = hn::RebindMask(f, hn::Gt(code, last_state));
         const FloatVec share = hn::IfThenElseZero(counts, weight);
         valued = hn::Add(valued, share);
-        sum = hn::Add(sum, hn::Mul(share, code));
+        sum = hn::Add(sum, hn::Mul(share, hn::ConvertTo(f, code)));
     };
     for (int c = 0; c < 4; ++c) {
-        add(corners.low[c], hn::Mul(column[c], z0));
-        add(corners.high[c], hn::Mul(column[c], weights.z));
+        add(corners.code[c], hn::Mul(column[c], z0));
+        add(corners.code[c + 4], hn::Mul(column[c], at.z.beyond));
     }
     return hn::Div(sum, hn::IfThenElse(hn::Gt(valued, hn::Zero(f)), valued, one));
 }
 
-HWY_INLINE void keep(const PacketVolume& volume, FloatVec code, FloatVec valued, int ray,
-                     Samples& samples) {
+HWY_INLINE IntVec bin_of(const PacketVolume& volume, FloatVec code) {
     const Floats f;
-    const Ints i;
     const FloatVec position = hn::Add(hn::Set(f, volume.transfer->bin_offset()),
                                       hn::Mul(hn::Set(f, volume.transfer->bin_slope()), code));
     const FloatVec bounded =
         hn::Min(hn::Max(position, hn::Zero(f)), hn::Set(f, TransferFunction::bin_count - 1.0F));
-    hn::Store(hn::ConvertTo(i, bounded), i, samples.bin + ray);
-    hn::Store(valued, f, samples.valued + ray);
+    return hn::ConvertTo(Ints(), bounded);
 }
 
-HWY_INLINE void mix_corners(const PacketVolume& volume, const Corners& corners,
-                            const Weights* weights, Samples& samples) {
+// False when no ray finds a value; then no ray has a share.
+HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, const Places& at,
+                            Samples& samples) {
     const Floats f;
-    CodeVec least = corners.low[0];
-    CodeVec largest = corners.low[0];
-    for (int c = 0; c < 4; ++c) {
-        least = least_of(least, least_of(corners.low[c], corners.high[c]));
-        largest = largest_of(largest, largest_of(corners.low[c], corners.high[c]));
+    const Ints i;
+    IntVec least = corners.code[0];
+    IntVec largest = corners.code[0];
+    for (int c = 1; c < 8; ++c) {
+        least = hn::Min(least, corners.code[c]);
+        largest = hn::Max(largest, corners.code[c]);
     }
-    samples.any = !no_values(largest);
-    if (!samples.any) {
-        std::fill(samples.valued, samples.valued + packet_rays, 0.0F);
-        std::fill(samples.bin, samples.bin + packet_rays, 0);
-        return;
+    const IntVec last_state = hn::Set(i, grid::first_value_code - 1);
+    samples.bin = hn::Zero(i);
+    samples.valued = hn::Zero(f);
+    if (hn::AllFalse(i, hn::Gt(largest, last_state))) return false;
+    const auto all = hn::RebindMask(f, hn::Gt(least, last_state));
+    FloatVec code = mean_of_all(corners, at);
+    samples.valued = hn::Set(f, 1.0F);
+    if (!hn::AllTrue(f, all)) {
+        FloatVec valued;
+        const FloatVec some = mean_of_some(corners, at, valued);
+        code = hn::IfThenElse(all, code, some);
+        samples.valued = hn::IfThenElse(all, samples.valued, valued);
     }
-    const bool all = all_values(least);
-    for (int part = 0; part < parts; ++part) {
-        FloatVec valued = hn::Set(f, 1.0F);
-        const FloatVec code = all ? mean_of_all(corners, weights[part], part)
-                                  : mean_of_some(corners, weights[part], part, valued);
-        keep(volume, code, valued, part * lanes, samples);
-    }
+    samples.bin = bin_of(volume, code);
+    return true;
 }
 
 HWY_INLINE FloatVec level_of(const PacketVolume& volume, FloatVec z) {

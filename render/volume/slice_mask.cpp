@@ -6,6 +6,9 @@
 #include <cstring>
 #include <limits>
 
+#include "base/parallel.h"
+#include "render/volume/block_codes.h"
+
 namespace stormcellar::render {
 namespace {
 
@@ -13,7 +16,6 @@ using grid::brick_edge;
 
 // Steps by which a bit may be set too early or too late: covers the rounding of both sides.
 constexpr double slack = 0.01;
-constexpr int block_edge = brick_edge / 2;
 constexpr double half_tile_pixels = 0.5 * tile_edge;
 
 // Sets the bits from `first` to `last`, both included.
@@ -32,45 +34,18 @@ void set_bits(std::uint64_t* words, int first, int last) {
     words[to / 64] |= tail;
 }
 
-// Least and largest code of the values in each block of a brick; blocks without have least >
-// largest. Block 4 x + 2 y + z.
-struct BlockCodes {
-    std::array<std::uint16_t, 8> least{}, largest{};
-};
-
-// Codes of states, less the first of a value, wrap to the top, where no value is.
-template <class Code>
-BlockCodes block_codes(const std::byte* codes) {
-    constexpr auto states = static_cast<Code>(grid::first_value_code);
-    BlockCodes found;
-    for (int half = 0; half < 4; ++half) {
-        std::array<Code, brick_edge> least{}, largest{};
-        least.fill(std::numeric_limits<Code>::max());
-        for (int x = 0; x < block_edge; ++x) {
-            for (int y = 0; y < block_edge; ++y) {
-                const int row =
-                    ((half / 2) * block_edge + x) * brick_edge + (half % 2) * block_edge + y;
-                std::array<Code, brick_edge> cells;
-                std::memcpy(cells.data(), codes + static_cast<std::size_t>(row) * sizeof cells,
-                            sizeof cells);
-                for (std::size_t z = 0; z < cells.size(); ++z) {
-                    const auto value = static_cast<Code>(cells[z] - states);
-                    least[z] = std::min(least[z], value);
-                    largest[z] = std::max(largest[z], cells[z]);
-                }
-            }
-        }
-        for (std::size_t z = 0; z < 2; ++z) {
-            const auto from = static_cast<std::ptrdiff_t>(z) * block_edge;
-            const auto block = static_cast<std::size_t>(half) * 2 + z;
-            found.least[block] = static_cast<std::uint16_t>(
-                *std::min_element(least.begin() + from, least.begin() + from + block_edge) +
-                states);
-            found.largest[block] =
-                *std::max_element(largest.begin() + from, largest.begin() + from + block_edge);
-        }
-    }
-    return found;
+// Blocks about as wide as a tile of the picture tell what tiles can use; smaller ones, or so many,
+// cost more than they save.
+int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
+    constexpr double most_blocks = 1 << 18;
+    const double cell_m = std::min(spec.cell_width_m(), spec.cell_height_m());
+    const auto cells = static_cast<double>(spec.cell_count());
+    int edge = 2;
+    while (edge < brick_edge &&
+           (cells / (edge * edge * edge) > most_blocks ||
+            2 * edge * cell_m <= 1.5 * tile_edge * geometry.metres_per_pixel()))
+        edge *= 2;
+    return edge;
 }
 
 // The stretch along one axis that the cells from `first` to before `past` colour: up to the centres
@@ -90,56 +65,66 @@ struct SliceMask::Cells {
 };
 
 SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
-                     const TransferFunction& transfer)
+                     const TransferFunction& transfer, int threads)
     : geometry_(geometry),
       slices_(slices),
       step_m_((geometry.far_m() - geometry.near_m()) / slices),
       tiles_across_((geometry.width() + tile_edge - 1) / tile_edge),
       tiles_down_((geometry.height() + tile_edge - 1) / tile_edge),
-      words_per_tile_(static_cast<std::size_t>(slices + 63) / 64) {
-    for (int bx = 0; bx < view.bricks_x; ++bx) {
+      words_per_tile_(static_cast<std::size_t>(slices + 63) / 64),
+      block_edge_(block_edge_for(*view.spec, geometry)),
+      rows_(static_cast<std::size_t>(tiles_down_)) {
+    std::vector<Boxes> found(static_cast<std::size_t>(view.bricks_x));
+    for_each_piece(view.bricks_x, threads, [&](int bx) {
         for (int by = 0; by < view.bricks_y; ++by) {
-            for (int bz = 0; bz < view.bricks_z; ++bz) {
-                const grid::BrickEntry& entry = view.bricks[view.brick_index(bx, by, bz)];
-                if (entry.kind != grid::BrickKind::stored || entry.value_count == 0) continue;
-                if (transfer.shows(entry.min_code, entry.max_code)) {
-                    add_brick(view, transfer, bx, by, bz);
-                }
-            }
+            for (int bz = 0; bz < view.bricks_z; ++bz)
+                add_brick(view, transfer, {bx, by, bz}, found[static_cast<std::size_t>(bx)]);
+        }
+    });
+    for (const Boxes& boxes : found) {
+        for (const Box& box : boxes) {
+            for (int row = box.first_row; row <= box.last_row; ++row)
+                rows_[static_cast<std::size_t>(row)].push_back(box);
         }
     }
 }
 
-void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer, int bx,
-                          int by, int bz) {
-    const int bytes = view.quantization.code_bytes;
-    const std::byte* codes = view.codes.data() + view.brick_index(bx, by, bz) * grid::brick_cells *
-                                                     static_cast<std::size_t>(bytes);
-    const BlockCodes blocks =
-        bytes == 1 ? block_codes<std::uint8_t>(codes) : block_codes<std::uint16_t>(codes);
-    std::array<bool, 8> shows{};
-    for (std::size_t block = 0; block < shows.size(); ++block) {
-        shows[block] = blocks.largest[block] >= grid::first_value_code &&
-                       transfer.shows(blocks.least[block], blocks.largest[block]);
-    }
-    const grid::GridSpec& spec = *view.spec;
-    const Cells brick = {{bx * brick_edge, by * brick_edge, bz * brick_edge},
-                         {(bx + 1) * brick_edge, (by + 1) * brick_edge, (bz + 1) * brick_edge}};
-    if (std::all_of(shows.begin(), shows.end(), [](bool show) { return show; })) {
-        return add_cells(spec, brick);
-    }
-    for (std::size_t block = 0; block < shows.size(); ++block) {
-        if (!shows[block]) continue;
-        Cells cells = brick;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            cells.first[axis] += (block >> (2 - axis) & 1) != 0 ? block_edge : 0;
-            cells.past[axis] = cells.first[axis] + block_edge;
+void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer,
+                          const std::array<int, 3>& brick, Boxes& boxes) const {
+    const std::size_t index = view.brick_index(brick[0], brick[1], brick[2]);
+    const grid::BrickEntry& entry = view.bricks[index];
+    if (entry.kind != grid::BrickKind::stored || entry.value_count == 0) return;
+    if (!transfer.shows(entry.min_code, entry.max_code)) return;
+    const auto bytes = static_cast<std::size_t>(view.quantization.code_bytes);
+    BlockCodes codes;
+    find_block_codes(view.codes.data() + index * grid::brick_cells * bytes,
+                     view.quantization.code_bytes, block_edge_, codes);
+    const auto shows = [&](int block) {
+        const auto at = static_cast<std::size_t>(block);
+        return codes.largest[at] >= grid::first_value_code &&
+               transfer.shows(codes.least[at], codes.largest[at]);
+    };
+    // Blocks one above the other make one box.
+    const int across = codes.across;
+    for (int column = 0; column < across * across; ++column) {
+        for (int z = 0; z < across; ++z) {
+            if (!shows(column * across + z)) continue;
+            const int first = z;
+            while (z + 1 < across && shows(column * across + z + 1))
+                ++z;
+            Cells cells{};
+            cells.first[0] = brick[0] * brick_edge + column / across * block_edge_;
+            cells.first[1] = brick[1] * brick_edge + column % across * block_edge_;
+            cells.first[2] = brick[2] * brick_edge + first * block_edge_;
+            cells.past[0] = cells.first[0] + block_edge_;
+            cells.past[1] = cells.first[1] + block_edge_;
+            cells.past[2] = brick[2] * brick_edge + (z + 1) * block_edge_;
+            add_cells(*view.spec, cells, boxes);
         }
-        add_cells(spec, cells);
     }
 }
 
-void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells) {
+void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes& boxes) const {
     Box box{};
     reach(
         cells.first[0], cells.past[0], spec.nx, -geometry_.half_x_m(), geometry_.half_x_m(),
@@ -161,45 +146,73 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells) {
     box.high[2] -= geometry_.drop_m(nearest(0), nearest(1));
     box.low[2] *= geometry_.exaggeration();
     box.high[2] *= geometry_.exaggeration();
-    if (place_in_picture(box)) boxes_.push_back(box);
+    if (place_in_picture(box)) boxes.push_back(box);
 }
 
-// False for a box beside the picture, or behind the camera.
-bool SliceMask::place_in_picture(Box& box) const {
+// Where a box is in the picture, in pixels, and how far away its farthest corner.
+struct SliceMask::Outline {
+    double left, right, top, bottom, farthest_m;
+
+    void add(const Pixel& p) {
+        left = std::min(left, p.x);
+        right = std::max(right, p.x);
+        top = std::min(top, p.y);
+        bottom = std::max(bottom, p.y);
+    }
+};
+
+// Parallel rays: a box is as wide as its sides are together.
+SliceMask::Outline SliceMask::parallel_outline(const Box& box) const {
+    Vec3 middle{};
+    double across = 0, down = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        middle[axis] = 0.5 * (box.low[axis] + box.high[axis]);
+        const double half = 0.5 * (box.high[axis] - box.low[axis]);
+        across += half * std::abs(geometry_.right()[axis]);
+        down += half * std::abs(geometry_.up()[axis]);
+    }
+    const Pixel p = geometry_.project(middle);
+    const double per_pixel = geometry_.metres_per_pixel();
+    return {p.x - across / per_pixel, p.x + across / per_pixel, p.y - down / per_pixel,
+            p.y + down / per_pixel, 0};
+}
+
+SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
     constexpr double far_off = 1e9;
-    double left = far_off, right = -far_off, top = far_off, bottom = -far_off;
-    double farthest = -std::numeric_limits<double>::infinity();
+    Outline outline{far_off, -far_off, far_off, -far_off, -std::numeric_limits<double>::infinity()};
     bool behind = false;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 point = {(corner & 1) != 0 ? box.high[0] : box.low[0],
                             (corner & 2) != 0 ? box.high[1] : box.low[1],
                             (corner & 4) != 0 ? box.high[2] : box.low[2]};
         const double depth = geometry_.depth_of(point);
-        farthest = std::max(farthest, depth);
-        if (geometry_.is_perspective() && depth < geometry_.near_m()) {
+        outline.farthest_m = std::max(outline.farthest_m, depth);
+        if (depth < geometry_.near_m()) {
             behind = true;
-            continue;
+        } else {
+            outline.add(geometry_.project(point));
         }
-        const Pixel p = geometry_.project(point);
-        left = std::min(left, p.x);
-        right = std::max(right, p.x);
-        top = std::min(top, p.y);
-        bottom = std::max(bottom, p.y);
     }
-    if (geometry_.is_perspective() && farthest < geometry_.near_m()) return false;
     if (behind) {  // the camera is in the box or beside it: it may be anywhere in the picture
-        left = top = 0;
-        right = geometry_.width();
-        bottom = geometry_.height();
+        outline.add({0, 0});
+        outline.add({1.0 * geometry_.width(), 1.0 * geometry_.height()});
     }
+    return outline;
+}
+
+// False for a box beside the picture, or behind the camera.
+bool SliceMask::place_in_picture(Box& box) const {
+    const Outline outline =
+        geometry_.is_perspective() ? perspective_outline(box) : parallel_outline(box);
+    if (geometry_.is_perspective() && outline.farthest_m < geometry_.near_m()) return false;
     const auto tile = [](double pixel, int tiles) {
         return static_cast<int>(std::floor(std::clamp(pixel / tile_edge, -1.0, 1.0 * tiles)));
     };
-    box.first_tile = std::max(tile(left, tiles_across_), 0);
-    box.last_tile = std::min(tile(right, tiles_across_), tiles_across_ - 1);
-    box.first_row = std::max(tile(top, tiles_down_), 0);
-    box.last_row = std::min(tile(bottom, tiles_down_), tiles_down_ - 1);
-    const double half = half_tile_pixels * geometry_.metres_per_pixel(farthest);
+    box.first_tile = std::max(tile(outline.left, tiles_across_), 0);
+    box.last_tile = std::min(tile(outline.right, tiles_across_), tiles_across_ - 1);
+    box.first_row = std::max(tile(outline.top, tiles_down_), 0);
+    box.last_row = std::min(tile(outline.bottom, tiles_down_), tiles_down_ - 1);
+    const double half = half_tile_pixels * geometry_.metres_per_pixel(outline.farthest_m);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double widen =
             half * (std::abs(geometry_.right()[axis]) + std::abs(geometry_.up()[axis])) +
@@ -242,6 +255,8 @@ void SliceMask::mark(const Box& box, const Vec3& start, const Direction& directi
 }
 
 bool SliceMask::fill_band(int tile_row, std::vector<std::uint64_t>& words) const {
+    const Boxes& boxes = rows_[static_cast<std::size_t>(tile_row)];
+    if (boxes.empty()) return false;
     words.assign(static_cast<std::size_t>(tiles_across_) * words_per_tile_, 0);
     const auto middle = [&](int tile) {
         return Pixel{tile * tile_edge + half_tile_pixels, tile_row * tile_edge + half_tile_pixels};
@@ -250,10 +265,7 @@ bool SliceMask::fill_band(int tile_row, std::vector<std::uint64_t>& words) const
     const Vec3 next = geometry_.point(middle(1), geometry_.near_m());
     const Vec3 per_tile = {next[0] - start[0], next[1] - start[1], next[2] - start[2]};
     const Direction parallel = direction(geometry_.forward());
-    bool any = false;
-    for (const Box& box : boxes_) {
-        if (box.first_row > tile_row || box.last_row < tile_row) continue;
-        any = true;
+    for (const Box& box : boxes) {
         for (int tile = box.first_tile; tile <= box.last_tile; ++tile) {
             const Vec3 from = {start[0] + tile * per_tile[0], start[1] + tile * per_tile[1],
                                start[2] + tile * per_tile[2]};
@@ -262,7 +274,7 @@ bool SliceMask::fill_band(int tile_row, std::vector<std::uint64_t>& words) const
                  words.data() + static_cast<std::size_t>(tile) * words_per_tile_);
         }
     }
-    return any;
+    return true;
 }
 
 }  // namespace stormcellar::render

@@ -3,10 +3,11 @@
 // The picture is divided into square tiles. A bit for each tile and step (between two slices) says
 // whether any point of that step under any pixel of the tile may find a visible value. Bits err to
 // the safe side only. What may be visible is told by the bricks' least and largest codes, and
-// inside a brick by those of its 8 blocks of 8 x 8 x 8 cells. Thread contract: immutable;
-// fill_band() may run on many threads.
+// inside a brick by those of its blocks, 2 to 16 cells wide, about as wide as a tile. Thread
+// contract: immutable; fill_band() may run on many threads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +23,7 @@ class SliceMask {
   public:
     // The geometry must outlive this.
     SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
-              const TransferFunction& transfer);
+              const TransferFunction& transfer, int threads);
 
     [[nodiscard]] int tiles_across() const { return tiles_across_; }
     [[nodiscard]] int tiles_down() const { return tiles_down_; }
@@ -44,9 +45,13 @@ class SliceMask {
         bool moves[3];
     };
     struct Cells;
-    void add_brick(const grid::BrickView& view, const TransferFunction& transfer, int bx, int by,
-                   int bz);
-    void add_cells(const grid::GridSpec& spec, const Cells& cells);
+    struct Outline;
+    using Boxes = std::vector<Box>;
+    void add_brick(const grid::BrickView& view, const TransferFunction& transfer,
+                   const std::array<int, 3>& brick, Boxes& boxes) const;
+    void add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes& boxes) const;
+    [[nodiscard]] Outline parallel_outline(const Box& box) const;
+    [[nodiscard]] Outline perspective_outline(const Box& box) const;
     [[nodiscard]] bool place_in_picture(Box& box) const;
     [[nodiscard]] Direction direction(const Vec3& along) const;
     void mark(const Box& box, const Vec3& start, const Direction& direction,
@@ -57,7 +62,8 @@ class SliceMask {
     double step_m_;
     int tiles_across_, tiles_down_;
     std::size_t words_per_tile_;
-    std::vector<Box> boxes_;
+    int block_edge_;           // cells
+    std::vector<Boxes> rows_;  // of tiles: the boxes that reach into them
 };
 
 }  // namespace stormcellar::render

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "render/volume/band_caster.h"
@@ -22,11 +22,6 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
     while (steps.stride < tile_edge && 2 * steps.stride * pixel_m <= cell_m)
         steps.stride *= 2;
     return steps;
-}
-
-std::uint8_t mixed(float front, float through, std::uint8_t back) {
-    const float level = front * 255.0F + through * static_cast<float>(back);
-    return static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F));
 }
 
 }  // namespace
@@ -60,46 +55,47 @@ PacketLight VolumeSlicer::light_of(const grid::GridSpec& spec) const {
 }
 
 Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
-    Layer layer{geometry_.width(), geometry_.height(), {}};
+    SlicerRoom room;
+    prepare(view, threads, room);
+    cast(view, threads, room);
+    return std::move(room.layer);
+}
+
+void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const {
+    Layer& layer = room.layer;
+    layer.width = geometry_.width();
+    layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
+    room.mask.emplace(view, geometry_, options_.slices, transfer_, threads);
+    room.shadows.reset();
+    if (options_.light.needs_volume()) {
+        room.shadows.emplace(view, transfer_, step_m(), geometry_, options_.light, threads);
+    }
+    const double samples = 1.0 * layer.width * layer.height * options_.slices;
+    room.has_corners = CornerTable::serves(view, samples);
+    if (room.has_corners) room.corners.fill(view, threads);
+}
+
+void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);
     PacketVolume volume(view, levels, transfer_);
     volume.curve = maker.curve();
-    std::optional<LightVolume> shadows;
-    if (options_.light.needs_volume()) {
-        shadows.emplace(view, transfer_, step_m(), geometry_, options_.light, threads);
-    }
+    if (room.has_corners) volume.use(room.corners);
     PacketLight light = light_of(*view.spec);
-    light.volume = shadows ? &*shadows : nullptr;
+    light.volume = room.shadows ? &*room.shadows : nullptr;
     if (options_.light.any()) volume.light = &light;
-    const SliceMask mask(view, geometry_, options_.slices, transfer_);
-    const BandCaster caster(volume, maker, mask, layer.width, layer.height, layer.rgba.data());
+    Layer& layer = room.layer;
+    const BandCaster caster(volume, maker, *room.mask, layer.width, layer.height,
+                            layer.rgba.data());
     const PixelSteps steps = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance);
-    for_each_piece(mask.tiles_down(), threads,
+    const int bands = room.mask->tiles_down();
+    for_each_piece(bands, threads,
                    [&](int tile_row) { caster.cast_first(tile_row, steps.stride); });
     for (int stride = steps.stride; stride > 1; stride /= 2) {
-        for_each_piece(mask.tiles_down(), threads,
+        for_each_piece(bands, threads,
                        [&](int tile_row) { caster.refine(tile_row, stride, steps.tolerance); });
-    }
-    return layer;
-}
-
-void composite_over(const Layer& layer, Image& background, int left, int top) {
-    for (int y = 0; y < layer.height; ++y) {
-        const float* from = layer.rgba.data() +
-                            static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) * 4;
-        std::uint8_t* to =
-            background.rgba.data() +
-            (static_cast<std::size_t>(y + top) * static_cast<std::size_t>(background.width) +
-             static_cast<std::size_t>(left)) *
-                4;
-        for (int x = 0; x < layer.width; ++x, from += 4, to += 4) {
-            if (from[3] <= 0) continue;
-            for (int c = 0; c < 3; ++c)
-                to[c] = mixed(from[c], 1 - from[3], to[c]);
-        }
     }
 }
 

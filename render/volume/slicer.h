@@ -19,22 +19,28 @@
 // oracle is render/volume/reference_marcher.h. The same bits for any number of threads.
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "grid/brick_view.h"
 #include "render/colour/colour_table.h"
-#include "render/image.h"
+#include "render/layer.h"
 #include "render/view_geometry.h"
+#include "render/volume/corner_table.h"
 #include "render/volume/light.h"
+#include "render/volume/light_volume.h"
 #include "render/volume/ray_packet.h"
+#include "render/volume/slice_mask.h"
 #include "render/volume/transfer_function.h"
 
 namespace stormcellar::render {
 
-// Colour and opacity in front of whatever is behind; colours 0..1, premultiplied by alpha.
-struct Layer {
-    int width = 0, height = 0;
-    std::vector<float> rgba;
+// A picture while it is drawn. Kept from picture to picture, it need not be asked for again.
+struct SlicerRoom {
+    Layer layer;  // of the last picture
+    std::optional<SliceMask> mask;
+    std::optional<LightVolume> shadows;
+    bool has_corners = false;
+    CornerTable corners;
 };
 
 struct VolumeOptions {
@@ -57,6 +63,10 @@ class VolumeSlicer {
 
     // Of the geometry's grid.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
+    // The same in two steps, into a room that no other draws in: what the rays need of a grid, and
+    // the rays.
+    void prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const;
+    void cast(const grid::BrickView& view, int threads, SlicerRoom& room) const;
 
   private:
     [[nodiscard]] double step_m() const;
@@ -66,8 +76,5 @@ class VolumeSlicer {
     VolumeOptions options_;
     TransferFunction transfer_;
 };
-
-// layer over background, which is opaque and has the same size at (left, top) of the image.
-void composite_over(const Layer& layer, Image& background, int left, int top);
 
 }  // namespace stormcellar::render

@@ -48,6 +48,21 @@ TEST(Chain, SettingsNarrowTheRungs) {
     EXPECT_EQ(allowed_rungs(frame).most, 0U);
 }
 
+TEST(Chain, WhatTheSceneDoesNotAskForIsNoErrorWhenLeftOff) {
+    Chain chain = small_chain();
+    const Choice none{{0, 0, 0}};
+    const double all = left_off(chain, none).position_m;
+    const double geodesic = chain.steps[1].effects[1].predicted.position_m;
+    ASSERT_GT(geodesic, 0);
+    chain.steps[1].effects[1].setting = Setting::not_asked;
+    EXPECT_EQ(allowed_rungs(chain.steps[1]).most, 1U);
+    EXPECT_NEAR(left_off(chain, none).position_m, all - geodesic, 1e-12 * all);
+    EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 1, 1));
+    chain.steps[1].effects[1].setting = Setting::off;  // asked for, and set off: an error
+    EXPECT_EQ(left_off(chain, none).position_m, all);
+    EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 2, 1));
+}
+
 TEST(Chain, OverridesAreSetAllOrNone) {
     Chain chain = small_chain();
     const std::vector<EffectOverride> good = {{"refraction", Setting::on},

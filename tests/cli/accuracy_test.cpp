@@ -47,6 +47,7 @@ TEST(Accuracy, BadUsageIsNamed) {
         EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
     };
     expect_refused({"--markdown", "--json"}, "exclude each other");
+    expect_refused({"--picture", "--held-out"}, "--picture takes one FILE");
     expect_refused({"--plot", "d.png"}, "must end in .svg");
     expect_refused({"--plot", ""}, "--plot: is empty");
     expect_refused({"--fields", "age"}, "--fields");
@@ -143,6 +144,29 @@ TEST(Accuracy, PrintsALadderForARealVolume) {
     std::stringstream text;
     text << svg.rdbuf();
     EXPECT_NE(text.str().find("</svg>"), std::string::npos);
+}
+
+// Of each step the exact rung differs from itself by nothing, the cheapest from it by something.
+TEST(Accuracy, PrintsALadderForAPictureWithItsLight) {
+    STORMCELLAR_NEED_DATA();
+    const ProgramResult ran = run(
+        with({"accuracy", volume("KTLX19990503_235621.gz"), "--picture", "--rounds", "1", "--json"},
+             small));
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto json = nlohmann::json::parse(ran.out);
+    std::map<std::string, std::vector<double>> steps;
+    for (const auto& row : json["rows"]) {
+        EXPECT_GT(row["time_s"].get<double>(), 0);
+        steps[row["step"]].push_back(row["image_p99_de"]);
+    }
+    ASSERT_EQ(steps.size(), 5U) << ran.out;
+    EXPECT_EQ(steps["slices"].size(), 7U);
+    EXPECT_EQ(steps["surface"].size(), 2U);
+    EXPECT_EQ(steps["light"].size(), 3U);
+    for (const auto& [step, errors] : steps)
+        EXPECT_EQ(errors.back(), 0) << step;
+    for (const char* step : {"slices", "integration", "surface", "light"})
+        EXPECT_GT(steps[step].front(), 0.3) << step;
 }
 
 TEST(Accuracy, ComparesASceneWithItsTruth) {

@@ -270,6 +270,7 @@ TEST_F(Loop, MakesFramesBetweenGridsWhenCalledFor) {
     EXPECT_EQ(render::decode_png_file(out("two/frame_0000.png")).rgba,
               render::decode_png_file(out("own/frame_0001.png")).rgba);
     EXPECT_EQ(run({"KBGM", "--time-method", "blend", "-o", out("a.gif")}).status, 2);
+    EXPECT_EQ(run({"KBGM", "--interval", "60", "--follow", "-o", out("a.gif")}).status, 2);
     EXPECT_EQ(run({"KBGM", "--interval", "0", "-o", out("a.gif")}).status, 2);
     EXPECT_EQ(run({"KBGM", "--interval", "1h", "-o", out("a.gif")}).status, 3);
 }

@@ -258,5 +258,61 @@ TEST(SameGrids, DifferInAnythingThatMakesAGrid) {
     EXPECT_FALSE(same_grids(a, b));
 }
 
+TEST_F(ConfigFile, LoopsAreTaken) {
+    const Result<Config> config =
+        load(std::string(paths) +
+             "[[loop]]\nname = \"ktlx\"\nscene = \"scenes/a.toml\"\ndomain = \"KTLX\"\n"
+             "last = 24\noutputs = [\"/srv/a.webp\", \"frames/\"]\n"
+             "[[loop]]\nname = \"all-of_it\"\nscene = \"/b.toml\"\nhours = 1.5\n");
+    ASSERT_TRUE(config) << config.error().message;
+    ASSERT_EQ(config->loops.size(), 2U);
+    const std::filesystem::path directory = std::filesystem::absolute(directory_.path());
+    const LoopConfig& first = config->loops[0];
+    EXPECT_EQ(first.name, "ktlx");
+    EXPECT_EQ(first.scene, directory / "scenes/a.toml");
+    EXPECT_EQ(first.domain, "KTLX");
+    EXPECT_EQ(first.last, 24);
+    EXPECT_EQ(first.seconds, 0);
+    EXPECT_EQ(first.outputs,
+              (std::vector<std::string>{"/srv/a.webp", (directory / "frames/").native()}));
+    EXPECT_EQ(config->loops[1].scene, "/b.toml");
+    EXPECT_EQ(config->loops[1].domain, "");
+    EXPECT_EQ(config->loops[1].seconds, 5400);
+    EXPECT_TRUE(config->loops[1].outputs.empty());
+}
+
+TEST_F(ConfigFile, LoopsThatMakeNoSenseAreRefused) {
+    const auto loop = [&](const std::string& lines) {
+        return complaint(std::string(paths) + "[[loop]]\n" + lines);
+    };
+    EXPECT_EQ(loop("scene = \"a.toml\"\n"), "s.toml:5: [loop] name: the loop must be named");
+    EXPECT_EQ(loop("name = \"a/b\"\nscene = \"a.toml\"\n"),
+              "s.toml:6: [loop] name: \"a/b\" must be of letters, digits, - and _");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"a.toml\"\n[[loop]]\nname = \"a\"\nscene = \"b\"\n"),
+              "s.toml:9: [loop] name: \"a\" is named twice");
+    EXPECT_EQ(loop("name = \"a\"\ndomain = \"KTLX\"\n"),
+              "s.toml:5: [loop] outputs: is needed where no scene says it");
+    EXPECT_EQ(loop("name = \"a\"\noutputs = [\"a.webp\"]\n"),
+              "s.toml:5: [loop] domain: is needed where no scene says it");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"\"\n"), "s.toml:7: [loop] scene: must not be empty");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\ndomain = \"../x\"\n"),
+              "s.toml:8: [loop] domain: \"../x\" is no domain's name");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nlast = 0\n"),
+              "s.toml:8: [loop] last: 0 is out of range, must be 1 to 1000000");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nhours = 0\n").substr(0, 23),
+              "s.toml:8: [loop] hours:");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = []\n"),
+              "s.toml:8: [loop] outputs: must name at least one");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = \"a.webp\"\n"),
+              "s.toml:8: [loop] outputs: must be an array of texts, is text");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = [\"/d/x/a.webp\"]\n"),
+              "s.toml:8: [loop] outputs: /d/x/a.webp lies within /d");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = [\"/o/f\", \"/o/f/\"]\n"),
+              "s.toml:8: [loop] outputs: /o/f/ is named twice");
+    EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nfps = 8\n"), "s.toml:8: unknown key [loop] fps");
+    EXPECT_EQ(complaint(std::string(paths) + "[loop]\nname = \"a\"\n"),
+              "s.toml:5: loop: must be sections: [[loop]], is a table");
+}
+
 }  // namespace
 }  // namespace stormcellar::daemon

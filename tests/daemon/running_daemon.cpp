@@ -24,8 +24,10 @@ constexpr int steps_a_minute = 3000;
 
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& more) {
     std::vector<std::string> all;
-    for (char** variable = environ; *variable != nullptr; ++variable)
-        all.emplace_back(*variable);
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string text = *variable;
+        if (!more.contains(text.substr(0, text.find('=')))) all.push_back(text);
+    }
     for (const auto& [name, value] : more)
         all.push_back(name + "=" + value);
     return all;

@@ -136,6 +136,30 @@ TEST(StatusBook, PairsOfSitesStandAsTheyWereComparedLast) {
     EXPECT_TRUE(sites[1]["faults"].empty());
 }
 
+TEST(StatusBook, LoopsAreSummedAndListed) {
+    StatusBook book("/d", "/c");
+    const auto loops = [&] { return nlohmann::json::parse(book.json({}, now_utc()))["loops"]; };
+    EXPECT_EQ(loops()["running"], 0);
+    EXPECT_TRUE(loops()["last_made"].is_null());
+    const auto early = parse_utc("2024-06-01T22:00:00Z", now_utc()).value();
+    const auto late = parse_utc("2024-06-01T22:05:00Z", now_utc()).value();
+    book.set_loops({{"a", true, 2, 10, late, 24, "status 1: why"},
+                    {"b", true, 1, 5, early, 12, ""},
+                    {"c", false, 0, 0, std::nullopt, 0, ""}});
+    EXPECT_EQ(loops()["running"], 2);
+    EXPECT_EQ(loops()["restarts"], 3);
+    EXPECT_EQ(loops()["made"], 15);
+    EXPECT_EQ(loops()["last_made"], "2024-06-01T22:05:00Z");
+    const auto each = loops()["each"];
+    ASSERT_EQ(each.size(), 3U);
+    EXPECT_EQ(each[0]["name"], "a");
+    EXPECT_EQ(each[0]["frames"], 24);
+    EXPECT_EQ(each[0]["last_problem"], "status 1: why");
+    EXPECT_EQ(each[1]["last_made"], "2024-06-01T22:00:00Z");
+    EXPECT_EQ(each[2]["running"], false);
+    EXPECT_TRUE(each[2]["last_problem"].is_null());
+}
+
 TEST(StatusBook, TheLineNamesTheLatestVolume) {
     StatusBook book("/d", "/c");
     EXPECT_EQ(book.line({}), "ingested 0, rejected 0, waiting 0, running 0, growing 0");

@@ -46,6 +46,11 @@ Camera perspective(double azimuth_deg, double tilt_deg, double field_of_view_deg
     return camera;
 }
 
+Scene lit(const std::string& light, Scene scene) {
+    EXPECT_TRUE(set_light(light, scene.light));
+    return scene;
+}
+
 const std::vector<PlannedScene>& scenes() {
     static const std::vector<PlannedScene> all = {
         {"sequence-kbgm/KBGM20050822_024414.gz", 3000, "dE 2", seen({180, 20, 1}, 5)},
@@ -55,6 +60,10 @@ const std::vector<PlannedScene>& scenes() {
         {"volumes/KOKX20080109_141449.gz", 4000, "dE 3", seen({120, 75, 1.5}, 10, 3)},
         {nullptr, 4000, "dE 1", seen({180, 85, 1}, 8)},
         {"sequence-kbgm/KBGM20050822_024414.gz", 10000, "dE 2", seen({180, 20, 3}, 5)},
+        {"volumes/KLIX20050828_180149.gz", 4000, "dE 2",
+         lit("gradient,shadow,scattering", seen({180, 60, 1}, 8, 10))},
+        {"sequence-kbgm/KBGM20050822_024414.gz", 4000, "dE 3",
+         lit("shadow", seen({180, 55, 1}, 5, 4))},
         {"volumes/KLIX20050828_180149.gz", 5000, "dE 2", seen({180, 60, 1}, 8, 40)},
     };
     return all;
@@ -84,13 +93,14 @@ grid::BrickGrid bricks_for(const PlannedScene& planned) {
 struct Prepared {
     grid::BrickGrid bricks;
     VolumeScene scene;
-    accuracy::Chain chain = volume_chain();
+    accuracy::Chain chain;
     accuracy::Budget budget;
     std::optional<VolumePlan> plan;
 
     explicit Prepared(const PlannedScene& planned)
         : bricks(bricks_for(planned)),
           scene(bricks.view(), nws_reflectivity(), planned.scene, width, height, 2),
+          chain(volume_chain(planned.scene.light)),
           budget(*accuracy::parse_budget(planned.budget)) {
         plan = *plan_volume(scene, chain, budget, {});
     }
@@ -119,7 +129,7 @@ TEST_P(PictureHonesty, WhatIsLeftOffIsLessThanTheBudget) {
     SCOPED_TRACE(plan.description);
     accuracy::Choice all = plan.choice;
     for (const accuracy::Decision& decision : plan.decisions) {
-        if (decision.on) continue;
+        if (decision.on || !decision.is_asked) continue;
         const auto one = testing::forced(plan, scene.chain, decision.effect, true);
         for (std::size_t i = 0; i < all.rungs.size(); ++i)
             all.rungs[i] = std::max(all.rungs[i], one.rungs[i]);
@@ -131,7 +141,7 @@ TEST_P(PictureHonesty, WhatIsLeftOffIsLessThanTheBudget) {
 TEST_P(PictureHonesty, ThePictureIsWithinTheBudgetOfTheExactOne) {
     STORMCELLAR_NEED_DATA();
     Prepared& scene = prepared(GetParam());
-    EXPECT_LE(scene.difference(scene.plan->plan.choice, exact_volume_choice(scene.chain)),
+    EXPECT_LE(scene.difference(scene.plan->plan.choice, accuracy::exact_choice(scene.chain)),
               *scene.budget.image_de)
         << scene.plan->plan.description;
 }
@@ -164,10 +174,30 @@ TEST(PictureHonesty, EveryEffectMattersSomewhere) {
         EXPECT_GT(part, stated_part) << effect;
 }
 
+// Light that the scene does not ask for is told its size, and changes neither plan nor budget.
+TEST(PictureHonesty, LightIsOffUnlessTheSceneAsksForIt) {
+    STORMCELLAR_NEED_DATA();
+    const PlannedScene unlit = scenes().front();
+    Prepared scene(unlit);
+    const auto all = *plan_volume(scene.scene, scene.chain, scene.budget, {}, Predicted::all);
+    EXPECT_EQ(all.choice, scene.plan->choice);
+    EXPECT_EQ(all.plan.left_off.image_de, scene.plan->plan.left_off.image_de);
+    int lights = 0;
+    for (const accuracy::Decision& decision : all.plan.decisions) {
+        if (!decision.effect.ends_with("_light")) continue;
+        ++lights;
+        EXPECT_FALSE(decision.on);
+        EXPECT_FALSE(decision.is_asked);
+        EXPECT_EQ(decision.reason, "the scene does not ask for it");
+        EXPECT_GT(decision.predicted.image_de, 1) << decision.effect;
+    }
+    EXPECT_EQ(lights, 3);
+}
+
 TEST(PictureHonesty, StepsHideThemselvesWhereTheyAreThick) {
     STORMCELLAR_NEED_DATA();
     Prepared& opaque = prepared(scenes().size() - 1);
-    accuracy::Choice few = exact_volume_choice(opaque.chain);
+    accuracy::Choice few = accuracy::exact_choice(opaque.chain);
     few.rungs[0] = 0;
     EXPECT_GT(opaque.difference(
                   few, testing::forced(opaque.plan->plan, opaque.chain, "step_attenuation", false)),

@@ -37,26 +37,30 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
     return child;
 }
 
+// Nothing to read; what it prints goes to the files out and err of the directory.
+pid_t start_quietly(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                    const std::filesystem::path& directory) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, (directory / "out").c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, (directory / "err").c_str(), flags, 0600);
+    const pid_t child = start(program, arguments, &actions);
+    posix_spawn_file_actions_destroy(&actions);
+    return child;
+}
+
 }  // namespace
 
 ProgramResult run_program(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments) {
     const TemporaryDirectory directory;
-    const std::filesystem::path out = directory / "out";
-    const std::filesystem::path err = directory / "err";
-
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), flags, 0600);
-    posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), flags, 0600);
-
-    const pid_t child = start(program, arguments, &actions);
-    posix_spawn_file_actions_destroy(&actions);
+    const pid_t child = start_quietly(program, arguments, directory.path());
     int status = 0;
     waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(directory / "out"),
+            contents(directory / "err")};
 }
 
 int interrupt_program(const std::filesystem::path& program,
@@ -70,6 +74,39 @@ int interrupt_program(const std::filesystem::path& program,
     int status = 0;
     waitpid(child, &status, 0);
     return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
+RunningProgram::RunningProgram(const std::filesystem::path& program,
+                               const std::vector<std::string>& arguments)
+    : child_(start_quietly(program, arguments, directory_.path())) {}
+
+RunningProgram::~RunningProgram() {
+    if (child_ != 0) end(SIGKILL);
+}
+
+std::string RunningProgram::out() const {
+    return contents(directory_ / "out");
+}
+
+std::string RunningProgram::err() const {
+    return contents(directory_ / "err");
+}
+
+bool RunningProgram::wait_for(const std::function<bool()>& seen) {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!seen()) {
+        if (std::chrono::steady_clock::now() > limit) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+}
+
+int RunningProgram::end(int signal) {
+    kill(child_, signal);
+    int status = 0;
+    waitpid(child_, &status, 0);
+    child_ = 0;
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 }  // namespace stormcellar::testing

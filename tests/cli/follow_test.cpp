@@ -1,0 +1,229 @@
+// stormcellar loop --follow, run as a user runs it.
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "cache/store.h"
+#include "grid/brick_grid.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::RunningProgram;
+
+class Follow : public ::testing::Test {
+  protected:
+    fs::path commit(const std::string& compact_time, float dbz) {
+        grid::Grid grid;
+        grid.spec = grid::default_spec(42.2, -75.98);
+        grid.spec.nx = grid.spec.ny = 40;
+        grid.time = parse_compact(compact_time).value();
+        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
+        grid.values.assign(grid.spec.cell_count(), dbz);
+        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+        const auto path = store_.commit("KBGM", cache::describe(grid), bricks.view());
+        EXPECT_TRUE(path) << path.error().message;
+        return path ? *path : fs::path{};
+    }
+    [[nodiscard]] std::vector<std::string> arguments(std::vector<std::string> more) const {
+        more.insert(more.begin(), {"loop", "KBGM", "--cache", (directory_ / "cache").string(),
+                                   "--slices", "16", "--follow", "--json"});
+        return more;
+    }
+    [[nodiscard]] std::string out(const std::string& name) const {
+        return (directory_ / "out" / name).string();
+    }
+    [[nodiscard]] std::vector<std::string> written() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(directory_ / "out"))
+            names.push_back(entry.path().filename());
+        return names;
+    }
+    // One a remake.
+    static std::vector<nlohmann::json> documents(const RunningProgram& program) {
+        std::istringstream lines(program.out());
+        std::vector<nlohmann::json> all;
+        for (std::string line; std::getline(lines, line) && !lines.eof();)
+            all.push_back(nlohmann::json::parse(line));
+        return all;
+    }
+    static bool wait_for_remakes(const RunningProgram& program, std::size_t count) {
+        return RunningProgram::wait_for([&] { return documents(program).size() >= count; });
+    }
+    void SetUp() override { fs::create_directory(directory_ / "out"); }
+
+    testing::TemporaryDirectory directory_;
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+};
+
+// Before that a signal just ends it.
+bool catches_sigterm(pid_t id) {
+    std::ifstream status("/proc/" + std::to_string(id) + "/status");
+    for (std::string line; std::getline(status, line);) {
+        if (!line.starts_with("SigCgt:")) continue;
+        return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1U) != 0;
+    }
+    return false;
+}
+
+std::string contents(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Long enough for two looks and the quiet after a change.
+constexpr std::chrono::milliseconds long_enough{1500};
+
+TEST_F(Follow, IsMadeAgainWhenGridsComeAndGo) {
+    commit("20050822_024400", 22);
+    RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif")}));
+    ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    const auto second = commit("20050822_025000", 33);
+    ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
+    EXPECT_THAT(written(), ElementsAre("a.gif"));
+    commit("20050822_025000", 44);  // the volume went on: the same time, another grid
+    ASSERT_TRUE(wait_for_remakes(program, 3)) << program.err();
+    fs::remove(second);
+    ASSERT_TRUE(wait_for_remakes(program, 4)) << program.err();
+    EXPECT_EQ(program.end(SIGINT), 0) << program.err();
+    std::vector<int> frames;
+    for (const auto& document : documents(program))
+        frames.push_back(document["frames"]);
+    EXPECT_THAT(frames, ElementsAre(1, 2, 2, 1));
+    EXPECT_EQ(program.err(), "");
+}
+
+// Frames are kept from loop to loop; nobody must see it.
+TEST_F(Follow, IsTheLoopThatOneMakesAtOnce) {
+    for (const char* more : {"--orbit=90", "--ping-pong", "--product=volume"}) {
+        commit("20050822_024400", 22);
+        const auto middle = commit("20050822_025000", 33);
+        RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp"), more}));
+        ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+        commit("20050822_025600", 44);
+        ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
+        fs::remove(middle);
+        ASSERT_TRUE(wait_for_remakes(program, 3)) << program.err();
+        EXPECT_EQ(program.end(SIGINT), 0);
+        auto once = arguments({"-o", out("b.webp"), more});
+        once.erase(std::find(once.begin(), once.end(), "--follow"));
+        ASSERT_EQ(testing::run_program(STORMCELLAR_PROGRAM, once).status, 0);
+        EXPECT_EQ(contents(out("a.webp")), contents(out("b.webp"))) << more;
+    }
+}
+
+TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
+    commit("20050822_024400", 22);
+    commit("20050822_025000", 33);
+    const auto grid = commit("20050822_025600", 44);
+    RunningProgram program(STORMCELLAR_PROGRAM, arguments({"--last", "2", "-o", out("a.gif")}));
+    ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    std::ofstream(grid.native() + ".pin") << "";
+    commit("20050822_024000", 11);  // not of the last two
+    std::this_thread::sleep_for(long_enough);
+    EXPECT_EQ(documents(program).size(), 1U) << program.out();
+    EXPECT_EQ(program.end(SIGTERM), 0);
+}
+
+TEST_F(Follow, WaitsForTheFirstGridOfADomain) {
+    RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp")}));
+    ASSERT_TRUE(RunningProgram::wait_for([&] { return !program.err().empty(); }));
+    EXPECT_THAT(program.err(), HasSubstr("no grid of domain 'KBGM' is there; waiting for one"));
+    EXPECT_THAT(written(), IsEmpty());
+    commit("20050822_024400", 22);
+    ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    EXPECT_THAT(written(), ElementsAre("a.webp"));
+    EXPECT_EQ(program.end(SIGINT), 0);
+}
+
+TEST_F(Follow, ABurstIsOneRemake) {
+    commit("20050822_024400", 22);
+    RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif")}));
+    ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    for (int i = 0; i < 5; ++i)
+        commit("20050822_02500" + std::to_string(i), 33);
+    ASSERT_TRUE(RunningProgram::wait_for([&] {
+        const auto all = documents(program);
+        return all.back()["frames"] == 6;
+    })) << program.out();
+    EXPECT_LE(documents(program).size(), 3U) << "a slow machine may part the burst once";
+    EXPECT_EQ(program.end(SIGINT), 0);
+}
+
+TEST_F(Follow, GoesOnAfterALoopThatCannotBeMade) {
+    std::ofstream(commit("20050822_024400", 22), std::ios::trunc) << "no grid";
+    RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif")}));
+    ASSERT_TRUE(RunningProgram::wait_for([&] {
+        return program.err().find("nothing written") != std::string::npos;
+    })) << program.err();
+    commit("20050822_025000", 33);
+    ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    EXPECT_EQ(documents(program)[0]["skipped"].size(), 1U);
+    // Nowhere to write to.
+    fs::remove_all(directory_ / "out");
+    commit("20050822_025600", 44);
+    ASSERT_TRUE(RunningProgram::wait_for([&] {
+        return program.err().find("there is no directory") != std::string::npos;
+    })) << program.err();
+    fs::create_directory(directory_ / "out");
+    commit("20050822_030200", 11);
+    ASSERT_TRUE(wait_for_remakes(program, 2)) << program.err();
+    EXPECT_EQ(documents(program)[1]["frames"], 3);
+    EXPECT_THAT(written(), ElementsAre("a.gif"));
+    EXPECT_EQ(program.end(SIGINT), 0);
+}
+
+TEST_F(Follow, ASignalWhileItDrawsLeavesNothingUnfinished) {
+    for (int i = 0; i < 50; ++i)
+        commit("20050822_02" + std::to_string(10 + i) + "00", 22);
+    RunningProgram program(STORMCELLAR_PROGRAM,
+                           arguments({"--width", "1600", "--height", "1200", "-o", out("a.webp")}));
+    ASSERT_TRUE(RunningProgram::wait_for([&] { return catches_sigterm(program.id()); }));
+    EXPECT_EQ(program.end(SIGTERM), 0) << program.err();
+    for (const std::string& name : written())
+        EXPECT_EQ(name, "a.webp");
+}
+
+TEST_F(Follow, WhatCanNeverBeMadeIsRefusedAtOnce) {
+    const auto refused = [&](std::vector<std::string> more) {
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments(std::move(more)));
+    };
+    EXPECT_EQ(refused({"-o", out("a.xyz")}).status, 2);
+    EXPECT_EQ(refused({"-o", out("a.gif"), "--from", "yesterday"}).status, 2);
+    EXPECT_EQ(refused({"-o", out("a.gif"), "--zoom", "0"}).status, 2);
+    commit("20050822_024400", 22);
+    const auto high = refused({"-o", out("a.gif"), "--product", "cappi", "--height-km", "50"});
+    EXPECT_EQ(high.status, 2) << "no grid has that height: " << high.err;
+}
+
+TEST_F(Follow, EndsWithItsParent) {
+    commit("20050822_024400", 22);
+    // Of another parent than the one that started it: that one has ended.
+    const auto orphan = testing::run_program(STORMCELLAR_PROGRAM,
+                                             arguments({"--with-parent", "1", "-o", out("a.gif")}));
+    EXPECT_EQ(orphan.status, 0);
+    EXPECT_EQ(orphan.out, "");
+    RunningProgram program(
+        STORMCELLAR_PROGRAM,
+        arguments({"--with-parent", std::to_string(::getpid()), "-o", out("a.gif")}));
+    EXPECT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    EXPECT_EQ(program.end(SIGTERM), 0);
+}
+
+}  // namespace
+}  // namespace stormcellar

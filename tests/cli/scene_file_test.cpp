@@ -1,0 +1,330 @@
+#include "cli/scene_file.h"
+
+#include <fstream>
+#include <functional>
+
+#include <CLI/CLI.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cache/store.h"
+#include "cli/commands.h"
+#include "grid/brick_grid.h"
+#include "synth/scene.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+struct AllSettings {
+    SceneOptions scene;
+    PicturePlanOptions plan;
+    LoopSettings loop;
+};
+
+class SceneFileTest : public ::testing::Test {
+  protected:
+    fs::path write(const std::string& text, const std::string& name = "s.toml") {
+        std::ofstream(directory_ / name) << text;
+        return directory_ / name;
+    }
+    Status read(const std::string& text) {
+        return read_scene_file(write(text), settings_.scene, settings_.plan, settings_.loop);
+    }
+    // The message without the directory, which differs in each run.
+    std::string complaint(const std::string& text) {
+        const Status status = read(text);
+        if (status) return "no complaint";
+        EXPECT_EQ(status.error().code, ErrorCode::bad_argument);
+        const std::string directory = directory_.path().native() + "/";
+        EXPECT_TRUE(status.error().message.starts_with(directory)) << status.error().message;
+        return status.error().message.substr(directory.size());
+    }
+    // A grid of REF about KBGM, and one of a domain of two sites.
+    void commit() {
+        const auto store =
+            cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+        ASSERT_TRUE(store) << store.error().message;
+        grid::Grid grid;
+        grid.spec = grid::default_spec(42.2, -75.98);
+        grid.spec.nx = grid.spec.ny = 40;
+        grid.time = parse_compact("20050822_024400").value();
+        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
+        grid.values.assign(grid.spec.cell_count(), 33);
+        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+        const auto path = store->commit("KBGM", cache::describe(grid), bricks.view());
+        ASSERT_TRUE(path) << path.error().message;
+    }
+    struct Ran {
+        int status = -1;
+        std::string out, err;
+    };
+    Ran run(Command (*add)(CLI::App&), const std::string& arguments) {
+        CLI::App app;
+        const Command command = add(app);
+        app.parse(arguments);
+        ::testing::internal::CaptureStderr();
+        ::testing::internal::CaptureStdout();
+        Ran ran;
+        ran.status = command.run();
+        ran.out = ::testing::internal::GetCapturedStdout();
+        ran.err = ::testing::internal::GetCapturedStderr();
+        return ran;
+    }
+    [[nodiscard]] std::string cache() const { return (directory_ / "cache").string(); }
+    [[nodiscard]] std::string at(const std::string& name) const {
+        return (directory_ / name).string();
+    }
+
+    testing::TemporaryDirectory directory_;
+    AllSettings settings_;
+};
+
+TEST_F(SceneFileTest, AnEmptyFileChangesNothing) {
+    ASSERT_TRUE(read(""));
+    const auto scene = scene_of(settings_.scene);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->width, render::Scene{}.width);
+    EXPECT_EQ(scene->product, render::Product::volume);
+    EXPECT_FALSE(settings_.plan.asked());
+    EXPECT_EQ(settings_.loop.last, 0U);
+}
+
+TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
+    const Status status = read(
+        "[picture]\nproduct = \"section\"\nmoment = \"RHO\"\ncolours = \"safe-rho\"\n"
+        "height_km = 4.5\nsection = [35, -98.5, 36.25, -97]\necho_top_dbz = 30\nwidth = 640\n"
+        "height = 480\n"
+        "[camera]\nazimuth_deg = 135\ntilt_deg = 120\nzoom = 2.5\nfield_of_view_deg = 35\n"
+        "at_km = [-20, 5.5, 3]\n"
+        "[light]\nkinds = [\"shadow\", \"gradient\"]\nsun_deg = [120, 30]\n"
+        "[volume]\nslices = 64\nexaggeration = 4\nopacity = 0.5\ncurved_earth = true\n"
+        "[labels]\nshow = false\nring_spacing_km = 25\ntime_zone = \"America/Chicago\"\n");
+    ASSERT_TRUE(status) << status.error().message;
+    const auto scene = scene_of(settings_.scene);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->product, render::Product::section);
+    EXPECT_EQ(scene->moment, level2::Moment::rho);
+    EXPECT_EQ(scene->colours->name, "safe-rho");
+    EXPECT_EQ(scene->cappi_height_m, 4500);
+    EXPECT_EQ(scene->section->from.longitude_deg, -98.5);
+    EXPECT_EQ(scene->section->to.latitude_deg, 36.25);
+    EXPECT_EQ(scene->echo_top_dbz, 30);
+    EXPECT_EQ(scene->width, 640);
+    EXPECT_EQ(scene->height, 480);
+    EXPECT_EQ(scene->camera.azimuth_deg, 135);
+    EXPECT_EQ(scene->camera.tilt_deg, 120);
+    EXPECT_EQ(scene->camera.zoom, 2.5);
+    EXPECT_EQ(scene->camera.field_of_view_deg, 35);
+    EXPECT_EQ(scene->camera.eye->x_m, -20e3);
+    EXPECT_EQ(scene->camera.eye->y_m, 5500);
+    EXPECT_EQ(scene->camera.eye->height_m, 3000);
+    EXPECT_TRUE(scene->light.gradient && scene->light.shadow && !scene->light.scattering);
+    EXPECT_EQ(scene->light.sun_azimuth_deg, 120);
+    EXPECT_EQ(scene->light.sun_elevation_deg, 30);
+    EXPECT_EQ(scene->slices, 64);
+    EXPECT_EQ(scene->vertical_exaggeration, 4);
+    EXPECT_EQ(scene->opacity, 0.5);
+    EXPECT_TRUE(scene->curved_earth);
+    EXPECT_FALSE(scene->labels);
+    EXPECT_EQ(scene->range_ring_spacing_m, 25e3);
+    EXPECT_EQ(settings_.scene.time_zone, "America/Chicago");
+}
+
+TEST_F(SceneFileTest, EveryKeyOfPlanAndLoopIsTaken) {
+    const Status status = read(
+        "[plan]\ntolerance = \"dE 2\"\n[plan.effects]\nvalue_span = \"on\"\n"
+        "[loop]\ndomain = \"northeast\"\nfrom = \"-3h\"\nto = \"now\"\nlast = 12\nfps = 10\n"
+        "dwell_s = 2\norbit_deg = 360\nping_pong = true\noutputs = [\"a.webp\", \"/b/c/\"]\n");
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_EQ(settings_.plan.tolerance, "dE 2");
+    EXPECT_THAT(settings_.plan.effects, ElementsAre("value_span=on"));
+    const LoopSettings& loop = settings_.loop;
+    EXPECT_EQ(loop.domain, "northeast");
+    EXPECT_EQ(loop.range.from, "-3h");
+    EXPECT_EQ(loop.range.to, "now");
+    EXPECT_EQ(loop.last, 12U);
+    EXPECT_EQ(loop.animation.frames_per_second, 10);
+    EXPECT_EQ(loop.animation.last_frame_dwell_s, 2);
+    EXPECT_EQ(loop.orbit_deg, 360);
+    EXPECT_TRUE(loop.ping_pong);
+    EXPECT_THAT(loop.outputs, ElementsAre(at("a.webp"), "/b/c/"));
+}
+
+TEST_F(SceneFileTest, ComplaintsNameFileLineAndKey) {
+    EXPECT_EQ(complaint("[picture]\nprodukt = \"volume\"\n"),
+              "s.toml:2: unknown key [picture] produkt");
+    EXPECT_EQ(complaint("\n[pictures]\n"), "s.toml:2: unknown section [pictures]");
+    EXPECT_EQ(complaint("[picture]\n\nwidth = \"wide\"\n"),
+              "s.toml:3: [picture] width: must be a whole number, is text");
+    EXPECT_EQ(complaint("[picture]\nwidth = 12\n"),
+              "s.toml:2: [picture] width: 12 is out of range, must be 16 to 8192");
+    EXPECT_EQ(complaint("[plan.effects]\nrays = \"on\"\nnone-such = \"on\"\n").substr(0, 9),
+              "s.toml:2:");
+    EXPECT_EQ(complaint("[loop\n").substr(0, 28), "s.toml:1: not valid TOML: Er");
+}
+
+TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"picture", "product = \"hologram\""},
+        {"picture", "product = 3"},
+        {"picture", "product = \"\""},
+        {"picture", "moment = \"DBZ\""},
+        {"picture", "colours = \"none-such\""},
+        {"picture", "colours = \"none-such.pal\""},
+        {"picture", "height_km = 61"},
+        {"picture", "section = [35, -98]"},
+        {"picture", "section = [95, -98, 36, -97]"},
+        {"picture", "section = \"35,-98,36,-97\""},
+        {"picture", "echo_top_dbz = 81"},
+        {"picture", "height = 8193"},
+        {"camera", "azimuth_deg = inf"},
+        {"camera", "tilt_deg = 181"},
+        {"camera", "zoom = 0"},
+        {"camera", "field_of_view_deg = 0.5"},
+        {"camera", "field_of_view_deg = 151"},
+        {"camera", "at_km = [1, 2]"},
+        {"camera", "at_km = [1, 2, nan]"},
+        {"light", "kinds = \"shadow\""},
+        {"light", "kinds = [\"moonshine\"]"},
+        {"light", "sun_deg = [225, 3]"},
+        {"volume", "slices = 7"},
+        {"volume", "slices = 64.5"},
+        {"volume", "exaggeration = 0"},
+        {"volume", "opacity = 1001"},
+        {"volume", "curved_earth = \"yes\""},
+        {"labels", "show = 1"},
+        {"labels", "ring_spacing_km = 0.5"},
+        {"labels", "time_zone = \"Nowhere/Land\""},
+        {"plan", "tolerance = \"much\""},
+        {"plan", "effects = [\"value_span=on\"]"},
+        {"plan.effects", "value_span = \"maybe\""},
+        {"plan.effects", "value_span = true"},
+        {"loop", "domain = \"a/b\""},
+        {"loop", "from = \"yesterday\""},
+        {"loop", "to = \"\""},
+        {"loop", "last = 0"},
+        {"loop", "fps = 61"},
+        {"loop", "dwell_s = -1"},
+        {"loop", "orbit_deg = 3601"},
+        {"loop", "ping_pong = \"on\""},
+        {"loop", "outputs = \"a.webp\""},
+        {"loop", "outputs = [\"\"]"},
+    };
+    for (const auto& [section, line] : wrong) {
+        const std::string key = line.substr(0, line.find(' '));
+        EXPECT_THAT(complaint(fmt::format("[{}]\n{}\n", section, line)),
+                    ::testing::StartsWith(fmt::format("s.toml:2: [{}] {}: ", section, key)))
+            << line;
+    }
+    EXPECT_EQ(settings_.scene.scene.slices, render::Scene{}.slices) << "nothing was taken";
+}
+
+TEST_F(SceneFileTest, PathsStartAtTheFile) {
+    write(
+        "unit = \"dBZ\"\n[[point]]\nvalue = 0\ncolour = \"#000000\"\n[[point]]\nvalue = 50\n"
+        "colour = \"#ffffff\"\n",
+        "mine.toml");
+    ASSERT_TRUE(read("[picture]\ncolours = \"mine.toml\"\n"));
+    EXPECT_EQ(settings_.scene.colours, at("mine.toml"));
+    const auto scene = scene_of(settings_.scene);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->colours->name, "mine");
+}
+
+TEST_F(SceneFileTest, TheCommandLineWins) {
+    const auto file = write(
+        "[picture]\nwidth = 640\nheight = 480\n[camera]\nazimuth_deg = 90\n"
+        "[volume]\ncurved_earth = true\n[loop]\nlast = 3\n");
+    for (const char* order : {"--width 700 --curved-earth=false --scene {} --azimuth 180",
+                              "--scene {} --azimuth 180 --curved-earth=false --width 700"}) {
+        CLI::App app;
+        SceneFile scene_file;
+        AllSettings all;
+        add_scene_file(app, scene_file, all.scene, all.plan, &all.loop);
+        add_scene_options(app, all.scene);
+        app.parse(fmt::format(fmt::runtime(order), file.string()));
+        EXPECT_FALSE(scene_file.error);
+        EXPECT_EQ(all.scene.scene.width, 700) << order;
+        EXPECT_EQ(all.scene.scene.height, 480) << order;
+        EXPECT_EQ(all.scene.scene.camera.azimuth_deg, 180) << "given, though it is the default";
+        EXPECT_FALSE(all.scene.scene.curved_earth);
+        EXPECT_EQ(all.loop.last, 3U);
+    }
+}
+
+TEST_F(SceneFileTest, FrameAndLoopDrawWhatItSays) {
+    commit();
+    const auto file =
+        write(fmt::format("[picture]\nproduct = \"composite\"\nwidth = 500\n[loop]\n"
+                          "domain = \"KBGM\"\noutputs = [\"a.webp\"]\n"));
+    const auto frame = run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} --json",
+                                                  cache(), file.string(), at("a.png")));
+    EXPECT_EQ(frame.status, exit_done) << frame.err;
+    EXPECT_THAT(frame.out, HasSubstr("\"product\": \"composite\""));
+    EXPECT_THAT(frame.out, HasSubstr("\"width\": 500"));
+    const auto loop = run(add_loop, fmt::format("loop --cache {} --scene {} --width 450 --json",
+                                                cache(), file.string()));
+    EXPECT_EQ(loop.status, exit_done) << loop.err;
+    EXPECT_THAT(loop.out, HasSubstr("\"product\": \"composite\""));
+    EXPECT_THAT(loop.out, HasSubstr("\"width\": 450"));
+    EXPECT_TRUE(fs::exists(directory_ / "a.webp")) << "the output that the file names";
+}
+
+TEST_F(SceneFileTest, WhatIsWrongIsSaidBeforeWhatIsMissing) {
+    const auto file = write("[loop]\nfps = 100\n");
+    for (const auto& [add, name] : {std::pair{&add_frame, "frame"}, std::pair{&add_loop, "loop"}}) {
+        const auto ran = run(add, fmt::format("{} --cache x --scene {}", name, file.string()));
+        EXPECT_EQ(ran.status, exit_bad_usage);
+        EXPECT_THAT(ran.err, HasSubstr("s.toml:2: [loop] fps: 100 is out of range"));
+        const auto absent = run(add, fmt::format("{} --cache x --scene {}", name, at("absent")));
+        EXPECT_EQ(absent.status, exit_failed);
+        EXPECT_THAT(absent.err, HasSubstr("absent: No such file"));
+    }
+}
+
+TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
+    const fs::path scenes = testing::source_directory() / "scenes";
+    const Status storms = read_scene_file(scenes / "small-storm.toml", settings_.scene,
+                                          settings_.plan, settings_.loop);
+    ASSERT_FALSE(storms);
+    EXPECT_THAT(storms.error().message, HasSubstr("a scene of simulated storms, for stormcellar"));
+    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"),
+                HasSubstr("s.toml: a colour table, for --col"));
+    EXPECT_THAT(
+        complaint("[paths]\ndrop = \"/d\"\n[[loop]]\nname = \"a\"\n"),
+        HasSubstr("s.toml: a configuration of stormcellard; a picture's scene has [picture]"));
+    const auto picture = synth::read_scene(scenes / "picture-section.toml");
+    ASSERT_FALSE(picture);
+    EXPECT_THAT(picture.error().message, HasSubstr("a picture's scene ([picture])"));
+}
+
+TEST_F(SceneFileTest, ShippedScenesDraw) {
+    commit();
+    const fs::path scenes = testing::source_directory() / "scenes";
+    std::size_t found = 0;
+    for (const auto& entry : fs::directory_iterator(scenes)) {
+        const std::string name = entry.path().filename();
+        if (!name.starts_with("picture-")) continue;
+        ++found;
+        // The section of the shipped file is in Oklahoma.
+        const std::string where =
+            name == "picture-section.toml" ? " --section 42,-76.1,42.3,-75.8" : "";
+        const auto ran =
+            run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {}{}", cache(),
+                                       entry.path().string(), at(name + ".png"), where));
+        EXPECT_EQ(ran.status, exit_done) << name << ": " << ran.err;
+        EXPECT_GT(fs::file_size(directory_ / (name + ".png")), 20'000U) << name;
+    }
+    EXPECT_EQ(found, 3U);
+}
+
+}  // namespace
+}  // namespace stormcellar::cli

@@ -1,0 +1,212 @@
+#include "daemon/loop_keeper.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/daemon/write_file.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class LoopKeeperTest : public ::testing::Test {
+  protected:
+    // A program that stands for stormcellar. It first adds a line "start PID ARGUMENTS" to `log`.
+    fs::path program(const std::string& body) {
+        const fs::path path = directory_ / "program";
+        write_file(path, "#!/bin/sh\necho start $$ \"$*\" >>" + log().native() + "\n" + body);
+        fs::permissions(path, fs::perms::owner_all);
+        return path;
+    }
+    void keep(const fs::path& program) {
+        keeper_ = std::make_unique<LoopKeeper>(
+            "/the/cache", [this] { ++wakes_; }, program);
+    }
+    bool wait_for(const std::function<bool()>& seen) {
+        for (int i = 0; i < 6000; ++i) {
+            if (auto states = keeper_->news()) states_ = std::move(*states);
+            if (seen()) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        return false;
+    }
+    std::vector<std::string> starts() const {
+        std::ifstream file(log());
+        std::vector<std::string> lines;
+        for (std::string line; std::getline(file, line);)
+            lines.push_back(line);
+        return lines;
+    }
+    static pid_t process_of(const std::string& start) { return std::stoi(start.substr(6)); }
+    static LoopConfig loop(const std::string& name, const std::string& domain) {
+        return {.name = name, .scene = {}, .domain = domain, .outputs = {"/o/" + name + ".webp"}};
+    }
+    [[nodiscard]] fs::path log() const { return directory_ / "log"; }
+
+    testing::TemporaryDirectory directory_;
+    std::atomic<int> wakes_ = 0;
+    std::vector<LoopState> states_;
+    std::unique_ptr<LoopKeeper> keeper_;
+};
+
+constexpr const char* for_ever = "while true; do sleep 0.05; done\n";
+
+TEST_F(LoopKeeperTest, WhatEndsIsStartedAgain) {
+    keep(program("echo '{\"frames\": 3, \"total_s\": 0.5}'\necho it broke >&2\nexit 7\n"));
+    keeper_->set({loop("ktlx", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return !states_.empty() && states_[0].restarts >= 2; }));
+    ASSERT_TRUE(wait_for([&] { return states_[0].made >= 3; }));
+    EXPECT_EQ(states_[0].name, "ktlx");
+    EXPECT_EQ(states_[0].frames, 3);
+    EXPECT_TRUE(states_[0].last_made);
+    EXPECT_EQ(states_[0].last_problem, "status 7: it broke");
+    EXPECT_GT(wakes_, 0);
+    const std::string first = starts().at(0);
+    EXPECT_THAT(first,
+                HasSubstr("loop --follow --json --cache /the/cache --with-parent " +
+                          std::to_string(::getpid()) + " --domain KTLX --output /o/ktlx.webp"));
+}
+
+TEST_F(LoopKeeperTest, AProgramThatIsNotThereIsSaid) {
+    keep(directory_ / "none");
+    keeper_->set({loop("ktlx", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return !states_.empty() && !states_[0].last_problem.empty(); }));
+    EXPECT_FALSE(states_[0].is_running);
+    EXPECT_THAT(states_[0].last_problem, HasSubstr("No such file or directory"));
+    EXPECT_EQ(states_[0].restarts, 0U);
+    // It may come later.
+    fs::rename(program(for_ever), directory_ / "none");
+    EXPECT_TRUE(wait_for([&] { return states_[0].is_running; }));
+}
+
+TEST_F(LoopKeeperTest, AKilledLoopIsStartedAgain) {
+    keep(program(for_ever));
+    keeper_->set({loop("ktlx", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
+    ASSERT_EQ(::kill(process_of(starts()[0]), SIGKILL), 0);
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 2 && states_[0].is_running; }));
+    EXPECT_EQ(states_[0].last_problem, "signal 9");
+}
+
+TEST_F(LoopKeeperTest, OnlyWhatChangesIsStoppedAndStarted) {
+    keep(program(for_ever));
+    keeper_->set({loop("a", "AAAA"), loop("b", "BBBB"), loop("c", "CCCC")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 3; }));
+    pid_t a = 0;
+    pid_t b = 0;
+    pid_t c = 0;
+    for (const std::string& start : starts()) {
+        if (start.find("AAAA") != std::string::npos) a = process_of(start);
+        if (start.find("BBBB") != std::string::npos) b = process_of(start);
+        if (start.find("CCCC") != std::string::npos) c = process_of(start);
+    }
+    keeper_->set({loop("a", "AAAA"), loop("b", "XXXX")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 4; }));
+    EXPECT_THAT(starts().back(), HasSubstr("XXXX"));
+    ASSERT_TRUE(wait_for([&] { return ::kill(c, 0) != 0; }));
+    EXPECT_NE(::kill(b, 0), 0) << "the new one waits for the end of the old one";
+    EXPECT_EQ(::kill(a, 0), 0) << "goes on undisturbed";
+    ASSERT_TRUE(wait_for([&] { return states_.size() == 2; }));
+    EXPECT_EQ(states_[0].restarts + states_[1].restarts, 0U);
+}
+
+TEST_F(LoopKeeperTest, AChangedSceneIsAChange) {
+    keep(program(for_ever));
+    LoopConfig scened = loop("a", "AAAA");
+    scened.scene = directory_ / "scene.toml";
+    write_file(scened.scene, "[picture]\n");
+    keeper_->set({scened});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
+    EXPECT_THAT(starts()[0], HasSubstr("--scene " + scened.scene.native()));
+    keeper_->set({scened});
+    keeper_->set({scened, loop("b", "BBBB")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 2; }));
+    EXPECT_THAT(starts()[1], HasSubstr("BBBB")) << "nothing had changed for the other";
+    write_file(scened.scene, "[picture]\nwidth = 500\n");
+    keeper_->set({scened, loop("b", "BBBB")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 3; }));
+    EXPECT_THAT(starts()[2], HasSubstr("AAAA"));
+}
+
+TEST_F(LoopKeeperTest, AllEndWithIt) {
+    keep(program(for_ever));
+    keeper_->set({loop("a", "AAAA"), loop("b", "BBBB")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 2; }));
+    keeper_->stop();
+    keeper_->wait();
+    for (const std::string& start : starts())
+        EXPECT_NE(::kill(process_of(start), 0), 0) << start;
+    EXPECT_EQ(starts().size(), 2U);
+}
+
+TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
+    keep(program(std::string("trap '' TERM\necho ready >&2\n") + for_ever));
+    keeper_->set({loop("a", "AAAA")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
+    keeper_.reset();
+    EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
+}
+
+TEST(LoopArguments, SayWhatTheTableSays) {
+    const LoopConfig all{.name = "n",
+                         .scene = "/s.toml",
+                         .domain = "north",
+                         .last = 12,
+                         .seconds = 5400,
+                         .outputs = {"/a.webp", "/b/"}};
+    EXPECT_THAT(arguments_of(all, "/c", 7),
+                ElementsAre("loop", "--follow", "--json", "--cache", "/c", "--with-parent", "7",
+                            "--scene", "/s.toml", "--domain", "north", "--last", "12",
+                            "--from=-5400s", "--output", "/a.webp", "--output", "/b/"));
+    LoopConfig scene_alone;
+    scene_alone.name = "n";
+    scene_alone.scene = "/s.toml";
+    EXPECT_THAT(arguments_of(scene_alone, "/c", 7),
+                ElementsAre("loop", "--follow", "--json", "--cache", "/c", "--with-parent", "7",
+                            "--scene", "/s.toml"));
+}
+
+TEST(FindProgram, IsBesideOrOnThePath) {
+    EXPECT_EQ(find_program("sh").filename(), "sh");
+    EXPECT_EQ(find_program("daemon_test").filename(), "daemon_test") << "beside this program";
+    EXPECT_EQ(find_program("no-such-program"), "");
+}
+
+TEST(LineReader, GivesWholeLinesAndTheRestAtTheEnd) {
+    int ends[2] = {};
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::fcntl(ends[0], F_SETFL, O_NONBLOCK), 0);
+    LineReader reader(ends[0]);
+    const auto write = [&](const std::string& text) {
+        ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    };
+    EXPECT_THAT(reader.read(), ElementsAre());
+    write("one\ntw");
+    EXPECT_THAT(reader.read(), ElementsAre("one"));
+    write("o\n" + std::string(10'000, 'x') + "\nrest");
+    const auto lines = reader.read();
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0], "two");
+    EXPECT_EQ(lines[1].size(), LineReader::longest_line);
+    ::close(ends[1]);
+    EXPECT_THAT(reader.read(), ElementsAre("rest"));
+    EXPECT_EQ(reader.descriptor(), -1);
+    EXPECT_THAT(reader.read(), ElementsAre());
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

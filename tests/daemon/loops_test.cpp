@@ -1,0 +1,136 @@
+// The real stormcellard keeps loops with the real stormcellar.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/running_daemon.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::map<std::string, std::string>& with_program() {
+    static const std::map<std::string, std::string> path{
+        {"PATH", fs::path(STORMCELLAR_PROGRAM).parent_path().native() + ":/usr/bin:/bin"}};
+    return path;
+}
+
+constexpr const char* one_loop =
+    "[ingest]\nquiet_seconds = 2\n"
+    "[[loop]]\nname = \"binghamton\"\nscene = \"scene.toml\"\ndomain = \"KBGM\"\nlast = 2\n"
+    "outputs = [\"loops/kbgm.webp\"]\n";
+
+class Loops : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        fs::create_directory(daemon_.root() / "loops");
+        write_file(daemon_.root() / "scene.toml",
+                   "[picture]\nproduct = \"composite\"\nwidth = 480\nheight = 360\n");
+    }
+    void drop(const std::string& name) {
+        fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, daemon_.drop() / name);
+    }
+    // Of the loop that was started last.
+    pid_t process() const {
+        const std::string log = daemon_.log();
+        const std::size_t at = log.rfind("started, process ");
+        return at == std::string::npos ? 0 : std::stoi(log.substr(at + 17));
+    }
+    static bool is_gone(pid_t process) {
+        std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+        std::string text;
+        std::getline(stat, text);
+        const std::size_t name_end = text.rfind(')');
+        return name_end == std::string::npos || text.substr(name_end + 2, 1) == "Z";
+    }
+    [[nodiscard]] fs::path output() const { return daemon_.root() / "loops/kbgm.webp"; }
+
+    RunningDaemon daemon_;
+};
+
+TEST_F(Loops, AVolumeThatComesIsInTheLoop) {
+    STORMCELLAR_NEED_DATA();
+    daemon_.start(one_loop, with_program());
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["running"] == 1; }))
+        << daemon_.log();
+    EXPECT_FALSE(fs::exists(output()));
+    drop("KBGM20050822_024414.gz");
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["made"] >= 1; }))
+        << daemon_.log();
+    EXPECT_GT(fs::file_size(output()), 1000U);
+    drop("KBGM20050822_025001.gz");
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) {
+        return s["loops"]["each"][0]["frames"] == 2;
+    })) << daemon_.log();
+    const pid_t loop = process();
+    EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
+    EXPECT_TRUE(is_gone(loop));
+    EXPECT_EQ(daemon_.status()["loops"]["running"], 0);
+    for (const auto& entry : fs::directory_iterator(daemon_.root() / "loops"))
+        EXPECT_EQ(entry.path(), output()) << "was left behind";
+}
+
+TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
+    STORMCELLAR_NEED_DATA();
+    daemon_.start(one_loop, {{"PATH", "/nowhere"}});
+    ASSERT_TRUE(daemon_.wait_for_log("loop binghamton: cannot be started: no program stormcellar"))
+        << daemon_.log();
+    drop("KBGM20050822_024414.gz");
+    EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 1; }));
+    EXPECT_EQ(daemon_.status()["loops"]["running"], 0);
+    EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
+}
+
+TEST_F(Loops, ALoopThatDiesIsStartedAgain) {
+    daemon_.start(one_loop, with_program());
+    ASSERT_TRUE(daemon_.wait_for_log("started, process")) << daemon_.log();
+    ::kill(process(), SIGKILL);
+    EXPECT_TRUE(daemon_.wait_for_log("loop binghamton: ended with signal 9")) << daemon_.log();
+    EXPECT_TRUE(daemon_.wait_for([](const json& s) {
+        return s["loops"]["restarts"] == 1 && s["loops"]["running"] == 1;
+    })) << daemon_.log();
+}
+
+TEST_F(Loops, ALoopEndsWithADaemonThatIsKilled) {
+    daemon_.start(one_loop, with_program());
+    // It listens to its parent's end by the time that it waits.
+    ASSERT_TRUE(daemon_.wait_for_log("waiting for one")) << daemon_.log();
+    const pid_t loop = process();
+    daemon_.signal(SIGKILL);
+    EXPECT_EQ(daemon_.wait(), -SIGKILL);
+    bool is_over = false;
+    for (int i = 0; i < 3000 && !is_over; ++i) {
+        is_over = is_gone(loop);
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    EXPECT_TRUE(is_over);
+}
+
+TEST_F(Loops, AReloadStartsAndStopsThem) {
+    daemon_.start("", with_program());
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
+    EXPECT_EQ(daemon_.status()["loops"]["running"], 0);
+    const fs::path file = daemon_.root() / "stormcellard.toml";
+    const std::string paths = "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n";
+    write_file(file, paths + one_loop);
+    daemon_.signal(SIGHUP);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["running"] == 1; }))
+        << daemon_.log();
+    write_file(file, paths);
+    daemon_.signal(SIGHUP);
+    EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["each"].empty(); }))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
