@@ -12,6 +12,7 @@
 #include "cache/store.h"
 #include "cli/commands.h"
 #include "cli/picture.h"
+#include "cli/picture_metadata.h"
 #include "cli/picture_plan.h"
 #include "cli/scene_file.h"
 #include "cli/scene_options.h"
@@ -56,17 +57,6 @@ int report_nothing(const cache::Store& store, const FrameOptions& options, level
     return report_no_grid(
         store, options.domain, moment,
         options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
-}
-
-std::vector<std::pair<std::string, std::string>> texts_of(const cache::GridDescription& grid,
-                                                          const FrameOptions& options,
-                                                          const render::Scene& scene) {
-    return {{"Title", fmt::format("{} {}", options.domain, format_utc(grid.time))},
-            {"Description",
-             ascii(fmt::format("{}; gridded by {}, {}; from {}", render::product_title(scene),
-                               grid.provenance.method, grid.provenance.beam_model,
-                               fmt::join(grid.provenance.source_files, " ")))},
-            {"Software", fmt::format("stormcellar {}", software_version)}};
 }
 
 struct Timing {
@@ -179,15 +169,20 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
     const int threads = thread_count(options.scene);
     render::Scene planned = scene;
-    if (auto done = plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
-        !done) {
-        return pass_on(done);
-    }
+    const auto done =
+        plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
+    if (!done) return pass_on(done);
     const auto picture = render::render_frame(file.view(), facts, planned, threads);
     if (!picture) return pass_on(picture);
     if (Status whole = file.check_whole(); !whole) return pass_on(whole);
     timing.render_s = seconds_since(start) - timing.read_s;
-    const auto bytes = render::encode_png(*picture, texts_of(file.description(), options, scene));
+    const auto bytes = render::encode_png(*picture, metadata_of({options.domain,
+                                                                 file.description().time,
+                                                                 file.description().time,
+                                                                 std::nullopt,
+                                                                 {},
+                                                                 *done},
+                                                                file.description(), planned));
     if (!bytes) return pass_on(bytes);
     if (auto written = write_file_atomically(real_file_system(), options.output, *bytes);
         !written) {

@@ -50,15 +50,6 @@ std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
     return {whole(half_x_m), whole(half_y_m)};
 }
 
-Result<grid::GridSpec> spec_of(const std::vector<grid::SitePosition>& sites, GridRequest request) {
-    const auto center = request.center_deg.value_or(middle_of(sites));
-    const bool in_km = request.extent_unit == SizeUnit::km && request.spacing_unit == SizeUnit::km;
-    if (!request.extent_given && in_km) {
-        request.extent = extent_km_of(sites, center, request.spacing);
-    }
-    return spec_about(request, center[0], center[1]);
-}
-
 // Of one site: its beam is as wide as its radar's.
 accuracy::Choice default_of(const EffectRequest& effects, const grid::GridSpec& spec,
                             const grid::SitePosition& site) {
@@ -126,6 +117,16 @@ void note_missing(const std::vector<grid::SitePosition>& sites, const grid::Grid
 }
 
 }  // namespace
+
+Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
+                                   GridRequest request) {
+    const auto center = request.center_deg.value_or(middle_of(sites));
+    const bool in_km = request.extent_unit == SizeUnit::km && request.spacing_unit == SizeUnit::km;
+    if (!request.extent_given && in_km) {
+        request.extent = extent_km_of(sites, center, request.spacing);
+    }
+    return spec_about(request, center[0], center[1]);
+}
 
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
     app.add_option("--overlap", options.overlap,
@@ -197,7 +198,7 @@ Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
         sources.timings.decode_s += source->decode_s;
         sources.volumes.push_back(std::move(*source));
     }
-    auto spec = spec_of(sites_of(sources.volumes), request);
+    auto spec = mosaic_spec(sites_of(sources.volumes), request);
     if (!spec) return pass_on(spec);
     sources.spec = std::move(*spec);
     return sources;

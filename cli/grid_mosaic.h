@@ -30,6 +30,11 @@ void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& ef
                                                        std::size_t files,
                                                        const GridRequest& request);
 
+// About the centre that is asked for, else the middle of the sites; without an extent 230 km beyond
+// them. Errors: those of spec_about().
+[[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
+                                                 GridRequest request);
+
 struct MosaicTimings {
     double read_s = 0, decode_s = 0, plan_s = 0, grid_s = 0, merge_s = 0;
 };

@@ -306,7 +306,7 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
         "several FILEs: counts (sites that see a cell), weights (the sum of theirs)");
 }
 
-void add_spec_options(CLI::App& app, GridOptions& options) {
+void add_place_options(CLI::App& app, GridOptions& options) {
     app.add_option("--center", options.center,
                    "LAT,LON in degrees; else the site, or the middle of the sites");
     app.add_option("--projection", options.projection,
@@ -329,6 +329,10 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
                    "From one cell of a latitude_longitude grid to the next, both ways");
     app.add_option("--levels-km", options.levels_km,
                    "Heights above mean sea level, a,b,c or bottom:top:step; else 0.5:16:0.5");
+}
+
+void add_spec_options(CLI::App& app, GridOptions& options) {
+    add_place_options(app, options);
     app.add_option("--moment", options.moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
         ->capture_default_str();
     app.add_option("--threads", options.threads,

@@ -36,6 +36,8 @@ struct GridOptions {
 
 // FILE, --output, --time, --fields and those of add_spec_options().
 void add_grid_options(CLI::App& app, GridOptions& options);
+// Where the grid lies, and its cells and levels.
+void add_place_options(CLI::App& app, GridOptions& options);
 // Which grid, of which moment, on how many threads.
 void add_spec_options(CLI::App& app, GridOptions& options);
 

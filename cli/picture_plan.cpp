@@ -50,6 +50,19 @@ render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scen
     return render::volume_choice(chain, choice);
 }
 
+// Against the chain's exact form, of the grid that was planned for.
+std::string error_text(const accuracy::Plan& plan) {
+    std::string text = plan.budget.bounds_errors()
+                           ? fmt::format("tolerance {}; ", accuracy::format_budget(plan.budget))
+                           : "";
+    text += fmt::format("predicted dE {}", accuracy::format_number(plan.left_off.image_de));
+    if (plan.measured && plan.measured->image_de) {
+        text += fmt::format(", measured at most dE {} at 99 % of the pixels of the first frame",
+                            accuracy::format_number(*plan.measured->image_de));
+    }
+    return fmt::format("{} ({})", text, plan.description);
+}
+
 }  // namespace
 
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
@@ -67,10 +80,10 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
         ->group(group);
 }
 
-Status plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
-                    const PicturePlanOptions& options, bool json, int threads,
-                    render::Scene& scene) {
-    if (!options.asked()) return {};
+Result<std::string> plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
+                                 const PicturePlanOptions& options, bool json, int threads,
+                                 render::Scene& scene) {
+    if (!options.asked()) return std::string{};
     if (scene.product != render::Product::volume) {
         return fail(ErrorCode::bad_argument,
                     "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
@@ -78,7 +91,7 @@ Status plan_picture(const grid::BrickView& view, const render::FrameFacts& facts
     }
     const auto request = parse_plan(options, scene.light);
     if (!request) return pass_on(request);
-    if (auto valid = render::check_frame(view, facts, scene); !valid) return valid;
+    if (auto valid = render::check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto layout = render::layout_of(view, facts, scene);
     if (!layout) return pass_on(layout);
     render::VolumeScene drawn(view, render::colours_of(scene), scene, layout->width, layout->height,
@@ -98,7 +111,7 @@ Status plan_picture(const grid::BrickView& view, const render::FrameFacts& facts
     scene.light.gradient = planned->choice.gradient;
     scene.light.shadow = planned->choice.shadow;
     scene.light.scattering = planned->choice.scattering;
-    return {};
+    return error_text(planned->plan);
 }
 
 }  // namespace stormcellar::cli

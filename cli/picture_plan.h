@@ -27,11 +27,13 @@ struct PicturePlanOptions {
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 
 // Plans for this grid and sets the scene's slices, integration and rays as planned; prints the plan
-// where that was asked for, to stderr with `json`, else to stdout. Nothing happens when nothing was
-// asked. Errors: bad_argument for options that make no sense, or a product that is no volume;
+// where that was asked for, to stderr with `json`, else to stdout. Gives what the plan knows of the
+// picture's error, in one line. Nothing happens, and the line is empty, when nothing was asked.
+// Errors: bad_argument for options that make no sense, or a product that is no volume;
 // not_found, naming the best there is, where nothing holds the tolerance.
-[[nodiscard]] Status plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
-                                  const PicturePlanOptions& options, bool json, int threads,
-                                  render::Scene& scene);
+[[nodiscard]] Result<std::string> plan_picture(const grid::BrickView& view,
+                                               const render::FrameFacts& facts,
+                                               const PicturePlanOptions& options, bool json,
+                                               int threads, render::Scene& scene);
 
 }  // namespace stormcellar::cli

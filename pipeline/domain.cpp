@@ -100,35 +100,18 @@ int cells_over(TomlTable& table, std::string_view key, double cells) {
 
 // The columns that hold the boundary of the bounds, on both sides of the centre alike.
 void size_by_bounds(TomlTable& table, const std::array<double, 4>& bounds, GridSpec& spec) {
-    const auto [west, south, east, north] = bounds;
-    const double width = east > west ? east - west : east - west + 360;
-    GridSpec one = spec;
-    one.nx = one.ny = 1;
     if (spec.projection == Projection::latitude_longitude) {
-        spec.nx = cells_over(table, "bounds", width / spec.spacing_deg);
-        spec.ny = cells_over(table, "bounds", (north - south) / spec.spacing_deg);
+        spec.nx = cells_over(table, "bounds", width_deg(bounds) / spec.spacing_deg);
+        spec.ny = cells_over(table, "bounds", (bounds[3] - bounds[1]) / spec.spacing_deg);
         return;
     }
-    if (const Status valid = grid::validate(one); !valid) {
-        table.complain("bounds", valid.error().message);
+    const auto half = half_columns_of(spec, bounds);
+    if (!half) {
+        table.complain("bounds", half.error().message);
         return;
     }
-    const grid::GridProjection projection(one);
-    double half_x = 0, half_y = 0;
-    for (int i = 0; i <= boundary_points; ++i) {
-        const double share = static_cast<double>(i) / boundary_points;
-        const double latitude = south + share * (north - south);
-        const double longitude = west + share * width;
-        for (const grid::GeoPoint& point :
-             {grid::GeoPoint{latitude, west}, grid::GeoPoint{latitude, east},
-              grid::GeoPoint{south, longitude}, grid::GeoPoint{north, longitude}}) {
-            const grid::ColumnPoint column = projection.to_column(point);
-            half_x = std::max(half_x, std::abs(column.x));
-            half_y = std::max(half_y, std::abs(column.y));
-        }
-    }
-    spec.nx = cells_over(table, "bounds", 2 * half_x);
-    spec.ny = cells_over(table, "bounds", 2 * half_y);
+    spec.nx = cells_over(table, "bounds", 2 * half->x);
+    spec.ny = cells_over(table, "bounds", 2 * half->y);
 }
 
 void size_by_extent(TomlTable& table, GridSpec& spec) {
@@ -164,14 +147,13 @@ void read_place(TomlTable& table, GridSpec& spec) {
         spec.center_latitude_deg = (*center)[0];
         spec.center_longitude_deg = (*center)[1];
     } else {
-        const auto [west, south, east, north] = *bounds;
-        if (!(std::abs(west) <= 180 && std::abs(east) <= 180 && south < north && west != east)) {
+        if (!is_bounds(*bounds)) {
             table.complain("bounds", "must be [west, south, east, north] in degrees");
             return;
         }
-        const double width = east > west ? east - west : east - west + 360;
-        spec.center_latitude_deg = (south + north) / 2;
-        spec.center_longitude_deg = std::remainder(west + width / 2, 360.0);
+        const grid::GeoPoint middle = middle_of(*bounds);
+        spec.center_latitude_deg = middle.latitude_deg;
+        spec.center_longitude_deg = middle.longitude_deg;
     }
     read_projection(table, spec);
     read_spacing(table, spec);
@@ -251,6 +233,44 @@ Domain read_domain(TomlTable& table) {
 }
 
 }  // namespace
+
+double width_deg(const Bounds& bounds) {
+    const auto [west, south, east, north] = bounds;
+    return east > west ? east - west : east - west + 360;
+}
+
+grid::GeoPoint middle_of(const Bounds& bounds) {
+    const auto [west, south, east, north] = bounds;
+    return {(south + north) / 2, std::remainder(west + width_deg(bounds) / 2, 360.0)};
+}
+
+Result<grid::ColumnPoint> half_columns_of(const GridSpec& spec, const Bounds& bounds) {
+    GridSpec one = spec;
+    one.nx = one.ny = 1;
+    if (const Status valid = grid::validate(one); !valid) return pass_on(valid);
+    const auto [west, south, east, north] = bounds;
+    const grid::GridProjection projection(one);
+    grid::ColumnPoint half{0, 0};
+    for (int i = 0; i <= boundary_points; ++i) {
+        const double share = static_cast<double>(i) / boundary_points;
+        const double latitude = south + share * (north - south);
+        const double longitude = west + share * width_deg(bounds);
+        for (const grid::GeoPoint& point :
+             {grid::GeoPoint{latitude, west}, grid::GeoPoint{latitude, east},
+              grid::GeoPoint{south, longitude}, grid::GeoPoint{north, longitude}}) {
+            const grid::ColumnPoint column = projection.to_column(point);
+            half.x = std::max(half.x, std::abs(column.x));
+            half.y = std::max(half.y, std::abs(column.y));
+        }
+    }
+    return half;
+}
+
+bool is_bounds(const Bounds& bounds) {
+    const auto [west, south, east, north] = bounds;
+    return std::abs(west) <= 180 && std::abs(east) <= 180 && south < north && west != east &&
+           std::abs(south) <= 90 && std::abs(north) <= 90;
+}
 
 bool Domain::takes(std::string_view station) const {
     return stations.empty() ||

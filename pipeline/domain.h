@@ -5,6 +5,7 @@
 // Thread contract: plain data.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@
 #include "base/toml_file.h"
 #include "grid/grid_spec.h"
 #include "grid/mosaic.h"
+#include "grid/projection.h"
+#include "grid/site_frame.h"
 #include "grid/time_interpolation.h"
 #include "level2/volume.h"
 
@@ -32,6 +35,16 @@ struct Domain {
     [[nodiscard]] bool takes(std::string_view station) const;
     bool operator==(const Domain&) const = default;
 };
+
+// West, south, east, north in degrees; east of the antimeridian west is the greater one.
+using Bounds = std::array<double, 4>;
+[[nodiscard]] bool is_bounds(const Bounds& bounds);  // in range, and holding something
+[[nodiscard]] double width_deg(const Bounds& bounds);
+[[nodiscard]] grid::GeoPoint middle_of(const Bounds& bounds);
+// How many columns of the spec, whose size does not count, the boundary reaches from its centre at
+// most. Errors: those of grid::validate().
+[[nodiscard]] Result<grid::ColumnPoint> half_columns_of(const grid::GridSpec& spec,
+                                                        const Bounds& bounds);
 
 // Heights above mean sea level of the key levels_km: "BOTTOM:TOP:STEP" or a list; none when the key
 // is absent or, with a complaint noted, makes no sense.

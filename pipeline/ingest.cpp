@@ -62,6 +62,12 @@ std::string without_path(const std::string& message, const fs::path& path) {
     return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
+void note_position(const level2::Volume& volume, IngestOutcome& outcome) {
+    if (level2::antenna_position(volume) && !volume.station.empty()) return;
+    outcome.result = IngestResult::no_position;
+    outcome.reason = "neither the file nor the station table says where the radar stands";
+}
+
 void note_not_kept(IngestOutcome& outcome) {
     ++outcome.not_kept;
     outcome.reason = "older than what the cache keeps";
@@ -92,7 +98,7 @@ struct Ingestor::Impl {
         : catalog(its_catalog),
           store(its_store),
           options(std::move(its_options)),
-          mosaics(store, options.domains) {}
+          mosaics(store, options.domains, options.frames) {}
 
     catalog::Catalog& catalog;
     const cache::Store* store;  // none: files are only registered
@@ -149,8 +155,7 @@ Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& vo
                                 const Reading& reading, IngestOutcome& outcome) {
     const auto antenna = level2::antenna_position(volume);
     if (!antenna || volume.station.empty()) {
-        outcome.result = IngestResult::no_position;
-        outcome.reason = "neither the file nor the station table says where the radar stands";
+        note_position(volume, outcome);
         return {};
     }
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
@@ -248,7 +253,9 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
     outcome.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
     for (const level2::Volume& volume : volumes) {
         if (store == nullptr) continue;
-        if (has_moment(volume, options.moment)) {
+        if (!options.own_grids) {
+            note_position(volume, outcome);
+        } else if (has_moment(volume, options.moment)) {
             if (const Status gridded = grid_one(facts, volume, reading, outcome); !gridded) {
                 if (!is_of_the_data(gridded.error())) return pass_on(gridded);
                 return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
@@ -258,7 +265,9 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
             return pass_on(kept);
         }
     }
-    if (!outcome.grids.empty() || outcome.not_kept > 0) outcome.result = IngestResult::gridded;
+    const bool some_partial = !options.own_grids && !outcome.partials.empty();
+    if (!outcome.grids.empty() || some_partial || outcome.not_kept > 0)
+        outcome.result = IngestResult::gridded;
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
     }

@@ -20,6 +20,7 @@
 #include "catalog/catalog.h"
 #include "grid/gridder.h"
 #include "pipeline/domain.h"
+#include "pipeline/frames_when.h"
 
 namespace stormcellar::pipeline {
 
@@ -29,6 +30,8 @@ struct IngestOptions {
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
     std::vector<Domain> domains;   // mosaics to keep, beside each site's own grid
+    bool own_grids = true;         // false: the sites' grids for the domains alone
+    FramesWhen frames = FramesWhen::volume_comes;
     // In all: files that are ingested at the same time share them, so that each has its part and
     // one alone has all.
     int decode_threads = 1;

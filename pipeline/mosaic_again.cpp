@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/version.h"
+#include "cache/grid_file.h"
 #include "pipeline/mosaic_keeper.h"
 #include "pipeline/open_partials.h"
 
@@ -12,6 +14,11 @@ constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
 
 bool is_frame_time(UtcTime time, std::chrono::seconds interval) {
     return instants_between(time, time, interval).size() == 1;
+}
+
+auto no_domain(const cache::GridName& frame) {
+    return fail(ErrorCode::not_found, "no domain {} of {} is configured", frame.domain,
+                level2::moment_name(frame.moment));
 }
 
 // When the volumes began whose partials stand.
@@ -30,17 +37,21 @@ Result<std::set<UtcTime>> starts_of(const cache::Store& store, const Domain& dom
 }
 
 // Whether the instant lies between two partials of which one counts for it, as take_in() has it.
+bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
+    bool any_before = false, any_after = false;
+    for (const PartialView& partial : partials) {
+        any_before = any_before || partial.middle() <= instant;
+        any_after = any_after || partial.middle() >= instant;
+    }
+    return any_before && any_after;
+}
+
 Result<bool> is_due(const cache::Store& store, const Domain& domain, level2::Moment moment,
                     UtcTime instant) {
     std::vector<std::string> ignored;
     const auto partials = OpenPartials::open(store, domain, moment, instant, instant, ignored);
     if (!partials) return pass_on(partials);
-    bool any_before = false, any_after = false;
-    for (const PartialView& partial : partials->views()) {
-        any_before = any_before || partial.middle() <= instant;
-        any_after = any_after || partial.middle() >= instant;
-    }
-    return any_before && any_after;
+    return lies_between(partials->views(), instant);
 }
 
 }  // namespace
@@ -54,13 +65,36 @@ const Domain* MosaicKeeper::find(std::string_view name, level2::Moment moment) c
     return nullptr;
 }
 
+Result<FrameStanding> MosaicKeeper::standing_of(const cache::GridName& frame) const {
+    const Domain* domain = find(frame.domain, frame.moment);
+    if (domain == nullptr || store_ == nullptr) return no_domain(frame);
+    std::vector<std::string> ignored;
+    const auto partials =
+        OpenPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, ignored);
+    if (!partials) return pass_on(partials);
+    const auto views = partials->views();
+    if (!lies_between(views, frame.time)) return FrameStanding::not_due;
+    const auto recipe =
+        recipe_for(domain->spec, views, frame.time, frame_options(*domain, frame.moment, 1));
+    if (!recipe) {
+        if (recipe.error().code == ErrorCode::not_found) return FrameStanding::not_due;
+        return pass_on(recipe);
+    }
+    const auto path = store_->path_of(frame.domain, frame.moment, frame.time);
+    if (!path) return pass_on(path);
+    const auto stands = cache::GridFile::open(*path);
+    if (!stands) return FrameStanding::to_make;
+    const grid::Provenance& made_of = stands->description().provenance;
+    const bool is_current = stands->description().spec == domain->spec &&
+                            made_of.parts == recipe->parts && made_of.recipe == recipe->recipe &&
+                            made_of.software_version == software_version;
+    return is_current ? FrameStanding::current : FrameStanding::to_make;
+}
+
 Result<FrameMade> MosaicKeeper::make_again(const cache::GridName& frame, int threads,
                                            std::vector<std::string>& problems) {
     const Domain* domain = find(frame.domain, frame.moment);
-    if (domain == nullptr || store_ == nullptr) {
-        return fail(ErrorCode::not_found, "no domain {} of {} is configured", frame.domain,
-                    level2::moment_name(frame.moment));
-    }
+    if (domain == nullptr || store_ == nullptr) return no_domain(frame);
     if (!is_frame_time(frame.time, domain->interval)) {
         return fail(ErrorCode::bad_argument, "{} has frames every {} s, and none at {}",
                     domain->name, domain->interval.count(), format_utc(frame.time));

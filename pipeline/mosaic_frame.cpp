@@ -29,7 +29,8 @@ struct SiteShare {
     const PartialView* nearest = nullptr;
     const PartialView* before = nullptr;  // both, or none
     const PartialView* after = nullptr;
-    InstantCache::Key key;  // of that grid
+    bool nothing_after = false;  // its site has no volume after the instant yet
+    InstantCache::Key key;       // of that grid
     std::shared_ptr<const grid::BrickGrid> made;
 
     [[nodiscard]] grid::BrickView view() const { return made ? made->view() : nearest->view; }
@@ -59,6 +60,28 @@ SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime 
     share.before = before;
     share.after = after;
     return share;
+}
+
+// One a site that has a partial near the instant; not_found where none has.
+Result<std::vector<SiteShare>> shares_of(std::span<const PartialView> partials, UtcTime instant,
+                                         const FrameOptions& options) {
+    const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
+    if (brackets.empty()) {
+        const auto minutes = std::chrono::duration<double, std::ratio<60>>(options.greatest_gap);
+        return fail(ErrorCode::not_found, "no site has a volume within {:g} minutes of {}",
+                    minutes.count(), format_utc(instant));
+    }
+    const auto partial_at = [&](const std::optional<std::size_t>& index) {
+        return index ? &partials[*index] : nullptr;
+    };
+    std::vector<SiteShare> shares;
+    shares.reserve(brackets.size());
+    for (const Bracket& bracket : brackets) {
+        shares.push_back(
+            share_of(partial_at(bracket.before), partial_at(bracket.after), instant, options.time));
+        shares.back().nothing_after = !bracket.after;
+    }
+    return shares;
 }
 
 Result<std::optional<grid::MotionField>> motion_between(const PartialView& before,
@@ -304,38 +327,39 @@ Result<Motions> estimate_motions(std::span<const PartialView> partials, UtcTime 
     return motions;
 }
 
+Result<FrameRecipe> recipe_for(const grid::GridSpec& domain, std::span<const PartialView> partials,
+                               UtcTime instant, const FrameOptions& options) {
+    const auto shares = shares_of(partials, instant, options);
+    if (!shares) return pass_on(shares);
+    std::vector<const PartialView*> used;
+    for (const SiteShare& share : *shares) {
+        for (const PartialView* partial : share.used())
+            used.push_back(partial);
+    }
+    auto parts = parts_of(domain, used);
+    if (!parts) return pass_on(parts);
+    return FrameRecipe{std::move(*parts), recipe_of(options)};
+}
+
 Result<MosaicFrame> make_frame(const grid::GridSpec& domain, std::span<const PartialView> partials,
                                UtcTime instant, const FrameOptions& options,
                                GeometryCache& geometries, const MadeBefore& before) {
-    const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
-    if (brackets.empty()) {
-        const auto minutes = std::chrono::duration<double, std::ratio<60>>(options.greatest_gap);
-        return fail(ErrorCode::not_found, "no site has a volume within {:g} minutes of {}",
-                    minutes.count(), format_utc(instant));
-    }
-    const auto partial_at = [&](const std::optional<std::size_t>& index) {
-        return index ? &partials[*index] : nullptr;
-    };
-    std::vector<SiteShare> shares;
-    shares.reserve(brackets.size());
-    for (const Bracket& bracket : brackets) {
-        shares.push_back(
-            share_of(partial_at(bracket.before), partial_at(bracket.after), instant, options.time));
-    }
-    auto description = describe_frame(domain, shares, instant, options);
+    auto shares = shares_of(partials, instant, options);
+    if (!shares) return pass_on(shares);
+    auto description = describe_frame(domain, *shares, instant, options);
     if (!description) return pass_on(description);
     description->provenance.provisional = std::any_of(
-        brackets.begin(), brackets.end(), [](const Bracket& bracket) { return !bracket.after; });
+        shares->begin(), shares->end(), [](const SiteShare& share) { return share.nothing_after; });
 
     auto changed = changes_since(before.frame, *description, options,
-                                 shares.front().nearest->view.quantization);
-    if (changed) drop_untouched(domain, *changed, shares);
-    if (Status made = make_shares(shares, instant, options, geometries, before.instants); !made) {
+                                 shares->front().nearest->view.quantization);
+    if (changed) drop_untouched(domain, *changed, *shares);
+    if (Status made = make_shares(*shares, instant, options, geometries, before.instants); !made) {
         return pass_on(made);
     }
     std::vector<grid::Partial> to_merge;
-    to_merge.reserve(shares.size());
-    for (const SiteShare& share : shares)
+    to_merge.reserve(shares->size());
+    for (const SiteShare& share : *shares)
         to_merge.push_back(placed(domain, share, geometries));
     grid::MosaicOptions overlap = options.overlap;
     overlap.threads = options.threads;

@@ -95,6 +95,17 @@ struct Bracket {
                                                UtcTime instant, level2::Moment moment,
                                                const FrameOptions& options);
 
+// Which partials make_frame() makes the frame of, as its provenance has them, and by which rules:
+// a frame that has the same is the same to the byte. Errors: as make_frame(), but for those of
+// cells, which are not read.
+struct FrameRecipe {
+    std::vector<grid::FramePart> parts;
+    std::uint64_t recipe = 0;
+};
+[[nodiscard]] Result<FrameRecipe> recipe_for(const grid::GridSpec& domain,
+                                             std::span<const PartialView> partials, UtcTime instant,
+                                             const FrameOptions& options);
+
 struct MosaicFrame {
     cache::GridDescription description;
     grid::Mosaic mosaic;

@@ -45,16 +45,6 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
     return options;
 }
 
-FrameOptions frame_options(const Domain& domain, level2::Moment moment, int threads) {
-    FrameOptions options;
-    options.overlap.moment = moment;
-    options.overlap.overlap = domain.overlap.value_or(grid::default_overlap(moment));
-    options.overlap.length_m = domain.overlap_length_m;
-    options.time = domain.time;
-    options.threads = threads;
-    return options;
-}
-
 // From the site's volume before to the one after, as far as volumes count and there are any.
 struct Span {
     UtcTime from, to;
@@ -83,6 +73,16 @@ bool is_damage(const Error& error) {
 
 }  // namespace
 
+FrameOptions frame_options(const Domain& domain, level2::Moment moment, int threads) {
+    FrameOptions options;
+    options.overlap.moment = moment;
+    options.overlap.overlap = domain.overlap.value_or(grid::default_overlap(moment));
+    options.overlap.length_m = domain.overlap_length_m;
+    options.time = domain.time;
+    options.threads = threads;
+    return options;
+}
+
 std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::seconds interval) {
     const auto day = std::chrono::floor<std::chrono::days>(from);
     std::vector<UtcTime> instants;
@@ -97,9 +97,11 @@ std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::sec
     return instants;
 }
 
-MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domains)
+MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domains,
+                           FramesWhen frames)
     : store_(store),
       domains_(std::move(domains)),
+      frames_when_(frames),
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
@@ -144,6 +146,7 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     if (!committed) return pass_on(committed);
     if (committed->empty()) return {};  // older than what the budgets keep
     kept.partials.push_back(*committed);
+    if (frames_when_ == FramesWhen::asked_for) return {};
     return refresh(domain, moment, description, threads, kept);
 }
 

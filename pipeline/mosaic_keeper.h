@@ -25,6 +25,7 @@
 #include "base/result.h"
 #include "cache/store.h"
 #include "pipeline/domain.h"
+#include "pipeline/frames_when.h"
 #include "pipeline/geometry_cache.h"
 #include "pipeline/instant_cache.h"
 #include "pipeline/mosaic_frame.h"
@@ -55,16 +56,26 @@ struct FrameMade {
     std::optional<std::vector<grid::GridWindow>> merged;  // as MosaicFrame has it
 };
 
+// How a domain's frames are made.
+[[nodiscard]] FrameOptions frame_options(const Domain& domain, level2::Moment moment, int threads);
+
 // From the first to the last, both included: whole multiples of the interval since midnight UTC.
 [[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
                                                     std::chrono::seconds interval);
+
+enum class FrameStanding {
+    not_due,  // no volume before the instant, or none after it, near enough
+    current,  // stands, made of the partials of now and by the rules of now
+    to_make,  // is missing, damaged, or not what the partials of now give
+};
 
 class OpenPartials;
 
 class MosaicKeeper {
   public:
     // Without a store, or without domains, it does nothing.
-    MosaicKeeper(const cache::Store* store, std::vector<Domain> domains);
+    MosaicKeeper(const cache::Store* store, std::vector<Domain> domains,
+                 FramesWhen frames = FramesWhen::volume_comes);
 
     // Does nothing for volumes that no domain takes. `threads` work on it.
     Result<Kept> take_in(const VolumeSource& source, int threads);
@@ -79,6 +90,8 @@ class MosaicKeeper {
     // the domain has no frames.
     Result<FrameMade> make_again(const cache::GridName& frame, int threads,
                                  std::vector<std::string>& problems);
+    // Of a frame that make_again() would make. Errors as there.
+    [[nodiscard]] Result<FrameStanding> standing_of(const cache::GridName& frame) const;
     // Frames that do not stand and should, newest first: those between the partials of the newest
     // volumes (`newest` before the last) that are newer than the oldest frame which stands.
     // Errors: the cache cannot be read.
@@ -108,6 +121,7 @@ class MosaicKeeper {
 
     const cache::Store* store_;
     std::vector<Domain> domains_;
+    FramesWhen frames_when_;
     GeometryCache geometries_;
     InstantCache instants_;
     std::mutex mutex_;                                                     // guards frames_

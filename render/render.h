@@ -33,6 +33,7 @@ struct FrameFacts {
     std::optional<std::chrono::seconds> antenna_to_picture = {};
     // What radars say is wrong with them, "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles = {};
+    bool interpolated = false;  // between volumes, as it was called for
 };
 
 // A loop hands the same keeper to each of its frames: the map is then prepared once. The pixels

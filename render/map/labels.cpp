@@ -143,6 +143,12 @@ std::vector<std::string> warnings_of(const FrameFacts& facts) {
     return warnings;
 }
 
+// Below the time.
+std::string beside_time(const FrameFacts& facts) {
+    if (!facts.interpolated) return facts.local_time;
+    return (facts.local_time.empty() ? "" : facts.local_time + "  \u00B7  ") + "interpolated";
+}
+
 void lay_out_header(Builder& builder, const Scene& scene, const FrameFacts& facts,
                     const std::string& product) {
     const double left = builder.scaled(margin);
@@ -157,7 +163,7 @@ void lay_out_header(Builder& builder, const Scene& scene, const FrameFacts& fact
         builder.put(time, right, first, 0.6 * scene.width, {14, true, shades::text}, true);
     builder.put(title_of(facts), left, first, right - time_width - gap - left,
                 {14, true, shades::text});
-    const double local_width = builder.put(facts.local_time, right, second, 0.4 * scene.width,
+    const double local_width = builder.put(beside_time(facts), right, second, 0.4 * scene.width,
                                            {11, false, shades::quiet_text}, true);
     // In one line with the product, so that the frames of a loop keep their place.
     const auto warnings = warnings_of(facts);

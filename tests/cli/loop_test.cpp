@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -29,11 +30,11 @@ using ::testing::StartsWith;
 
 class Loop : public ::testing::Test {
   protected:
-    void commit(const std::string& compact_time, float dbz) {
+    void commit(const std::string& compact_time, float dbz, int cells = 40) {
         grid::Grid grid;
         grid.spec = grid::default_spec(42.2, -75.98);
-        grid.spec.nx = grid.spec.ny = 40;
-        grid.time = parse_compact(compact_time).value();
+        grid.spec.nx = grid.spec.ny = cells;
+        grid.time = grid.start_time = grid.end_time = parse_compact(compact_time).value();
         grid.sites = {{"KBGM", 42.2, -75.98, 490}};
         grid.values.assign(grid.spec.cell_count(), dbz);
         grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
@@ -114,6 +115,164 @@ TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
               (std::pair<std::string, int>("2005-08-22T02:44:00Z", 2)));
     EXPECT_EQ(frames({"--last", "1"}), (std::pair<std::string, int>("2005-08-22T02:56:00Z", 1)));
     EXPECT_EQ(frames({"--last", "9"}), (std::pair<std::string, int>("2005-08-22T02:44:00Z", 3)));
+}
+
+// Of a PNG or APNG, by keyword.
+std::map<std::string, std::string> png_texts(const std::string& path) {
+    const auto bytes = *read_file(path);
+    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::map<std::string, std::string> texts;
+    for (std::size_t at = 8; at + 12 <= all.size();) {
+        const auto byte = [&](std::size_t i) {
+            return static_cast<std::size_t>(static_cast<unsigned char>(all[at + i]));
+        };
+        const std::size_t length = byte(0) << 24U | byte(1) << 16U | byte(2) << 8U | byte(3);
+        const std::string data = all.substr(at + 8, length);
+        if (all.substr(at + 4, 4) == "tEXt") {
+            texts[data.substr(0, data.find('\0'))] = data.substr(data.find('\0') + 1);
+        }
+        at += 12 + length;
+    }
+    return texts;
+}
+
+// The blocks of the first comment of a GIF.
+std::string gif_comment(const std::string& path) {
+    const auto bytes = *read_file(path);
+    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string comment;
+    for (std::size_t at = all.find("\x21\xFE") + 2; all[at] != '\0';) {
+        const auto length = static_cast<std::size_t>(static_cast<unsigned char>(all[at]));
+        comment += all.substr(at + 1, length);
+        at += 1 + length;
+    }
+    return comment;
+}
+
+TEST_F(Loop, EveryFormatSaysWhatItShowsAndHow) {
+    commit_three();
+    std::vector<std::string> arguments = {"KBGM"};
+    for (const char* name : {"a.webp", "a.gif", "a.apng", "a.mp4", "a.webm", "a/"}) {
+        arguments.emplace_back("-o");
+        arguments.push_back(out(name));
+    }
+    const auto result = run(arguments);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto text_of = [&](const std::string& name) {
+        const auto bytes = *read_file(out(name));
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    std::map<std::string, std::string> texts = {
+        {"webp", render::decode_webp(out("a.webp")).metadata.at("XMP")},
+        {"gif", gif_comment(out("a.gif"))},
+        {"mp4", text_of("a.mp4")},
+        {"webm", text_of("a.webm")}};
+    for (const char* png : {"a.apng", "a/frame_0000.png", "a/frame_0002.png"}) {
+        for (const auto& [keyword, text] : png_texts(out(png)))
+            texts[png] += keyword + ": " + text + "\n";
+        if (std::string(png) == "a/frame_0002.png") continue;
+        EXPECT_EQ(png_texts(out(png))["Stations"], "");  // this grid names none
+    }
+    for (const auto& [name, text] : texts) {
+        SCOPED_TRACE(name);
+        for (const char* line :
+             {"Title: KBGM 2005-08-22T02:44:00Z to 2005-08-22T02:56:00Z",
+              "First time: 2005-08-22T02:44:00Z", "Last time: 2005-08-22T02:56:00Z", "Frames: 3",
+              "Domain: KBGM", "Product: volume", "Moment: REF", "Units: dBZ",
+              "Grid: 40 x 40 x 32 cells of 1 km, azimuthal_equidistant",
+              "Picture: 796 x 532 pixels, 16 slices, ", "Software: stormcellar "}) {
+            EXPECT_THAT(text, HasSubstr(line));
+        }
+    }
+    for (const char c : texts["gif"])
+        EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~'));
+    const auto bytes = text_of("a.gif") + text_of("a.webp") + text_of("a.apng");
+    ASSERT_EQ(run(arguments).status, 0);
+    EXPECT_EQ(bytes, text_of("a.gif") + text_of("a.webp") + text_of("a.apng"));
+}
+
+TEST_F(Loop, APlannedPicturesErrorIsInItsFile) {
+    commit_three();
+    const auto result = run({"KBGM", "--tolerance", "dE 5", "--width", "200", "--height", "150",
+                             "--no-labels", "-o", out("a.gif")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("Picture error: tolerance dE 5"));
+    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("predicted dE "));
+}
+
+TEST_F(Loop, FramesOfADamagedGridAreNotCounted) {
+    commit_three();
+    fs::resize_file(grids_[0], 100);
+    ASSERT_EQ(run({"KBGM", "-o", out("a.gif")}).status, 0);
+    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("First time: 2005-08-22T02:50:00Z"));
+    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("Frames: 2\n"));
+}
+
+// Whatever is in the grids, colours mean the same in each frame.
+TEST_F(Loop, ColoursAndViewAreThoseOfAllFrames) {
+    commit("20050822_024400", 5);
+    commit("20050822_025000", 70);
+    for (const std::vector<std::string>& product :
+         {std::vector<std::string>{"--product", "composite"},
+          {"--product", "echotop"},
+          {"--product", "vil"},
+          {"--field-of-view", "60"}}) {
+        std::vector<std::string> arguments = {"KBGM", "-o", out("f/")};
+        arguments.insert(arguments.end(), product.begin(), product.end());
+        const auto result = run(arguments);
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_THAT(result.err, ::testing::Not(HasSubstr("differ")));
+        const auto first = render::decode_png_file(out("f/frame_0000.png"));
+        const auto second = render::decode_png_file(out("f/frame_0001.png"));
+        ASSERT_EQ(first.rgba.size(), second.rgba.size());
+        // The colour bar and its numbers.
+        std::size_t differing = 0;
+        for (int y = 60; y < first.height - 20; ++y) {
+            for (int x = first.width - 110; x < first.width; ++x) {
+                const std::size_t at =
+                    4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(first.width) +
+                         static_cast<std::size_t>(x));
+                differing += std::equal(first.rgba.begin() + static_cast<std::ptrdiff_t>(at),
+                                        first.rgba.begin() + static_cast<std::ptrdiff_t>(at + 4),
+                                        second.rgba.begin() + static_cast<std::ptrdiff_t>(at))
+                                 ? 0
+                                 : 1;
+            }
+        }
+        EXPECT_EQ(differing, 0U) << product.back();
+    }
+}
+
+TEST_F(Loop, SaysThatGridsOfADomainDiffer) {
+    commit("20050822_024400", 22);
+    commit("20050822_025000", 33, 48);
+    const auto result = run({"KBGM", "-o", out("a.gif")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("differ in place or size"));
+}
+
+TEST_F(Loop, MakesFramesBetweenGridsWhenCalledFor) {
+    commit_three();
+    const auto result = run({"KBGM", "--interval", "3min", "--product", "composite", "--no-labels",
+                             "--json", "-o", out("frames/")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 4);  // 02:45, 02:48, 02:51, 02:54
+    EXPECT_EQ(json["interpolated"], 4);
+    EXPECT_EQ(png_texts(out("frames/frame_0000.png"))["Between grids"],
+              "advected, each volume as of its middle");
+    const auto own = run({"KBGM", "--product", "composite", "--no-labels", "-o", out("own/")});
+    ASSERT_EQ(own.status, 0) << own.err;
+    const auto two =
+        run({"KBGM", "--interval", "120", "--from", "2005-08-22T02:50", "--to", "2005-08-22T02:50",
+             "--product", "composite", "--no-labels", "-o", out("two/")});
+    ASSERT_EQ(two.status, 0) << two.err;
+    EXPECT_EQ(render::decode_png_file(out("two/frame_0000.png")).rgba,
+              render::decode_png_file(out("own/frame_0001.png")).rgba);
+    EXPECT_EQ(run({"KBGM", "--time-method", "blend", "-o", out("a.gif")}).status, 2);
+    EXPECT_EQ(run({"KBGM", "--interval", "60", "--follow", "-o", out("a.gif")}).status, 2);
+    EXPECT_EQ(run({"KBGM", "--interval", "0", "-o", out("a.gif")}).status, 2);
+    EXPECT_EQ(run({"KBGM", "--interval", "1h", "-o", out("a.gif")}).status, 3);
 }
 
 TEST_F(Loop, DrawsTheProductAndMomentAskedFor) {

@@ -172,6 +172,26 @@ std::vector<std::string> texts_of(const Scene& scene, const FrameFacts& facts) {
     return texts;
 }
 
+TEST(Labels, AFrameBetweenVolumesSaysSoBelowItsTime) {
+    const Fonts fonts = Fonts::load().value();
+    const Scene scene;
+    const auto picture = picture_of(scene, level2::Moment::ref, nws_reflectivity());
+    const auto texts = [&](const FrameFacts& facts) {
+        std::vector<std::string> all;
+        const auto layout = lay_out_labels(fonts, scene, facts, picture);
+        EXPECT_TRUE(layout);
+        for (const LabelText& text : layout->texts)
+            all.push_back(text.text);
+        return all;
+    };
+    FrameFacts facts = facts_for("KTLX", 1, false);
+    EXPECT_THAT(texts(facts), ::testing::Not(::testing::Contains("interpolated")));
+    facts.interpolated = true;
+    EXPECT_THAT(texts(facts), ::testing::Contains("interpolated"));
+    facts.local_time = "1999-05-03 18:56:21 CDT";
+    EXPECT_THAT(texts(facts), ::testing::Contains("1999-05-03 18:56:21 CDT  \u00B7  interpolated"));
+}
+
 TEST(Labels, SayWhatWasDone) {
     using ::testing::Contains;
     using ::testing::HasSubstr;

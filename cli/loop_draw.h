@@ -1,0 +1,27 @@
+// cli/loop_draw.h -- one frame of a loop.
+#pragma once
+
+#include <optional>
+
+#include "base/result.h"
+#include "cli/loop_grids.h"
+#include "cli/loop_options.h"
+#include "cli/loop_report.h"
+#include "render/image.h"
+#include "render/map/map_layer.h"
+#include "render/scene.h"
+
+namespace stormcellar::cli {
+
+// What the frames of a loop share.
+struct Drawing {
+    render::Scene scene;
+    render::MapKeeper map;
+};
+
+// One frame; none when the grid's file is damaged, which is noted in the report.
+[[nodiscard]] Result<std::optional<render::Image>> draw(
+    const LoopFrame& frame, const LoopOptions& options,
+    std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);
+
+}  // namespace stormcellar::cli

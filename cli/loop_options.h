@@ -1,0 +1,54 @@
+// cli/loop_options.h -- what `loop` was asked for.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "cli/archive_options.h"
+#include "cli/follow.h"
+#include "cli/picture_plan.h"
+#include "cli/query_options.h"
+#include "cli/scene_file.h"
+#include "cli/scene_options.h"
+#include "render/animation/animation.h"
+
+namespace stormcellar::cli {
+
+class KeptFrames;
+
+struct LoopOptions : LoopSettings {
+    std::string cache;
+    ArchiveOptions archive;
+    SceneFile scene_file;
+    FollowOptions follow;
+    std::string interval;     // from frame to frame; empty: each grid that there is
+    std::string time_method;  // empty: advected
+    bool json = false;
+    bool quiet = false;
+    SceneOptions scene;
+    PicturePlanOptions plan;
+    KeptFrames* kept = nullptr;  // of a loop that is followed
+};
+
+// Puts the options that are the loop's own on its subcommand, and those of the scene and the plan.
+// `options` must outlive the parse.
+void add_loop_options(CLI::App& loop, LoopOptions& options);
+
+// When frames stand, and how they are made between grids.
+struct Rhythm {
+    std::optional<std::chrono::seconds> interval;
+    grid::TimeMethod method = grid::TimeMethod::advected;
+};
+// bad_argument, naming the option.
+[[nodiscard]] Result<Rhythm> rhythm_of(const LoopOptions& options);
+
+// bad_argument where the grids' source is not said, or --follow goes with what cannot be followed.
+[[nodiscard]] Status check_sources(const LoopOptions& options);
+
+// bad_argument when two outputs are the same file.
+[[nodiscard]] Status check_outputs(const std::vector<std::string>& outputs);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,226 @@
+// stormcellar loop --catalog, run as a user runs it.
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cache/store.h"
+#include "pipeline/rebuild_catalog.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
+                                           "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",
+                                           "KBGM20050822_030830.gz"};
+
+class ArchiveLoop : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        fs::create_directory(directory_ / "drop");
+        for (const std::string& name : sequence) {
+            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw(name));
+            fs::permissions(raw(name), fs::perms::owner_write, fs::perm_options::add);
+        }
+        pipeline::RebuildOptions rebuild;
+        rebuild.catalog = directory_ / "catalog";
+        rebuild.drop = directory_ / "drop";
+        ASSERT_TRUE(pipeline::rebuild_catalog(rebuild));
+        ::setenv("XDG_CACHE_HOME", (directory_ / "home").c_str(), 1);
+    }
+    [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
+    [[nodiscard]] std::vector<std::string> arguments(std::vector<std::string> more) const {
+        const std::vector<std::string> common = {
+            "loop",        "--catalog", (directory_ / "catalog").string(),
+            "--product",   "composite", "--width",
+            "300",         "--height",  "200",
+            "--no-labels", "-o",        out()};
+        more.insert(more.begin(), common.begin(), common.end());
+        return more;
+    }
+    [[nodiscard]] testing::ProgramResult run(const std::vector<std::string>& more) const {
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments(more));
+    }
+    // Of one station at a coarse grid, which is quick.
+    [[nodiscard]] testing::ProgramResult run_station(std::vector<std::string> more) const {
+        const std::vector<std::string> station = {
+            "--stations", "KBGM",   "--spacing-km",     "4",    "--extent-km",
+            "400,400",    "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00"};
+        more.insert(more.begin(), station.begin(), station.end());
+        return run(more);
+    }
+    [[nodiscard]] std::string out() const { return directory_ / "a.webp"; }
+    [[nodiscard]] fs::path loops() const { return directory_ / "home" / "stormcellar" / "loops"; }
+
+    testing::TemporaryDirectory directory_;
+};
+
+TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
+    const auto first = run_station({"--json"});
+    ASSERT_EQ(first.status, 0) << first.err;
+    const auto made = nlohmann::json::parse(first.out);
+    EXPECT_EQ(made["volumes"], 5);
+    EXPECT_EQ(made["grids_made"], 5);
+    EXPECT_EQ(made["grids_found"], 0);
+    EXPECT_EQ(made["frames"], 5);
+    EXPECT_EQ(made["domain"], "KBGM");
+    EXPECT_GT(made["fill_s"], 0);
+    EXPECT_GT(made["cache_bytes"], 0);
+    const auto bytes = *read_file(out());
+    const auto second = run_station({"--json"});
+    const auto found = nlohmann::json::parse(second.out);
+    EXPECT_EQ(found["grids_made"], 0);
+    EXPECT_EQ(found["grids_found"], 5);
+    EXPECT_EQ(*read_file(out()), bytes);
+    EXPECT_THAT(second.err, HasSubstr("5 stand in"));
+    EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
+}
+
+TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
+    ASSERT_EQ(run_station({"--cache", (directory_ / "c").string(), "--quiet"}).status, 0);
+    const auto bytes = *read_file(out());
+    const auto cached = testing::run_program(
+        STORMCELLAR_PROGRAM,
+        {"loop", "KBGM", "--cache", (directory_ / "c").string(), "--product", "composite",
+         "--width", "300", "--height", "200", "--no-labels", "-o", out()});
+    ASSERT_EQ(cached.status, 0) << cached.err;
+    EXPECT_EQ(*read_file(out()), bytes);
+    EXPECT_FALSE(fs::exists(loops()));
+}
+
+// 2026-11-22: every raw file was called gone, for a cache's directory had no parent to be synced.
+TEST_F(ArchiveLoop, TheCacheMayBeNamedByOneWord) {
+    const fs::path before = fs::current_path();
+    fs::current_path(directory_ / "drop");
+    const auto result = run_station({"--cache", "word", "--quiet"});
+    fs::current_path(before);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(fs::exists(directory_ / "drop" / "word" / "KBGM"));
+}
+
+TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {
+    std::vector<std::string> all =
+        arguments({"--stations", "KBGM", "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00",
+                   "--threads", "1", "--cache", (directory_ / "c").string()});
+    const fs::path grids = directory_ / "c" / "KBGM" / "REF" / "20050822";
+    const auto has_one = [&] {
+        std::error_code ignored;
+        for (const auto& file : fs::directory_iterator(grids, ignored)) {
+            if (file.path().extension() == ".scg") return true;
+        }
+        return false;
+    };
+    EXPECT_EQ(testing::interrupt_program(STORMCELLAR_PROGRAM, all, has_one), SIGINT);
+    EXPECT_FALSE(fs::exists(out()));
+    all.emplace_back("--json");
+    const auto second = testing::run_program(STORMCELLAR_PROGRAM, all);
+    ASSERT_EQ(second.status, 0) << second.err;
+    const auto json = nlohmann::json::parse(second.out);
+    EXPECT_GE(json["grids_found"], 1);
+    EXPECT_EQ(json["grids_found"].get<int>() + json["grids_made"].get<int>(), 5);
+    EXPECT_EQ(json["frames"], 5);
+}
+
+TEST_F(ArchiveLoop, NamesWhatItLeavesOut) {
+    std::ofstream(raw(sequence[0]), std::ios::trunc) << "no radar data";
+    fs::remove(raw(sequence[4]));
+    const auto result = run_station({"--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("left out: " + raw(sequence[0]).string()));
+    EXPECT_THAT(result.err, HasSubstr(raw(sequence[4]).string() + ": is gone"));
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 3);
+    EXPECT_EQ(json["left_out"].size(), 2U);
+}
+
+TEST_F(ArchiveLoop, NothingInTheRangeIsNothingThatMatched) {
+    const auto range = [&](const std::string& station, const std::string& from,
+                           const std::string& to) {
+        return run({"--stations", station, "--from", from, "--to", to});
+    };
+    const auto early = range("KBGM", "1999-01-01T00:00", "1999-01-02T00:00");
+    EXPECT_EQ(early.status, 3);
+    EXPECT_THAT(early.err, HasSubstr("no volume of these stations"));
+    EXPECT_EQ(range("KTLX", "2005-08-22T02:00", "2005-08-22T04:00").status, 3);
+    EXPECT_FALSE(fs::exists(out()));
+    EXPECT_FALSE(fs::exists(loops()));
+}
+
+TEST_F(ArchiveLoop, MakesAMosaicOfTheStationsThatReachTheBounds) {
+    const auto result = run({"--bounds=-77,41,-75,43", "--spacing-km", "4", "--levels-km", "1,3,5",
+                             "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00", "--interval",
+                             "10min", "--json", "--domain", "south"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["domain"], "south");
+    EXPECT_EQ(json["frames"], 3);  // 02:50, 03:00 and 03:10
+    EXPECT_EQ(json["mosaics_made"], 3);
+    EXPECT_EQ(json["from"], "2005-08-22T02:50:00Z");
+    const auto other =
+        run({"--bounds=10,41,12,43", "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00"});
+    EXPECT_EQ(other.status, 3) << other.err;
+}
+
+TEST_F(ArchiveLoop, MakesFramesBetweenTheVolumesOfAStation) {
+    const auto result = run_station({"--interval", "2min", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["frames"], 12);  // 02:48, behind the first middle, to 03:10
+    EXPECT_EQ(json["interpolated"], 12);
+    EXPECT_EQ(json["from"], "2005-08-22T02:48:00Z");
+    EXPECT_EQ(json["to"], "2005-08-22T03:10:00Z");
+    EXPECT_GT(json["between_s"], 0);
+}
+
+TEST_F(ArchiveLoop, ThePrivateCacheGoesWhereThatIsAskedFor) {
+    ASSERT_EQ(run_station({"--no-keep-cache"}).status, 0);
+    EXPECT_TRUE(fs::is_empty(loops()));
+    EXPECT_EQ(run_station({"--no-keep-cache", "--cache", (directory_ / "c").string()}).status, 2);
+}
+
+TEST_F(ArchiveLoop, OneProcessFillsACache) {
+    const fs::path cache = directory_ / "c";
+    const auto held = cache::Store::open_rolling(real_file_system(), cache, {});
+    ASSERT_TRUE(held);
+    const auto result = run_station({"--cache", cache.string()});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("another loop of the same grids"));
+}
+
+TEST_F(ArchiveLoop, RefusesOptionsThatMakeNoSense) {
+    const auto status = [&](const std::vector<std::string>& more) { return run(more).status; };
+    const std::vector<std::string> range = {"--from", "2005-08-22T02:00", "--to",
+                                            "2005-08-22T04:00"};
+    const auto with_range = [&](std::vector<std::string> more) {
+        more.insert(more.end(), range.begin(), range.end());
+        return status(more);
+    };
+    EXPECT_EQ(with_range({}), 2);  // neither stations nor bounds
+    EXPECT_EQ(status({"--stations", "KBGM"}), 2);
+    EXPECT_EQ(with_range({"--stations", "kbgm"}), 2);
+    EXPECT_EQ(with_range({"--bounds", "1,2,3"}), 2);
+    EXPECT_EQ(with_range({"--bounds", "1,5,3,4"}), 2);
+    EXPECT_EQ(with_range({"--bounds", "1,2,3,4", "--center", "2,2"}), 2);
+    EXPECT_EQ(with_range({"--stations", "KBGM", "--interval", "5 furlongs"}), 2);
+    EXPECT_EQ(with_range({"--stations", "KBGM", "--time-method", "magic"}), 2);
+    EXPECT_EQ(testing::run_program(STORMCELLAR_PROGRAM, {"loop", "KBGM", "--cache", "x",
+                                                         "--stations", "KBGM", "-o", out()})
+                  .status,
+              2);
+    EXPECT_EQ(
+        testing::run_program(STORMCELLAR_PROGRAM, {"loop", "--cache", "x", "-o", out()}).status, 2);
+}
+
+}  // namespace
+}  // namespace stormcellar
