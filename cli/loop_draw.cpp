@@ -59,7 +59,7 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     facts.interpolated = grid->made && options.time_method != "nearest";
     const int threads = thread_count(options.scene);
     const auto render = [&] {
-        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.map);
+        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.keeper);
     };
     auto picture = options.kept != nullptr && frame.stored
                        ? options.kept->frame(frame.stored->path, drawing.scene, render)

@@ -7,8 +7,8 @@
 #include "cli/loop_grids.h"
 #include "cli/loop_options.h"
 #include "cli/loop_report.h"
+#include "render/frame_keeper.h"
 #include "render/image.h"
-#include "render/map/map_layer.h"
 #include "render/scene.h"
 
 namespace stormcellar::cli {
@@ -16,7 +16,7 @@ namespace stormcellar::cli {
 // What the frames of a loop share.
 struct Drawing {
     render::Scene scene;
-    render::MapKeeper map;
+    render::FrameKeeper keeper;
 };
 
 // One frame; none when the grid's file is damaged, which is noted in the report.

@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include "render/canvas.h"
+#include "render/frame_keeper.h"
 #include "render/map/labels.h"
 #include "render/map/map_layer.h"
 #include "render/map/map_lines.h"
@@ -11,7 +12,6 @@
 #include "render/products/section.h"
 #include "render/shades.h"
 #include "render/volume/haze.h"
-#include "render/volume/slicer.h"
 
 namespace stormcellar::render {
 namespace {
@@ -27,7 +27,7 @@ struct Frame {
 // The picture with its lines, without the labels round it.
 Result<Image> draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
                            const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
-                           int threads) {
+                           int threads, FrameKeeper& keeper) {
     const double scale = frame.layout.scale;
     const bool volume = scene.product == Product::volume;
     const ColourTable& colours = colours_of(scene);
@@ -51,9 +51,11 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
         if (scene.haze) draw_haze(view, geometry, threads, picture);
         const VolumeSlicer slicer(
             colours, view.quantization, geometry,
-            {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light});
-        const Layer layer = slicer.draw(view, threads);
-        composite_over(layer, picture, 0, 0, threads);
+            {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light},
+            &keeper.transfer);
+        slicer.prepare(view, threads, keeper.room);
+        slicer.cast(view, threads, keeper.room);
+        composite_over(keeper.room.layer, picture, 0, 0, threads);
     }
     return picture;
 }
@@ -95,7 +97,7 @@ ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, in
 }
 
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
-                           int threads, MapKeeper* keeper) {
+                           int threads, FrameKeeper* kept) {
     if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto columns = summarize_columns(view, threads);
     Frame frame;
@@ -119,10 +121,10 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     frame.lines.sites = &facts.sites;
     frame.lines.heights = scene.product == Product::volume;
     frame.lines.scale = frame.layout.scale;
-    MapKeeper own;
+    FrameKeeper own;
+    FrameKeeper& keeper = kept != nullptr ? *kept : own;
     if (scene.labels) {
-        const auto map =
-            (keeper != nullptr ? *keeper : own).get(*view.spec, geometry, frame.layout.scale);
+        const auto map = keeper.map.get(*view.spec, geometry, frame.layout.scale);
         if (!map) return pass_on(map);
         frame.lines.map = *map;
         frame.marks = plan_marks(frame.fonts, frame.lines);
@@ -130,7 +132,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
 
     const bool section = scene.product == Product::section;
     auto picture = section ? Result<Image>(draw_section_picture(view, scene, frame, threads))
-                           : draw_picture(view, columns, scene, geometry, frame, threads);
+                           : draw_picture(view, columns, scene, geometry, frame, threads, keeper);
     if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
     canvas.place(*picture, frame.layout.left, frame.layout.top);

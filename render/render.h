@@ -18,7 +18,7 @@
 
 namespace stormcellar::render {
 
-class MapKeeper;  // render/map/map_layer.h
+struct FrameKeeper;  // render/frame_keeper.h
 
 // What the labels say about the grid.
 struct FrameFacts {
@@ -36,12 +36,12 @@ struct FrameFacts {
     bool interpolated = false;  // between volumes, as it was called for
 };
 
-// A loop hands the same keeper to each of its frames: the map is then prepared once. The pixels
-// are the same with it or without.
+// A loop hands the same keeper to each of its frames: map and colours are then prepared once, and
+// room is taken once. The pixels are the same with it or without.
 // bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
-                                         MapKeeper* keeper = nullptr);
+                                         FrameKeeper* keeper = nullptr);
 
 // What render_frame() asks of them before it draws; unsupported for a volume of more than 2^31
 // codes.

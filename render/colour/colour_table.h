@@ -26,11 +26,13 @@ struct ColourStop {
     float from = 0;
     Rgba8 colour{};
     Rgba8 until{};
+    bool operator==(const ColourStop&) const = default;
 };
 
 struct ExtinctionPoint {
     float value = 0;
     double per_km = 0;  // a path of 1 km has the opacity 1 - exp(-per_km)
+    bool operator==(const ExtinctionPoint&) const = default;
 };
 
 struct ColourTable {
@@ -45,6 +47,7 @@ struct ColourTable {
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly
 
     [[nodiscard]] float lowest() const { return stops.front().from; }
+    bool operator==(const ColourTable&) const = default;
 };
 
 // More than any display shows apart; bounds what files may ask for.

@@ -27,10 +27,13 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
 }  // namespace
 
 VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
-                           const ViewGeometry& geometry, const VolumeOptions& options)
-    : geometry_(geometry),
-      options_(options),
-      transfer_(table, quantization, options.opacity, step_m(), options.integration) {}
+                           const ViewGeometry& geometry, const VolumeOptions& options,
+                           TransferKeeper* keeper)
+    : geometry_(geometry), options_(options) {
+    TransferKeeper own;
+    transfer_ = (keeper != nullptr ? *keeper : own)
+                    .get(table, quantization, options.opacity, step_m(), options.integration);
+}
 
 double VolumeSlicer::step_m() const {
     return (geometry_.far_m() - geometry_.near_m()) / options_.slices;
@@ -67,10 +70,10 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    room.mask.emplace(view, geometry_, options_.slices, transfer_, threads);
+    room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads);
     room.shadows.reset();
     if (options_.light.needs_volume()) {
-        room.shadows.emplace(view, transfer_, step_m(), geometry_, options_.light, threads);
+        room.shadows.emplace(view, *transfer_, step_m(), geometry_, options_.light, threads);
     }
     const double samples = 1.0 * layer.width * layer.height * options_.slices;
     room.has_corners = CornerTable::serves(view, samples);
@@ -80,7 +83,7 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
 void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);
-    PacketVolume volume(view, levels, transfer_);
+    PacketVolume volume(view, levels, *transfer_);
     volume.curve = maker.curve();
     if (room.has_corners) volume.use(room.corners);
     PacketLight light = light_of(*view.spec);

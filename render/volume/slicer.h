@@ -19,6 +19,7 @@
 // oracle is render/volume/reference_marcher.h. The same bits for any number of threads.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "grid/brick_view.h"
@@ -30,7 +31,7 @@
 #include "render/volume/light_volume.h"
 #include "render/volume/ray_packet.h"
 #include "render/volume/slice_mask.h"
-#include "render/volume/transfer_function.h"
+#include "render/volume/transfer_keeper.h"
 
 namespace stormcellar::render {
 
@@ -57,9 +58,10 @@ struct VolumeOptions {
 // Thread contract: immutable; draw() may run on many threads.
 class VolumeSlicer {
   public:
-    // The geometry must outlive this.
+    // The geometry must outlive this; `keeper` may be null.
     VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
-                 const ViewGeometry& geometry, const VolumeOptions& options);
+                 const ViewGeometry& geometry, const VolumeOptions& options,
+                 TransferKeeper* keeper = nullptr);
 
     // Of the geometry's grid.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
@@ -74,7 +76,7 @@ class VolumeSlicer {
 
     const ViewGeometry& geometry_;
     VolumeOptions options_;
-    TransferFunction transfer_;
+    std::shared_ptr<const TransferFunction> transfer_;
 };
 
 }  // namespace stormcellar::render

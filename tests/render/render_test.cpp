@@ -5,6 +5,7 @@
 
 #include "render/colour/built_in_tables.h"
 #include "render/colour/colour_table.h"
+#include "render/frame_keeper.h"
 #include "render/map/map_layer.h"
 #include "render/shades.h"
 #include "tests/render/synthetic_storm.h"
@@ -99,20 +100,30 @@ TEST(RenderFrame, TheSamePixelsForAnyNumberOfThreads) {
     }
 }
 
-TEST(RenderFrame, AKeptMapChangesNoPixel) {
-    const auto grid = storm_grid(small_spec(120, 32, 4000, 500));
-    const auto bricks = bricks_of(grid);
-    MapKeeper keeper;
-    for (const Product product : {Product::composite, Product::composite, Product::volume}) {
+TEST(RenderFrame, WhatIsKeptChangesNoPixel) {
+    const auto storm = storm_grid(small_spec(120, 32, 4000, 500));
+    const auto bricks = bricks_of(storm);
+    const auto other = bricks_of(make_grid_of(storm.spec, [](int ix, int iy, int iz) {
+        return (ix + iy) % 50 < 9 && iz < 12 ? valued(20 + iz) : Cell{};
+    }));
+    FrameKeeper keeper;
+    const auto expect_same = [&](const grid::BrickGrid& drawn, Product product, int slices) {
         Scene scene;
         scene.product = product;
-        scene.slices = 32;
-        const auto alone = render_frame(bricks.view(), facts_of(grid), scene, 2);
-        const auto kept = render_frame(bricks.view(), facts_of(grid), scene, 2, &keeper);
+        scene.slices = slices;
+        const auto alone = render_frame(drawn.view(), facts_of(storm), scene, 2);
+        const auto kept = render_frame(drawn.view(), facts_of(storm), scene, 2, &keeper);
         ASSERT_TRUE(alone && kept);
         EXPECT_EQ(alone->rgba, kept->rgba);
-    }
-    EXPECT_EQ(keeper.times_made(), 2);
+    };
+    expect_same(bricks, Product::composite, 32);
+    expect_same(bricks, Product::composite, 32);
+    expect_same(bricks, Product::volume, 400);  // so many that the corner table serves
+    expect_same(other, Product::volume, 400);
+    expect_same(bricks, Product::volume, 400);
+    expect_same(other, Product::volume, 16);
+    EXPECT_EQ(keeper.map.times_made(), 2);
+    EXPECT_EQ(keeper.transfer.times_made(), 2);
 }
 
 TEST(RenderFrame, EveryPixelIsOpaqueFromAnySide) {

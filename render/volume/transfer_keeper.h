@@ -1,0 +1,35 @@
+// render/volume/transfer_keeper.h -- keeps the transfer function of the last picture.
+//
+// It takes milliseconds to make and is the same for all frames of a loop.
+// Thread contract: one thread at a time.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "render/volume/transfer_function.h"
+
+namespace stormcellar::render {
+
+class TransferKeeper {
+  public:
+    // Made anew where anything is another one than last time.
+    [[nodiscard]] std::shared_ptr<const TransferFunction> get(
+        const ColourTable& table, const grid::Quantization& quantization, double opacity,
+        double step_m, Integration integration);
+    [[nodiscard]] int times_made() const { return times_made_; }
+
+  private:
+    struct Key {
+        ColourTable table;
+        grid::Quantization quantization;
+        double opacity = 0, step_m = 0;
+        Integration integration{};
+        bool operator==(const Key&) const = default;
+    };
+    std::optional<Key> key_;
+    std::shared_ptr<const TransferFunction> made_;
+    int times_made_ = 0;
+};
+
+}  // namespace stormcellar::render
