@@ -126,7 +126,7 @@ void veil(Image& picture, int x, int y, float opacity) {
         const float level =
             static_cast<float>(colour[c]) +
             opacity * (static_cast<float>(shades::haze[c]) - static_cast<float>(colour[c]));
-        colour[c] = static_cast<std::uint8_t>(level + 0.5F);
+        colour[c] = static_cast<std::uint8_t>(std::lround(level));
     }
     picture.set(x, y, colour);
 }
