@@ -1,7 +1,11 @@
 // Pictures of grids that need no data against their stored references, and proof that what must be
 // found is found: each change below is drawn, or made in the drawn pixels, and must lie beyond the
 // tolerance of every picture that it concerns.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -71,8 +75,7 @@ TEST_P(SyntheticPicture, OtherLettersAreTolerated) {
             const Rgba8 next = original.at(x + 1, y);
             for (std::size_t i = 0; i < 3; ++i) {
                 const double mixed = 0.9 * pixel[i] + 0.1 * next[i] + (x * 7 + y * 3) % 3 - 1;
-                pixel[i] =
-                    static_cast<std::uint8_t>(std::lround(std::min(255.0, std::max(0.0, mixed))));
+                pixel[i] = static_cast<std::uint8_t>(std::lround(std::clamp(mixed, 0.0, 255.0)));
             }
             image.set(x, y, pixel);
         }
@@ -101,6 +104,27 @@ TEST_P(CameraPicture, ADegreeOfAzimuthIsFound) {
 TEST_P(CameraPicture, ADegreeOfTiltIsFound) {
     picture_.scene.camera.tilt_deg += 1;
     EXPECT_TRUE(found(draw(picture_)));
+}
+
+// Pixels turned about the middle of the picture: maps and sections have no camera to turn.
+TEST_P(SyntheticPicture, APictureTurnedByADegreeIsFound) {
+    const Image original = read_reference(GetParam()).value();
+    Image image = original;
+    const double turn = std::numbers::pi / 180;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const double dx = x - 0.5 * image.width;
+            const double dy = y - 0.5 * image.height;
+            const auto from_x =
+                std::lround(0.5 * image.width + dx * std::cos(turn) - dy * std::sin(turn));
+            const auto from_y =
+                std::lround(0.5 * image.height + dx * std::sin(turn) + dy * std::cos(turn));
+            image.set(x, y,
+                      original.at(std::clamp(static_cast<int>(from_x), 0, image.width - 1),
+                                  std::clamp(static_cast<int>(from_y), 0, image.height - 1)));
+        }
+    }
+    EXPECT_TRUE(found(image));
 }
 
 TEST_P(SyntheticPicture, AMoveByAPixelIsFound) {
