@@ -21,7 +21,7 @@ struct PictureDifference {
 inline constexpr double visible = 3;
 
 // What other letters may do. A tile decides about labels: of all that
-// tests/images/synthetic_picture_test.cpp finds the least is a tile of 3.8 (a label of one class
+// tests/images/synthetic_picture_test.cpp finds the least is a tile of 3.8 (a label that
 // moved), of what it tolerates the most is 2.1.
 struct Tolerance {
     double percentile_99 = 3;
