@@ -13,4 +13,4 @@ install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
 install(FILES LICENSE README.md docs/operations.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Scenes of pictures, for stormcellar frame and loop.
 install(FILES scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
-  scenes/storm-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)
+  scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)

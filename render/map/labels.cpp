@@ -47,6 +47,11 @@ std::string title_of(const FrameFacts& facts) {
     if (const auto station = find_station(icao)) {
         title += fmt::format("  {}, {}", station->name, station->state);
     }
+    // What one site sees of a domain is kept as NAME.ICAO.
+    if (facts.domain.ends_with("." + icao)) {
+        const std::string name = facts.domain.substr(0, facts.domain.size() - icao.size() - 1);
+        return fmt::format("{}  ({})", title, name);
+    }
     if (facts.domain != icao) title = fmt::format("{}  ({})", facts.domain, title);
     return title;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "render/map/label_places.h"
 #include "render/map/map_ground.h"
@@ -52,6 +53,11 @@ class Planner {
     [[nodiscard]] bool inside_grid(GroundPoint p) const {
         return std::isfinite(p.x_m) && std::isfinite(p.y_m) &&
                std::abs(p.x_m) < geometry_.half_x_m() && std::abs(p.y_m) < geometry_.half_y_m();
+    }
+    // Whether the grid's ground is at a pixel.
+    [[nodiscard]] bool over_grid(Point p) const {
+        const auto ground = geometry_.ground({p.x, p.y});
+        return ground && inside_grid(*ground);
     }
     static Rect about(Point p, double half) { return {p.x - half, p.y - half, 2 * half, 2 * half}; }
 
@@ -258,9 +264,14 @@ class Planner {
             const double left = city.at.x - scaled(4.5) - width;
             const double level = city.at.y + 0.36 * size;
             const double middle = city.at.x - width / 2;
-            for (const Point& corner :
-                 {Point{right, level}, Point{left, level}, Point{middle, city.at.y - scaled(5)},
-                  Point{middle, city.at.y + 0.8 * size + scaled(5)}}) {
+            std::vector<Point> corners = {Point{right, level}, Point{left, level},
+                                          Point{middle, city.at.y - scaled(5)},
+                                          Point{middle, city.at.y + 0.8 * size + scaled(5)}};
+            // A name across the grid's edge looks cut by it: such places come last.
+            std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
+                return over_grid(corner) && over_grid({corner.x + width, corner.y});
+            });
+            for (const Point& corner : corners) {
                 auto text = claim(city.name, corner, size, false, shades::city);
                 if (!text) continue;
                 marks_.ground_texts.push_back(std::move(*text));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "render/colour/built_in_tables.h"
+#include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::render {
@@ -263,6 +264,20 @@ TEST(PalFile, MutationsAreTablesOrErrors) {
 TEST(TomlColours, MutationsAreTablesOrErrors) {
     expect_sound_for_mutations(toml_example,
                                [](const std::string& t) { return parse_toml_colours(t, "m"); });
+}
+
+TEST(ColoursFrom, TheShippedFilesAreTables) {
+    const auto scenes = testing::source_directory() / "scenes";
+    const auto storm = colours_from(scenes / "storm-colours.toml");
+    ASSERT_TRUE(storm) << storm.error().message;
+    EXPECT_EQ(colour_of(*storm, 52), colour_of(nws_reflectivity(), 52));
+    const auto clear = colours_from(scenes / "clear-air-colours.toml");
+    ASSERT_TRUE(clear) << clear.error().message;
+    EXPECT_EQ(clear->moment, Moment::ref);
+    EXPECT_TRUE(is_stepped(*clear));
+    EXPECT_FALSE(colour_of(*clear, -28.5F));
+    EXPECT_EQ(colour_of(*clear, -28), (Rgba8{0x3b, 0x38, 0x42, 255}));
+    EXPECT_EQ(colour_of(*clear, 40), (Rgba8{0xd8, 0x28, 0x2c, 255})) << "the last class is open";
 }
 
 TEST(ColoursFrom, TakesANameOrAFile) {

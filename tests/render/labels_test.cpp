@@ -217,6 +217,13 @@ TEST(Labels, SayWhatWasDone) {
         EXPECT_THAT(texts, Contains(std::to_string(dbz)));
 }
 
+TEST(Labels, WhatOneSiteSeesOfADomainIsTheSitesPicture) {
+    EXPECT_THAT(texts_of(Scene{}, facts_for("moore.KTLX", 1, false)),
+                ::testing::Contains("KTLX  Oklahoma City, OK  (moore)"));
+    EXPECT_THAT(texts_of(Scene{}, facts_for("moore", 1, false)),
+                ::testing::Contains("moore  (KTLX  Oklahoma City, OK)"));
+}
+
 TEST(Labels, WholeVolumesAreNotCalledPartialAndMapsSayNoExaggeration) {
     Scene scene;
     scene.product = Product::composite;

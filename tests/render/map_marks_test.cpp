@@ -139,6 +139,29 @@ TEST(MapMarks, NamesTheLargestCitiesAndTheDistances) {
     EXPECT_EQ(planned.marks.site_texts[0].text, "KTLX");
 }
 
+// Tulsa lies 10 km inside this grid's eastern edge, its name is longer than that: it stands west of
+// the town. Nothing else is there, so it would fit across the edge.
+TEST(MapMarks, NamesOfCitiesDoNotCrossTheGridsEdge) {
+    const Planned planned(spec_of(Projection::azimuthal_equidistant, 36.0, -97.05, 220, 230, 1000),
+                          Camera{180, 0, 0.8}, 672, 462, 1, {});
+    const GroundMap map(planned.spec);
+    const GroundPoint town = map.ground({36.13, -95.94});
+    ASSERT_GT(town.x_m, 90e3);
+    const Pixel at = planned.view.project(town.x_m, town.y_m, planned.view.ground_m());
+    int found = 0;
+    for (const MarkText& text : planned.marks.ground_texts) {
+        const auto left = planned.view.ground({text.box.x, text.box.y});
+        const auto right = planned.view.ground({text.box.right(), text.box.bottom()});
+        ASSERT_TRUE(left && right);
+        EXPECT_LT(std::abs(left->x_m), planned.view.half_x_m() + 4000) << text.text;
+        EXPECT_LT(std::abs(right->x_m), planned.view.half_x_m() + 4000) << text.text;
+        if (text.text != "Tulsa") continue;
+        ++found;
+        EXPECT_LT(text.box.right(), at.x);
+    }
+    EXPECT_EQ(found, 1);
+}
+
 TEST(MapMarks, TheScaleBarIsAsLongAsItSays) {
     for (const Projection projection :
          {Projection::azimuthal_equidistant, Projection::latitude_longitude,
