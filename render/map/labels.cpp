@@ -197,7 +197,9 @@ void lay_out_footer(Builder& builder, const Scene& scene, const FrameFacts& fact
     }
     builder.put(footer_of(scene, facts, picture.ring_spacing_m), left, first,
                 right - width - gap - left, style);
-    width = builder.put(fmt::format("{}  \u00B7  stormcellar {}", map_credit, software_version),
+    const std::string software = fmt::format("stormcellar {}", software_version);
+    const bool has_map = scene.product != Product::section;
+    width = builder.put(has_map ? fmt::format("{}  \u00B7  {}", map_credit, software) : software,
                         right, second, 0.55 * scene.width, small, true);
     if (!picture.coverage) return;
     builder.put(fmt::format("Seen: {} of the columns, {} below {:g} km",
