@@ -15,7 +15,7 @@ using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
 // Times in minutes after noon.
 GridName name(const std::string& domain, int minute) {

@@ -27,7 +27,7 @@ int write(const fs::path& cache, std::uint64_t bytes, unsigned seed, const fs::p
         return 1;
     }
     std::mt19937 random(seed);
-    const UtcTime start = *parse_utc("2026-11-22T12:00", UtcTime{}) + std::chrono::hours{seed};
+    const UtcTime start = *parse_utc("2024-11-22T12:00", UtcTime{}) + std::chrono::hours{seed};
     for (int step = 0;; ++step) {
         const UtcTime time = start + std::chrono::minutes{step - static_cast<int>(random() % 3)};
         const auto path = testing::commit_sized(*store, random() % 2 == 0 ? "A" : "B", time,

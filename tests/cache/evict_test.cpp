@@ -16,7 +16,7 @@ using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
 class EvictTest : public ::testing::Test {
   protected:

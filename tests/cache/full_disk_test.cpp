@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using std::chrono::minutes;
 using ::testing::HasSubstr;
 
-const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
 class FullDiskTest : public ::testing::Test {
   protected:
@@ -54,7 +54,7 @@ TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
     const auto refused = commit(store, 4);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::no_space);
-    EXPECT_THAT(refused.error().message, HasSubstr("A_REF_20261122_120400_000.scg"));
+    EXPECT_THAT(refused.error().message, HasSubstr("A_REF_20241122_120400_000.scg"));
     EXPECT_THAT(refused.error().message, HasSubstr("No space left on device"));
     EXPECT_EQ(testing::all_grids(store).size(), 4U);
     EXPECT_EQ(testing::allocated_bytes(cache_), before);
@@ -120,7 +120,7 @@ TEST_F(FullDiskTest, WhatABrokenDiskLeavesBehindIsCounted) {
     disk.broken = false;
     store.roll();
     EXPECT_EQ(testing::all_grids(store).size(), 3U);
-    EXPECT_EQ(std::distance(fs::directory_iterator(cache_ / "A/REF/20261122"), {}), 3);
+    EXPECT_EQ(std::distance(fs::directory_iterator(cache_ / "A/REF/20241122"), {}), 3);
     EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
 }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::minutes;
 
-const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 constexpr std::uint64_t total = 600'000;
 constexpr std::uint64_t of_b = 250'000;
 

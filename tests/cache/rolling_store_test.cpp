@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const UtcTime noon = *parse_utc("2026-11-22T12:00", UtcTime{});
+const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
 class RollingStoreTest : public ::testing::Test {
   protected:
@@ -318,7 +318,7 @@ TEST_F(RollingStoreTest, EmptyDirectoriesGo) {
     std::vector<std::string> days;
     for (const auto& entry : fs::directory_iterator(cache_ / "A/REF"))
         days.push_back(entry.path().filename());
-    EXPECT_THAT(days, ::testing::UnorderedElementsAre("20261124", "20261125"));
+    EXPECT_THAT(days, ::testing::UnorderedElementsAre("20241124", "20241125"));
 }
 
 TEST_F(RollingStoreTest, AReaderKeepsTheFileThatItHasOpen) {
