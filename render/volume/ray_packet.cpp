@@ -115,8 +115,9 @@ class MarkedSlices {
 };
 
 // Slices are sampled some at a time, and then their steps added up: no sample waits for another, so
-// that the processor works on several at once. `Source` is where codes come from.
-template <class Source, bool lit>
+// that the processor works on several at once. `Source` is where codes come from; what a scene does
+// not ask for is not compiled in.
+template <class Source, bool curved, bool lit>
 class Caster {
   public:
     HWY_INLINE Caster(const PacketVolume& volume, const RayPacket& rays, int first)
@@ -172,7 +173,7 @@ class Caster {
         const FloatVec x = hn::Add(rays_.x, hn::Mul(held, rays_.step_x));
         const FloatVec y = hn::Add(rays_.y, hn::Mul(held, rays_.step_y));
         FloatVec z = hn::Add(rays_.z, hn::Mul(held, rays_.step_z));
-        if (volume_.curve != nullptr) z = hn::Add(z, drop(*volume_.curve, x, y));
+        if constexpr (curved) z = hn::Add(z, drop(*volume_.curve, x, y));
         const Places at{place_of(x, volume_.last_x), place_of(y, volume_.last_y),
                         place_of(level_of(volume_, z), volume_.last_z)};
         const Corners corners = Source::corners(volume_, at);
@@ -241,26 +242,33 @@ class Caster {
     FloatVec through_, red_, green_, blue_;
 };
 
-template <class Source, bool lit>
+template <class Source, bool curved, bool lit>
 HWY_INLINE void cast_as(const PacketVolume& volume, const RayPacket& rays,
                         const std::uint64_t* mask, std::size_t words, float* rgba) {
     for (int first = 0; first < packet_rays; first += lanes) {
-        Caster<Source, lit> caster(volume, rays, first);
+        Caster<Source, curved, lit> caster(volume, rays, first);
         caster.cast(mask, words);
         caster.store(rgba + first * 4);
     }
 }
 
+template <class Source>
+HWY_INLINE void cast_from(const PacketVolume& volume, const RayPacket& rays,
+                          const std::uint64_t* mask, std::size_t words, float* rgba) {
+    const bool lit = volume.light != nullptr;
+    if (volume.curve != nullptr) {
+        lit ? cast_as<Source, true, true>(volume, rays, mask, words, rgba)
+            : cast_as<Source, true, false>(volume, rays, mask, words, rgba);
+    } else {
+        lit ? cast_as<Source, false, true>(volume, rays, mask, words, rgba)
+            : cast_as<Source, false, false>(volume, rays, mask, words, rgba);
+    }
+}
+
 void cast_one_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
                      std::size_t words, float* rgba) {
-    const bool lit = volume.light != nullptr;
-    if (volume.words != nullptr) {
-        lit ? cast_as<FromTable, true>(volume, rays, mask, words, rgba)
-            : cast_as<FromTable, false>(volume, rays, mask, words, rgba);
-    } else {
-        lit ? cast_as<FromBricks, true>(volume, rays, mask, words, rgba)
-            : cast_as<FromBricks, false>(volume, rays, mask, words, rgba);
-    }
+    volume.words != nullptr ? cast_from<FromTable>(volume, rays, mask, words, rgba)
+                            : cast_from<FromBricks>(volume, rays, mask, words, rgba);
 }
 
 }  // namespace stormcellar::render::HWY_NAMESPACE
