@@ -174,22 +174,76 @@ Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Int
     return outcome.get();
 }
 
+std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
+    std::set<std::string> stations;
+    for (const ArchiveVolume& volume : volumes)
+        stations.insert(volume.station);
+    return stations;
+}
+
+// A station that was named and is not there is a slip: `nothing` says so.
+Status check_stations(const ArchiveCall& call, const catalog::Catalog& catalog,
+                      std::string& nothing) {
+    const auto known = catalog.station_names();
+    if (!known) return pass_on(known);
+    if (known->empty()) {
+        return fail(ErrorCode::not_found, "{}: there is no catalog here (STATE/catalog is one)",
+                    call.catalog.native());
+    }
+    for (const std::string& station : call.request.stations) {
+        if (std::find(known->begin(), known->end(), station) != known->end()) continue;
+        nothing = fmt::format("the catalog has nothing of {}", station);
+    }
+    return {};
+}
+
+void note_without_volumes(const ArchiveCall& call, const std::vector<ArchiveVolume>& volumes) {
+    const auto with_volumes = stations_of(volumes);
+    for (const std::string& station : call.request.stations) {
+        if (with_volumes.contains(station)) continue;
+        fmt::print(stderr, "stormcellar: warning: no volume of {} in that time\n", station);
+    }
+}
+
+// Grids must not be mixed with files of others, a drop directory's least of all: a cache holds
+// directories of domains, and these directories of moments.
+Status check_cache_directory(const fs::path& directory) {
+    std::error_code error;
+    for (const auto& domain : fs::directory_iterator(directory, error)) {
+        const std::string name = domain.path().filename().string();
+        if (name.starts_with('.')) continue;
+        std::error_code inner;
+        bool is_domain = domain.is_directory(inner);
+        for (const auto& moment : fs::directory_iterator(domain.path(), inner)) {
+            const std::string moment_name = moment.path().filename().string();
+            is_domain = is_domain && (moment_name.starts_with('.') ||
+                                      level2::moment_from_name(moment_name).has_value());
+        }
+        if (is_domain) continue;
+        return fail(ErrorCode::bad_argument,
+                    "--cache: {} is no cache: it holds {}, which is no grid's", directory.native(),
+                    name);
+    }
+    return {};
+}
+
 // Refuses what will not fit; says what is to be done.
 Status announce(const ArchiveCall& call, const Plan& plan, const pipeline::ArchiveFill& fill,
-                std::size_t volumes, const std::vector<ArchiveVolume>& missing,
-                std::size_t frames) {
+                const std::vector<ArchiveVolume>& volumes,
+                const std::vector<ArchiveVolume>& missing, std::size_t frames) {
     std::uint64_t raw_bytes = 0;
     for (const ArchiveVolume& volume : missing)
         raw_bytes += volume.size_bytes;
-    const std::uint64_t need = fill.bytes_of(missing.size(), missing.empty() ? 0 : frames);
+    const std::uint64_t need = fill.bytes_of(missing.size(), frames);
     const auto filling = cache::filling_of(plan.cache);
     if (!filling) return pass_on(filling);
     const std::uint64_t free = filling->capacity_bytes - filling->used_bytes;
     const std::string about = fmt::format(
-        "{} volumes of {}: {} stand in {}, {} to read ({}), which makes up to {} of grids ({} "
+        "{} volumes of {}: {} stand in {}, {} to read ({}){}, which makes about {} of grids ({} "
         "free)",
-        volumes, fmt::join(plan.stations, " "), volumes - missing.size(), plan.cache.native(),
-        missing.size(), format_byte_size(raw_bytes), format_byte_size(need),
+        volumes.size(), fmt::join(stations_of(volumes), " "), volumes.size() - missing.size(),
+        plan.cache.native(), missing.size(), format_byte_size(raw_bytes),
+        frames > 0 ? fmt::format(" and {} mosaics to make", frames) : "", format_byte_size(need),
         format_byte_size(free));
     if (need > free) {
         return fail(ErrorCode::no_space,
@@ -208,6 +262,25 @@ void warn(const std::vector<pipeline::LeftOut>& files, std::string_view what) {
     }
 }
 
+// A file that can no longer be read may have left a grid when it could.
+void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& missing,
+                  ArchiveGrids& grids) {
+    for (pipeline::LeftOut& file : grids.report.left_out) {
+        const auto volume =
+            std::find_if(missing.begin(), missing.end(),
+                         [&](const ArchiveVolume& one) { return one.path == file.path; });
+        if (volume == missing.end()) continue;
+        const std::string domain =
+            grids.mosaic ? grids.domain + "." + volume->station : volume->station;
+        const auto path = grids.store->path_of(domain, call.moment, volume->start);
+        std::error_code ignored;
+        if (path && fs::exists(*path, ignored)) {
+            file.reason += "; the grid that was made of it earlier stays";
+        }
+    }
+    warn(grids.report.left_out, "left out: ");
+}
+
 // A bar for the volumes, and one for a mosaic's frames.
 Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
             const std::vector<ArchiveVolume>& missing, const std::vector<UtcTime>& instants,
@@ -221,7 +294,7 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
                              return filling.fill(missing, progress, interrupt.flag(), report);
                          });
         if (!filled) return filled;
-        warn(report.left_out, "left out: ");
+        say_left_out(call, missing, grids);
         warn(report.notes, "");
     }
     grids.fill_s = seconds_since(start);
@@ -268,17 +341,23 @@ Result<cache::Store> open_cache(const fs::path& directory) {
 
 }  // namespace
 
-Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
-                                                      Interrupt& interrupt) {
+Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, Interrupt& interrupt,
+                                                      std::string& nothing) {
     auto catalog = catalog::Catalog::open_for_reading(call.catalog);
     if (!catalog) return pass_on(catalog);
+    if (auto known = check_stations(call, *catalog, nothing); !known) return pass_on(known);
+    if (!nothing.empty()) return std::optional<ArchiveGrids>{};
     const auto plan = plan_of(call, *catalog);
     if (!plan) return pass_on(plan);
+    nothing = plan->stations.empty() ? "no station of the catalog reaches the bounds"
+                                     : "no volume of these stations";
     const bool between = plan->mosaic || call.interval;
     const auto volumes = pipeline::archive_volumes(*catalog, plan->stations,
                                                    {*call.range.from, *call.range.to, between});
     if (!volumes) return pass_on(volumes);
     if (volumes->empty()) return std::optional<ArchiveGrids>{};
+    note_without_volumes(call, *volumes);
+    if (auto fit = check_cache_directory(plan->cache); !fit) return pass_on(fit);
 
     ArchiveGrids grids;
     auto store = open_cache(plan->cache);
@@ -290,18 +369,20 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
     pipeline::ArchiveFill filling(*grids.store, plan->cache / ".catalog", plan->fill);
     const auto missing = filling.missing(*volumes);
     if (!missing) return pass_on(missing);
-    std::vector<UtcTime> instants;
+    pipeline::ArchiveFill::DueFrames frames;
     if (plan->mosaic) {
-        instants =
+        const auto all =
             pipeline::instants_between(*call.range.from, *call.range.to, plan->mosaic->interval);
+        auto due = filling.due(all, *volumes);
+        if (!due) return pass_on(due);
+        frames = std::move(*due);
     }
-    if (auto said = announce(call, *plan, filling, volumes->size(), *missing, instants.size());
-        !said) {
+    if (auto said = announce(call, *plan, filling, *volumes, *missing, frames.missing); !said) {
         return pass_on(said);
     }
     grids.report.volumes = volumes->size();
     grids.report.grids_found = volumes->size() - missing->size();
-    if (auto filled = fill(call, filling, *missing, instants, interrupt, grids); !filled) {
+    if (auto filled = fill(call, filling, *missing, frames.instants, interrupt, grids); !filled) {
         return pass_on(filled);
     }
     std::set<UtcTime> times(grids.report.frames.begin(), grids.report.frames.end());

@@ -49,10 +49,11 @@ struct ArchiveGrids {
 };
 
 // Fills the cache with progress on stderr. Files that are left out are named there. None when
-// nothing in the catalog matches, which is said.
+// nothing in the catalog matches: `nothing` says what.
 // An interrupt ends the process at once, in the midst of the work: what was committed stays.
 [[nodiscard]] Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
-                                                                    Interrupt& interrupt);
+                                                                    Interrupt& interrupt,
+                                                                    std::string& nothing);
 
 // Says where the cache is and how large; removes it where it is private and not to be kept.
 [[nodiscard]] Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids);

@@ -79,6 +79,10 @@ Result<grid::GridSpec> spec_over(const pipeline::Bounds& bounds, GridRequest req
     if (!one) return pass_on(one);
     const auto half = pipeline::half_columns_of(*one, bounds);
     if (!half) return pass_on(half);
+    if (!(half->x > 0) || !(half->y > 0)) {
+        return fail(ErrorCode::bad_argument,
+                    "--bounds are too wide for a plane: add --projection lat-lon");
+    }
     request.extent = {2 * std::ceil(half->x - 1e-6) * request.spacing,
                       2 * std::ceil(half->y - 1e-6) * request.spacing};
     return spec_about(request, middle.latitude_deg, middle.longitude_deg);

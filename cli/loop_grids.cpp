@@ -88,11 +88,12 @@ Status take_from_archive(const LoopOptions& options, const render::Scene& scene,
                          Interrupt& interrupt, LoopGrids& grids) {
     auto call = call_of(options, scene, grids.range);
     if (!call) return pass_on(call);
-    auto archive = fill_from_archive(*call, interrupt);
+    std::string nothing;
+    auto archive = fill_from_archive(*call, interrupt, nothing);
     if (!archive) return pass_on(archive);
     if (!*archive) {
-        fmt::print(stderr, "stormcellar: {}: no volume of these stations{}\n",
-                   printable(options.archive.catalog), printable(range_text(options)));
+        fmt::print(stderr, "stormcellar: {}: {}{}\n", printable(options.archive.catalog), nothing,
+                   printable(range_text(options)));
         return {};
     }
     grids.archive = std::move(**archive);

@@ -14,9 +14,13 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Uncompressed bricks of the volumes at hand take 0.1 to 0.33; much echo takes more.
+// Uncompressed bricks of the volumes at hand take 0.1 to 0.33; much echo takes more, and a small
+// grid may be all echo.
 constexpr double bytes_a_cell = 0.5;
-constexpr std::uint64_t bytes_a_file = 200'000;  // tables, and bricks that are not full
+constexpr double cells_of_small_grid = 2e6;
+// No frame takes volumes that are farther from it.
+constexpr std::chrono::minutes farthest_frame{30};
+constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
 
 IngestOptions ingest_options(const ArchiveOptions& options) {
     IngestOptions ingest;
@@ -145,8 +149,27 @@ Result<std::vector<ArchiveVolume>> ArchiveFill::missing(
     return left;
 }
 
+Result<ArchiveFill::DueFrames> ArchiveFill::due(const std::vector<UtcTime>& instants,
+                                                const std::vector<ArchiveVolume>& volumes) const {
+    DueFrames found;
+    for (const UtcTime instant : instants) {
+        const bool is_near =
+            std::any_of(volumes.begin(), volumes.end(), [&](const ArchiveVolume& volume) {
+                return volume.start - farthest_frame <= instant &&
+                       instant <= volume.end + farthest_frame;
+            });
+        if (!is_near) continue;
+        found.instants.push_back(instant);
+        const auto path = store_.path_of(options_.domain->name, options_.moment, instant);
+        if (!path) return pass_on(path);
+        std::error_code ignored;
+        if (!std::filesystem::exists(*path, ignored)) ++found.missing;
+    }
+    return found;
+}
+
 std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) const {
-    double cells = 0;
+    double cells = 0, cells_a_file = 0;
     if (options_.domain) {
         const grid::GridSpec& spec = options_.domain->spec;
         const auto all = static_cast<double>(spec.cell_count());
@@ -154,15 +177,18 @@ std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) con
         const double side = 2 * grid::site_reach_m;
         const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
                                std::min(1.0, side / (spec.ny * spec.cell_height_m()));
+        cells_a_file = all;
         cells = all * reached * static_cast<double>(volumes) + all * static_cast<double>(frames);
     } else {
         const std::size_t levels = options_.levels_m.empty()
                                        ? grid::default_spec(0, 0).levels_m.size()
                                        : options_.levels_m.size();
-        cells = static_cast<double>(options_.nx) * options_.ny * static_cast<double>(levels) *
-                static_cast<double>(volumes);
+        cells_a_file = static_cast<double>(options_.nx) * options_.ny * static_cast<double>(levels);
+        cells = cells_a_file * static_cast<double>(volumes);
     }
-    return static_cast<std::uint64_t>(cells * bytes_a_cell) + (volumes + frames) * bytes_a_file;
+    const auto files = static_cast<double>(volumes + frames);
+    const double echo = files * std::min(cells_a_file, cells_of_small_grid);
+    return static_cast<std::uint64_t>((cells + echo) * bytes_a_cell + files * bytes_a_file);
 }
 
 Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillProgress& progress,

@@ -63,8 +63,15 @@ class ArchiveFill {
     // The volumes of which no grid stands, to be made by fill().
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
         const std::vector<ArchiveVolume>& volumes) const;
-    // What their grids, and with a domain `frames` frames, may take on disk: a guess on the safe
-    // side, two to four times what grids with little echo take.
+    // Those of the instants that a volume is near enough to, and how many of them have no frame.
+    struct DueFrames {
+        std::vector<UtcTime> instants;
+        std::size_t missing = 0;
+    };
+    [[nodiscard]] Result<DueFrames> due(const std::vector<UtcTime>& instants,
+                                        const std::vector<ArchiveVolume>& volumes) const;
+    // What their grids, and with a domain `frames` frames, take on disk: a guess on the safe side,
+    // two to four times what grids with little echo take.
     [[nodiscard]] std::uint64_t bytes_of(std::size_t volumes, std::size_t frames) const;
 
     // Grids them. Errors: those that are not of the data (the cache or the scratch directory cannot

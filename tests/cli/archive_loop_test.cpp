@@ -153,8 +153,77 @@ TEST_F(ArchiveLoop, NothingInTheRangeIsNothingThatMatched) {
     EXPECT_EQ(early.status, 3);
     EXPECT_THAT(early.err, HasSubstr("no volume of these stations"));
     EXPECT_EQ(range("KTLX", "2005-08-22T02:00", "2005-08-22T04:00").status, 3);
+    EXPECT_EQ(range("KBGM", "2006-08-22T02:00", "2006-08-22T04:00").status, 3);
     EXPECT_FALSE(fs::exists(out()));
     EXPECT_FALSE(fs::exists(loops()));
+}
+
+TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
+    const std::vector<std::string> range = {"--from", "2005-08-22T02:00", "--to",
+                                            "2005-08-22T04:00"};
+    const auto with_range = [&](std::vector<std::string> more) {
+        more.insert(more.end(), range.begin(), range.end());
+        return run(more);
+    };
+    const auto unknown = with_range({"--stations", "KBGM,KXXX"});
+    EXPECT_EQ(unknown.status, 3);
+    EXPECT_THAT(unknown.err, HasSubstr("the catalog has nothing of KXXX"));
+    const auto nobody = with_range({"--bounds=10,41,12,43"});
+    EXPECT_EQ(nobody.status, 3);
+    EXPECT_THAT(nobody.err, HasSubstr("no station of the catalog reaches the bounds"));
+    EXPECT_THAT(with_range({"--bounds=-180,-90,180,90"}).err, HasSubstr("too wide for a plane"));
+    // A drop directory is no cache.
+    fs::create_directories(directory_ / "ldm" / "KBGM");
+    fs::copy_file(raw(sequence[0]), directory_ / "ldm" / "KBGM" / sequence[0]);
+    const auto drop = run_station({"--cache", (directory_ / "ldm").string()});
+    EXPECT_EQ(drop.status, 2);
+    EXPECT_THAT(drop.err, HasSubstr("is no cache: it holds KBGM"));
+    const auto no_catalog = testing::run_program(
+        STORMCELLAR_PROGRAM,
+        {"loop", "--catalog", (directory_ / "ldm").string(), "--stations", "KBGM", "--from",
+         "2005-08-22T02:00", "--to", "2005-08-22T04:00", "-o", out()});
+    EXPECT_EQ(no_catalog.status, 1);
+    EXPECT_THAT(no_catalog.err, HasSubstr("there is no catalog here"));
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+// 2026-11-22: frames were not counted when all volumes stood, and all of a year's were, of which
+// two had a volume.
+TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
+    const std::vector<std::string> mosaic = {"--bounds=-77,41,-75,43",
+                                             "--spacing-km",
+                                             "4",
+                                             "--levels-km",
+                                             "1,3,5",
+                                             "--domain",
+                                             "south",
+                                             "--from",
+                                             "2005-01-01",
+                                             "--to",
+                                             "2005-12-31"};
+    const auto at = [&](const std::string& interval) {
+        auto more = mosaic;
+        more.insert(more.end(), {"--interval", interval});
+        return run(more);
+    };
+    const auto first = at("10min");
+    ASSERT_EQ(first.status, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr("0 stand in"));
+    EXPECT_THAT(first.err, ::testing::ContainsRegex("and [1-9][0-9]? mosaics to make"));
+    const auto finer = at("5min");
+    ASSERT_EQ(finer.status, 0) << finer.err;
+    EXPECT_THAT(finer.err, HasSubstr("5 stand in"));
+    EXPECT_THAT(finer.err,
+                ::testing::ContainsRegex("0 to read .* and [1-9][0-9]? mosaics to make"));
+}
+
+TEST_F(ArchiveLoop, AGridWhoseFileBrokeSinceStaysAndThatIsSaid) {
+    ASSERT_EQ(run_station({}).status, 0);
+    std::ofstream(raw(sequence[1]), std::ios::trunc) << "no radar data";
+    const auto second = run_station({"--json"});
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_THAT(second.err, HasSubstr("the grid that was made of it earlier stays"));
+    EXPECT_EQ(nlohmann::json::parse(second.out)["frames"], 5);
 }
 
 TEST_F(ArchiveLoop, MakesAMosaicOfTheStationsThatReachTheBounds) {
