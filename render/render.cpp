@@ -33,7 +33,8 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
     const ColourTable& colours = colours_of(scene);
     Image base;
     if (volume) {
-        base = paint_ground(*view.spec, columns, geometry, scale, threads);
+        const auto tells = scene.haze ? GroundTells::whether_seen : GroundTells::how_low;
+        base = paint_ground(*view.spec, columns, geometry, tells, scale, threads);
     } else {
         const auto field = map_field(view, scene, columns, threads);
         if (!field) return pass_on(field);

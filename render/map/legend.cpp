@@ -5,6 +5,7 @@
 #include "render/products/ground.h"
 #include "render/products/product.h"
 #include "render/shades.h"
+#include "render/volume/haze.h"
 
 namespace stormcellar::render {
 namespace {
@@ -29,11 +30,17 @@ std::string clear_words(const Scene& scene, std::string_view between) {
 
 void add_volume_rows(const Scene& scene, Legend& legend) {
     const std::string height = fmt::format("{:g} km", low_coverage_m / 1000);
-    legend.heading = "Coverage (ground)";
-    legend.rows = {{"seen below " + height, shades::seen, false},
-                   {"seen above " + height, shades::seen_aloft, false},
-                   {"not seen", shades::not_seen, true}};
-    if (scene.haze) legend.rows.push_back({"hazy: air not seen", shades::haze, false});
+    if (scene.haze) {
+        legend.heading = "Coverage";
+        legend.rows = {{"air seen", shades::seen, false},
+                       {"air not seen", veiled(shades::seen, most_haze), false},
+                       {"nothing seen", shades::not_seen, true}};
+    } else {
+        legend.heading = "Coverage (ground)";
+        legend.rows = {{"seen below " + height, shades::seen, false},
+                       {"seen above " + height, shades::seen_aloft, false},
+                       {"not seen", shades::not_seen, true}};
+    }
     legend.notes = {clear_words(scene, "and"), "are clear"};
 }
 

@@ -43,11 +43,12 @@ std::ptrdiff_t column_at(const grid::GridSpec& spec, GroundPoint p) {
 }
 
 Image paint_ground(const grid::GridSpec& spec, const std::vector<ColumnSummary>& columns,
-                   const ViewGeometry& geometry, double scale, int threads) {
+                   const ViewGeometry& geometry, GroundTells tells, double scale, int threads) {
     return paint(spec, geometry, threads, [&](std::size_t column, int x, int y) {
         const std::uint16_t lowest = columns[column].lowest_seen;
         if (lowest == ColumnSummary::never) return shades::hatched(x, y, scale);
-        return spec.levels_m[lowest] < low_coverage_m ? shades::seen : shades::seen_aloft;
+        const bool low = spec.levels_m[lowest] < low_coverage_m;
+        return low || tells == GroundTells::whether_seen ? shades::seen : shades::seen_aloft;
     });
 }
 

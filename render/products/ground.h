@@ -20,10 +20,14 @@ namespace stormcellar::render {
 // A column seen from below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// Ground that tells how the columns over it were seen: from low down, only higher up, or not.
+// What the ground tells of the columns over it: whether they were seen from low down, only higher
+// up, or not; or only whether at all, where haze tells the rest.
+enum class GroundTells { how_low, whether_seen };
+
 [[nodiscard]] Image paint_ground(const grid::GridSpec& spec,
                                  const std::vector<ColumnSummary>& columns,
-                                 const ViewGeometry& geometry, double scale, int threads);
+                                 const ViewGeometry& geometry, GroundTells tells, double scale,
+                                 int threads);
 
 // What a place of a field looks like at a pixel of the whole picture: a value by the table, over
 // plain ground where the colour is translucent, dotted where it is "at least" so much; no echo and

@@ -120,18 +120,16 @@ class HazeMarcher {
     double depth_m_;
 };
 
-void veil(Image& picture, int x, int y, float opacity) {
-    Rgba8 colour = picture.at(x, y);
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float level =
-            static_cast<float>(colour[c]) +
-            opacity * (static_cast<float>(shades::haze[c]) - static_cast<float>(colour[c]));
-        colour[c] = static_cast<std::uint8_t>(std::lround(level));
-    }
-    picture.set(x, y, colour);
-}
-
 }  // namespace
+
+Rgba8 veiled(Rgba8 colour, double opacity) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double back = colour[c];
+        colour[c] = static_cast<std::uint8_t>(
+            std::lround(back + opacity * (static_cast<double>(shades::haze[c]) - back)));
+    }
+    return colour;
+}
 
 void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, int threads,
                Image& picture) {
@@ -156,7 +154,7 @@ void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, int th
             const float share = static_cast<float>(x % pixel_stride) / pixel_stride;
             const float upper = std::lerp(at(column, row), at(column + 1, row), share);
             const float lower = std::lerp(at(column, row + 1), at(column + 1, row + 1), share);
-            veil(picture, x, y, std::lerp(upper, lower, down_share));
+            picture.set(x, y, veiled(picture.at(x, y), std::lerp(upper, lower, down_share)));
         }
     });
 }

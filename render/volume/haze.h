@@ -16,6 +16,9 @@ namespace stormcellar::render {
 
 inline constexpr double most_haze = 0.6;
 
+// A colour behind so much haze.
+[[nodiscard]] Rgba8 veiled(Rgba8 colour, double opacity);
+
 // Over `picture`, of the geometry's size.
 void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, int threads,
                Image& picture);

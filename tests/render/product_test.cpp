@@ -56,6 +56,18 @@ TEST(ProductLegend, SaysWhatIsNotInTheColourBar) {
     EXPECT_THAT(legend_texts(scene_of(Product::lowest_seen, Moment::ref)), ElementsAre("not seen"));
 }
 
+// Ground under haze cannot tell by its own shade how low it was seen.
+TEST(ProductLegend, OfAHazyVolumeIsOfTheAir) {
+    using ::testing::ElementsAre;
+    Scene scene = scene_of(Product::volume, Moment::ref);
+    EXPECT_THAT(legend_texts(scene), ElementsAre("seen below 3 km", "seen above 3 km", "not seen"));
+    scene.haze = true;
+    EXPECT_THAT(legend_texts(scene), ElementsAre("air seen", "air not seen", "nothing seen"));
+    const Rgba8 hazy = legend_of(scene).rows[1].colour;
+    EXPECT_GT(hazy[0], shades::seen[0]);
+    EXPECT_LT(hazy[0], shades::haze[0]);
+}
+
 TEST(BarHeading, IsTheUnitOrElseTheMoment) {
     EXPECT_EQ(legend_of(scene_of(Product::volume, Moment::vel)).bar_heading, "m/s");
     EXPECT_EQ(legend_of(scene_of(Product::volume, Moment::rho)).bar_heading, "RHO");
