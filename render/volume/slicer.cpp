@@ -75,7 +75,10 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     if (options_.light.needs_volume()) {
         room.shadows.emplace(view, *transfer_, step_m(), geometry_, options_.light, threads);
     }
-    const double samples = 1.0 * layer.width * layer.height * options_.slices;
+    // Where the picture is interpolated between rays, about every second one is cast.
+    const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
+    const double rays = (all_rays ? 1.0 : 0.5) * layer.width * layer.height;
+    const double samples = rays * options_.slices;
     room.has_corners = CornerTable::serves(view, samples);
     if (room.has_corners) room.corners.fill(view, threads);
 }
