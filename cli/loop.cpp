@@ -180,7 +180,7 @@ int run_loop(const LoopOptions& options) {
     const auto start = Clock::now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
-    const auto scene = scene_of(options.scene);
+    const auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     // What could never be written is refused before any grid is made.
     if (const auto writers = make_writers(options.outputs, options.animation); !writers) {

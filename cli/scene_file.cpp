@@ -263,6 +263,16 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     return {};
 }
 
+Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& options) {
+    auto scene = scene_of(options);
+    if (scene || file.path.empty()) return scene;
+    const Error& error = scene.error();
+    if (file.alone && file.alone->message == error.message) {
+        return fail(error.code, "{}: {}", file.path, error.message);
+    }
+    return fail(error.code, "{} (beside --scene {})", error.message, file.path);
+}
+
 void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, PicturePlanOptions& plan,
                     LoopSettings* loop) {
     const auto read = [&app, &file, &scene, &plan, loop](const std::string& path) {
@@ -271,6 +281,8 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
         LoopSettings& settings = loop != nullptr ? *loop : unused;
         if (auto done = read_scene_file(path, scene, plan, settings); !done) {
             file.error = done.error();
+        } else if (const auto alone = scene_of(scene); !alone) {
+            file.alone = alone.error();
         }
         // What is wrong with the file comes before what it might have said.
         if (file.error || (loop != nullptr && !loop->domain.empty())) need_no_more(app, "--domain");

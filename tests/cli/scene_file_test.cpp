@@ -291,6 +291,31 @@ TEST_F(SceneFileTest, WhatIsWrongIsSaidBeforeWhatIsMissing) {
     }
 }
 
+TEST_F(SceneFileTest, WhatMakesNoSenseTogetherNamesTheFile) {
+    commit();
+    const auto said = [&](Command (*add)(CLI::App&), const std::string& arguments) {
+        const auto ran = run(
+            add, fmt::format("{} KBGM --cache {} --scene {}", arguments, cache(), at("s.toml")));
+        EXPECT_EQ(ran.status, exit_bad_usage) << ran.err;
+        return ran.err;
+    };
+    const std::string frame = "frame -o " + at("a.png");
+    const std::string loop = "loop -o " + at("a.webp");
+    write("[camera]\ntilt_deg = 120\n");
+    const std::string tilted = at("s.toml") + ": tilt must be 0 to 90, not 120";
+    EXPECT_THAT(said(add_frame, frame), HasSubstr(tilted));
+    EXPECT_THAT(said(add_loop, loop), HasSubstr(tilted));
+    EXPECT_THAT(said(add_frame, frame + " --width 500"), HasSubstr(tilted));
+    EXPECT_THAT(said(add_frame, frame + " --tilt 100"),
+                HasSubstr("tilt must be 0 to 90, not 100 (beside --scene " + at("s.toml") + ")"));
+    write("[picture]\nproduct = \"section\"\n");
+    EXPECT_THAT(said(add_frame, frame), HasSubstr(at("s.toml") + ": a section needs its two ends"));
+    const auto mended =
+        run(add_frame, fmt::format("{} KBGM --cache {} --scene {} --section 42,-76.1,42.3,-75.8",
+                                   frame, cache(), at("s.toml")));
+    EXPECT_EQ(mended.status, exit_done) << mended.err;
+}
+
 TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
     const fs::path scenes = testing::source_directory() / "scenes";
     const Status storms = read_scene_file(scenes / "small-storm.toml", settings_.scene,
