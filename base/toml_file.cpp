@@ -53,10 +53,17 @@ struct TomlFile::Document {
         std::set<std::string, std::less<>> keys;
     };
 
+    enum class About { value, absent_key, unknown_key };
+    struct Complaint {
+        std::string text;
+        About about = About::value;
+        std::size_t index = 0;  // of the table
+    };
+
     toml::table root;
     std::string file;
     std::vector<Asked> asked;
-    std::multimap<unsigned, std::string> complaints;  // by line
+    std::multimap<unsigned, Complaint> complaints;  // by line
 
     std::size_t add(const toml::table& table, std::string name) {
         asked.push_back({&table, std::move(name), {}});
@@ -79,17 +86,19 @@ struct TomlFile::Document {
         return name.empty() ? printable(key) : fmt::format("[{}] {}", name, printable(key));
     }
 
-    void complain_at(unsigned line, const std::string& what) {
-        complaints.emplace(line, line == 0 ? fmt::format("{}: {}", printable(file), what)
-                                           : fmt::format("{}:{}: {}", printable(file), line, what));
+    void complain_at(unsigned line, const std::string& what, About about, std::size_t index) {
+        auto text = line == 0 ? fmt::format("{}: {}", printable(file), what)
+                              : fmt::format("{}:{}: {}", printable(file), line, what);
+        complaints.emplace(line, Complaint{std::move(text), about, index});
     }
 
     void complain(std::size_t index, std::string_view key, std::string_view why) {
         const toml::node* node = asked[index].table->get(key);
+        const About about = node == nullptr ? About::absent_key : About::value;
         if (node == nullptr) node = asked[index].table;
         // The root itself is nowhere.
         const unsigned line = node == &root ? 0 : node->source().begin.line;
-        complain_at(line, fmt::format("{}: {}", full_name(index, key), why));
+        complain_at(line, fmt::format("{}: {}", full_name(index, key), why), about, index);
     }
 
     void complain_kind(std::size_t index, std::string_view key, std::string_view wanted,
@@ -102,7 +111,7 @@ struct TomlFile::Document {
         std::string what = fmt::format("unknown key {}", full_name(index, key.str()));
         if (node.is_table()) what = fmt::format("unknown section [{}]", name);
         if (holds_tables(node)) what = fmt::format("unknown section [[{}]]", name);
-        complain_at(key.source().begin.line, what);
+        complain_at(key.source().begin.line, what, About::unknown_key, index);
     }
 
     void note_all_unknown() {
@@ -111,6 +120,15 @@ struct TomlFile::Document {
                 if (!asked[i].keys.contains(key.str())) note_unknown(i, key, node);
             }
         }
+    }
+
+    // What is missing may be there under a misspelt name: then that is the one to name.
+    [[nodiscard]] const Complaint& first_complaint() const {
+        const Complaint& first = complaints.begin()->second;
+        if (first.about != About::absent_key) return first;
+        for (const auto& [line, other] : complaints)
+            if (other.about == About::unknown_key && other.index == first.index) return other;
+        return first;
     }
 };
 
@@ -145,7 +163,7 @@ TomlTable TomlFile::root() {
 Status TomlFile::finish() {
     document_->note_all_unknown();
     if (document_->complaints.empty()) return {};
-    return fail(ErrorCode::bad_argument, "{}", document_->complaints.begin()->second);
+    return fail(ErrorCode::bad_argument, "{}", document_->first_complaint().text);
 }
 
 bool TomlTable::has(std::string_view key) const {
