@@ -2,10 +2,11 @@
 //
 // Every complaint names the file, the line and the key, as in
 // "storm.toml:12: [storm.hook] width_km: must be a number, is text". Reading goes on after a
-// complaint; finish() gives the one on the earliest line, and where that one misses a key, before
-// it an unknown key of the same table. Keys and tables that nobody asked for are complaints too, so
-// that a misspelt key is not silently its default. Errors: not_found, io ... from reading the file;
-// bad_argument for what is in it. Thread contract: one thread.
+// complaint; finish() gives the one on the earliest line, and for a key that is missing an unknown
+// one of the same table that is like it. Keys and tables that nobody asked for are complaints too,
+// so that a misspelt key is not silently its default.
+// Errors: not_found, io ... from reading the file; bad_argument for what is in it.
+// Thread contract: one thread.
 #pragma once
 
 #include <cstddef>

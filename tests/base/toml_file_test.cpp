@@ -157,6 +157,9 @@ TEST(TomlFile, AMisspeltKeyIsNamedBeforeTheOneThatIsMissing) {
     EXPECT_EQ(read("[[loop]]\n[[loop]]\nname = \"a\"\nnam = 1\n"),
               "s.toml:1: [loop] name: must be there")
         << "the unknown key is another table's";
+    EXPECT_EQ(read("[[loop]]\ntitle = \"a\"\n"), "s.toml:1: [loop] name: must be there")
+        << "nobody misspells it so";
+    EXPECT_EQ(read("[[loop]]\ntitle = \"a\"\nmane = \"a\"\n"), "s.toml:3: unknown key [loop] mane");
     EXPECT_EQ(read("[[loop]]\nname = \"a\"\n"), "");
 }
 
