@@ -58,8 +58,11 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Sce
     if (auto drawn = draw_all(grids, options, scene, stop, encoding, report); !drawn) return drawn;
     if (!stop) {
         if (report.frames == 0) {
-            return fail(ErrorCode::corrupt, "{}: each of the {} grids is damaged; nothing written",
-                        grids.store->directory().native(), report.skipped.size());
+            const std::size_t count = report.skipped.size();
+            return fail(ErrorCode::corrupt, "{}: {} is damaged; nothing written",
+                        grids.store->directory().native(),
+                        count == 1 ? std::string{"the only grid"}
+                                   : fmt::format("each of the {} grids", count));
         }
         if (auto finished = encoding.finish(stop); !finished) return finished;
         report.encode_s = encoding.encode_s();
