@@ -1,7 +1,9 @@
 #include "base/toml_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -44,6 +46,21 @@ bool holds_tables(const toml::node& node) {
     return array != nullptr && !array->empty() && array->is_homogeneous(toml::node_type::table);
 }
 
+// How many letters are to be put in, taken out or replaced to make one of the other.
+std::size_t edits_between(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> edits(b.size() + 1);  // from so much of `a` to each beginning of `b`
+    std::iota(edits.begin(), edits.end(), std::size_t{0});
+    for (const char letter : a) {
+        std::size_t corner = edits[0]++;
+        for (std::size_t j = 1; j < edits.size(); ++j) {
+            const std::size_t replaced = corner + (letter == b[j - 1] ? 0 : 1);
+            corner = edits[j];
+            edits[j] = std::min({replaced, corner + 1, edits[j - 1] + 1});
+        }
+    }
+    return edits.back();
+}
+
 }  // namespace
 
 struct TomlFile::Document {
@@ -53,10 +70,18 @@ struct TomlFile::Document {
         std::set<std::string, std::less<>> keys;
     };
 
+    enum class About { value, absent_key, unknown_key };
+    struct Complaint {
+        std::string text;
+        About about = About::value;
+        std::size_t index = 0;  // of the table
+        std::string key{};
+    };
+
     toml::table root;
     std::string file;
     std::vector<Asked> asked;
-    std::multimap<unsigned, std::string> complaints;  // by line
+    std::multimap<unsigned, Complaint> complaints;  // by line
 
     std::size_t add(const toml::table& table, std::string name) {
         asked.push_back({&table, std::move(name), {}});
@@ -79,17 +104,20 @@ struct TomlFile::Document {
         return name.empty() ? printable(key) : fmt::format("[{}] {}", name, printable(key));
     }
 
-    void complain_at(unsigned line, const std::string& what) {
-        complaints.emplace(line, line == 0 ? fmt::format("{}: {}", printable(file), what)
-                                           : fmt::format("{}:{}: {}", printable(file), line, what));
+    void complain_at(unsigned line, const std::string& what, About about, std::size_t index,
+                     std::string_view key) {
+        auto text = line == 0 ? fmt::format("{}: {}", printable(file), what)
+                              : fmt::format("{}:{}: {}", printable(file), line, what);
+        complaints.emplace(line, Complaint{std::move(text), about, index, std::string(key)});
     }
 
     void complain(std::size_t index, std::string_view key, std::string_view why) {
         const toml::node* node = asked[index].table->get(key);
+        const About about = node == nullptr ? About::absent_key : About::value;
         if (node == nullptr) node = asked[index].table;
         // The root itself is nowhere.
         const unsigned line = node == &root ? 0 : node->source().begin.line;
-        complain_at(line, fmt::format("{}: {}", full_name(index, key), why));
+        complain_at(line, fmt::format("{}: {}", full_name(index, key), why), about, index, key);
     }
 
     void complain_kind(std::size_t index, std::string_view key, std::string_view wanted,
@@ -102,7 +130,7 @@ struct TomlFile::Document {
         std::string what = fmt::format("unknown key {}", full_name(index, key.str()));
         if (node.is_table()) what = fmt::format("unknown section [{}]", name);
         if (holds_tables(node)) what = fmt::format("unknown section [[{}]]", name);
-        complain_at(key.source().begin.line, what);
+        complain_at(key.source().begin.line, what, About::unknown_key, index, key.str());
     }
 
     void note_all_unknown() {
@@ -111,6 +139,17 @@ struct TomlFile::Document {
                 if (!asked[i].keys.contains(key.str())) note_unknown(i, key, node);
             }
         }
+    }
+
+    // What is missing may be there under a misspelt name: then that is the one to name.
+    [[nodiscard]] const Complaint& first_complaint() const {
+        const Complaint& first = complaints.begin()->second;
+        if (first.about != About::absent_key) return first;
+        for (const auto& [line, other] : complaints) {
+            if (other.about != About::unknown_key || other.index != first.index) continue;
+            if (edits_between(other.key, first.key) <= 2) return other;
+        }
+        return first;
     }
 };
 
@@ -145,7 +184,7 @@ TomlTable TomlFile::root() {
 Status TomlFile::finish() {
     document_->note_all_unknown();
     if (document_->complaints.empty()) return {};
-    return fail(ErrorCode::bad_argument, "{}", document_->complaints.begin()->second);
+    return fail(ErrorCode::bad_argument, "{}", document_->first_complaint().text);
 }
 
 bool TomlTable::has(std::string_view key) const {

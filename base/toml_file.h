@@ -2,8 +2,9 @@
 //
 // Every complaint names the file, the line and the key, as in
 // "storm.toml:12: [storm.hook] width_km: must be a number, is text". Reading goes on after a
-// complaint; finish() gives the one on the earliest line. Keys and tables that nobody asked for are
-// complaints too, so that a misspelt key is not silently its default.
+// complaint; finish() gives the one on the earliest line, and for a key that is missing an unknown
+// one of the same table that is like it. Keys and tables that nobody asked for are complaints too,
+// so that a misspelt key is not silently its default.
 // Errors: not_found, io ... from reading the file; bad_argument for what is in it.
 // Thread contract: one thread.
 #pragma once
@@ -40,7 +41,7 @@ class TomlFile {
     ~TomlFile();
 
     [[nodiscard]] TomlTable root();
-    // The complaint on the earliest line, unknown keys included.
+    // The complaint to mend first, unknown keys included.
     [[nodiscard]] Status finish();
 
   private:

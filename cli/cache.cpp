@@ -158,9 +158,9 @@ int run_stat(const CacheOptions& options, const std::vector<StoreEntry>& entries
                 document.back()["audits"].push_back(audit_json(audited));
             continue;
         }
-        fmt::print("{:<12}  {:>6} grids  {:>12} bytes  {:>4} pinned  {} to {}\n", total.domain,
-                   total.grids, total.bytes, total.pinned, format_utc(total.oldest),
-                   format_utc(total.latest));
+        fmt::print("{:<12}  {:>6} {:<5}  {:>12} bytes  {:>4} pinned  {} to {}\n", total.domain,
+                   total.grids, plural(total.grids, "grid"), total.bytes, total.pinned,
+                   format_utc(total.oldest), format_utc(total.latest));
         for (const AuditedGrid& audited : audits)
             print_audit(audited);
     }
@@ -180,7 +180,8 @@ int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entri
     if (options.json) {
         print_json({{"checked", entries.size()}, {"bad", bad}});
     } else {
-        fmt::print("{} grids checked, {} bad\n", entries.size(), bad.size());
+        fmt::print("{} {} checked, {} bad\n", entries.size(), plural(entries.size(), "grid"),
+                   bad.size());
     }
     return bad.empty() ? exit_done : exit_failed;
 }

@@ -80,8 +80,9 @@ void print_evicted(const EvictOptions& options, const cache::EvictionPlan& plan,
                     {"pinned", plan.pinned}});
         return;
     }
-    fmt::print("{} of {} grids {}, {}; {} are pinned\n", gone.size(), plan.looked_at,
-               options.dry_run ? "would go" : "went", format_byte_size(bytes), plan.pinned);
+    fmt::print("{} of {} {} {}, {}; {} {} pinned\n", gone.size(), plan.looked_at,
+               plural(plan.looked_at, "grid"), options.dry_run ? "would go" : "went",
+               format_byte_size(bytes), plan.pinned, plan.pinned == 1 ? "is" : "are");
 }
 
 int run_evict(const EvictOptions& options) {

@@ -86,8 +86,9 @@ int run_stations(const CatalogOptions& options) {
                                 {"latest", json_time(summary.latest)}});
             continue;
         }
-        fmt::print("{:<8}  {:>6} volumes  {:>4} rejected  {}\n",
+        fmt::print("{:<8}  {:>6} {:<7}  {:>4} rejected  {}\n",
                    summary.station.empty() ? "unknown" : summary.station, summary.volume_count,
+                   plural(static_cast<std::uint64_t>(summary.volume_count), "volume"),
                    summary.rejected_count,
                    summary.oldest ? fmt::format("{} to {}", format_utc(*summary.oldest),
                                                 format_utc(*summary.latest))

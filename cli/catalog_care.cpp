@@ -49,8 +49,8 @@ void print_check_json(const CatalogCheck& check) {
 void print_check(const CatalogCheck& check) {
     for (const StationCheck& one : check.stations) {
         const bool sound = one.damage.empty();
-        fmt::print("{:<8}  {:>6} files  {}\n", one.station.empty() ? "unknown" : one.station,
-                   one.files,
+        fmt::print("{:<8}  {:>6} {:<5}  {}\n", one.station.empty() ? "unknown" : one.station,
+                   one.files, plural(static_cast<std::uint64_t>(one.files), "file"),
                    sound ? fmt::format("sound, {} missing, {} changed", one.missing.size(),
                                        one.changed.size())
                          : "DAMAGED");
@@ -91,9 +91,10 @@ void print_report(const pipeline::RebuildReport& report, bool json) {
     for (const Repair& repair : report.repairs)
         fmt::print("{}\n", printable(catalog::describe(repair)));
     fmt::print(
-        "{} files: {} stood there, {} registered, {} rejected; {} rows are now of files that are "
-        "gone\n",
-        report.files, report.unchanged, report.registered, report.rejected, report.gone);
+        "{} {}: {} stood there, {} registered, {} rejected; {} now of files that are gone\n",
+        report.files, plural(static_cast<std::uint64_t>(report.files), "file"), report.unchanged,
+        report.registered, report.rejected,
+        report.gone == 1 ? std::string{"1 row is"} : fmt::format("{} rows are", report.gone));
 }
 
 // state/catalog lies in the directory that a daemon has locked.

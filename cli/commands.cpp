@@ -13,4 +13,8 @@ void print_note(const std::string& text) {
     fmt::print(stderr, "stormcellar: note: {}\n", printable(text));
 }
 
+std::string plural(std::uint64_t count, std::string_view thing) {
+    return fmt::format("{}{}", thing, count == 1 ? "" : "s");
+}
+
 }  // namespace stormcellar::cli

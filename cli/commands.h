@@ -5,8 +5,10 @@
 // else. Facts go to stdout (with --json as one JSON document), messages and progress to stderr.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/printable.h"
@@ -51,6 +53,9 @@ int report_error(const Error& error);
 // Prints "stormcellar: note: TEXT" on stderr, control characters escaped: what was done is right,
 // but may not be what was meant.
 void print_note(const std::string& text);
+
+// "grid" of one, "grids" of any other number.
+[[nodiscard]] std::string plural(std::uint64_t count, std::string_view thing);
 
 using ::stormcellar::printable;
 

@@ -126,8 +126,12 @@ int follow(const Following& following, const FollowOptions& options,
         }
         if (grids->empty()) {
             if (!is_waiting && !following.quiet) {
-                print_note(fmt::format("no grid of domain '{}' is there; waiting for one",
-                                       following.domain));
+                std::error_code ignored;
+                const bool has_cache = std::filesystem::exists(following.cache, ignored);
+                print_note(fmt::format(
+                    "{}no grid of domain '{}' is there; waiting for one",
+                    has_cache ? "" : following.cache.native() + ": there is no cache here yet; ",
+                    following.domain));
             }
             is_waiting = true;
             continue;

@@ -43,8 +43,8 @@ struct Following {
 };
 
 // Until the flag is set, which is exit_done. What cannot be listed or made is said once and tried
-// again with the next change. Without a grid it waits. Ends with another status only where, before
-// a loop was made, what was asked for turns out to make no sense (exit_bad_usage).
+// again with the next change. Without a grid, or the cache, it waits. Ends with another status only
+// where, before a loop was made, what was asked for turns out to make no sense (exit_bad_usage).
 int follow(const Following& following, const FollowOptions& options, const std::atomic<bool>& stop);
 
 // The document on one line of stdout, at once.

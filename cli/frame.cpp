@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_system.h"
+#include "base/floating_point.h"
 #include "base/version.h"
 #include "cache/store.h"
 #include "cli/commands.h"
@@ -142,16 +143,20 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
     if (!options.probe.empty()) {
         const auto pixel = numbers_of("--probe", options.probe, 2);
         if (!pixel) return pass_on(pixel);
-        const auto is_pixel = [](double at) {
-            return at >= 0 && at < 8192 && std::floor(at) == at;
-        };
-        if (!is_pixel((*pixel)[0]) || !is_pixel((*pixel)[1])) {
+        const double x = (*pixel)[0];
+        const double y = (*pixel)[1];
+        if (std::floor(x) != x || std::floor(y) != y) {
             return fail(ErrorCode::bad_argument, "--probe needs two whole numbers, not '{}'",
                         options.probe);
         }
-        return as_maybe(render::probe_pixel(file.view(), facts, scene,
-                                            static_cast<int>((*pixel)[0]),
-                                            static_cast<int>((*pixel)[1]), threads));
+        if (!is_within(x, 0.0, scene.width - 1.0) || !is_within(y, 0.0, scene.height - 1.0)) {
+            return fail(ErrorCode::bad_argument,
+                        "--probe {} lies outside the picture of {} x {} pixels: 0,0 to {},{}",
+                        options.probe, scene.width, scene.height, scene.width - 1,
+                        scene.height - 1);
+        }
+        return as_maybe(render::probe_pixel(file.view(), facts, scene, static_cast<int>(x),
+                                            static_cast<int>(y), threads));
     }
     if (!options.probe_at.empty()) {
         const auto place = numbers_of("--probe-at", options.probe_at, 2);
@@ -212,7 +217,7 @@ int run_frame(const FrameOptions& options) {
     const auto start = Clock::now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
-    const auto scene = scene_of(options.scene);
+    const auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     const auto store = cache::Store::open_for_reading(options.cache);
     if (!store) return report_error(store.error());

@@ -115,7 +115,10 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
     print_site(volume);
     print_times(volume);
     fmt::print("  file      {} bytes, {}", file.size, report.container);
-    if (report.ldm_records) fmt::print(", {} LDM records", *report.ldm_records);
+    if (report.ldm_records) {
+        fmt::print(", {} LDM {}", *report.ldm_records,
+                   plural(static_cast<std::uint64_t>(*report.ldm_records), "record"));
+    }
     fmt::print(", {} bytes of messages\n", report.message_bytes);
     if (volume.vcp) {
         fmt::print("  VCP       {} (from {})\n", *volume.vcp, vcp_source_text(volume.vcp_source));
@@ -124,8 +127,9 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
         fmt::print("  RDA       build {:.2f}\n", *report.rda_status->build);
     }
     const std::size_t volumes = report.further_volume_starts.size() + 1;
-    fmt::print("  holds     {} sweeps, {} radials{}; {}\n", volume.sweeps.size(),
-               volume.radial_count(),
+    fmt::print("  holds     {} {}, {} {}{}; {}\n", volume.sweeps.size(),
+               plural(volume.sweeps.size(), "sweep"), volume.radial_count(),
+               plural(volume.radial_count(), "radial"),
                volumes > 1 ? fmt::format(", {} volumes", volumes) : std::string{},
                report.complete ? "complete" : "partial");
     if (!volume.sweeps.empty()) print_sweeps(decoded);

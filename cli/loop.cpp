@@ -58,8 +58,11 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Sce
     if (auto drawn = draw_all(grids, options, scene, stop, encoding, report); !drawn) return drawn;
     if (!stop) {
         if (report.frames == 0) {
-            return fail(ErrorCode::corrupt, "{}: each of the {} grids is damaged; nothing written",
-                        grids.store->directory().native(), report.skipped.size());
+            const std::size_t count = report.skipped.size();
+            return fail(ErrorCode::corrupt, "{}: {} is damaged; nothing written",
+                        grids.store->directory().native(),
+                        count == 1 ? std::string{"the only grid"}
+                                   : fmt::format("each of the {} grids", count));
         }
         if (auto finished = encoding.finish(stop); !finished) return finished;
         report.encode_s = encoding.encode_s();
@@ -159,14 +162,37 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
     return exit_done;
 }
 
+// None as long as there is no cache.
+Result<std::optional<cache::Store>> open_if_there(const std::string& cache) {
+    auto opened = cache::Store::open_for_reading(cache);
+    if (opened) return std::optional{std::move(*opened)};
+    if (opened.error().code != ErrorCode::not_found) return pass_on(opened);
+    return std::optional<cache::Store>{};
+}
+
+// The grids that stand now; a cache that came meanwhile is opened.
+Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::Store>& store,
+                                                  const LoopOptions& options,
+                                                  level2::Moment moment) {
+    if (const auto range = parse_time_range(options.range); !range) return pass_on(range);
+    if (!store) {
+        auto opened = open_if_there(options.cache);
+        if (!opened) return pass_on(opened);
+        store = std::move(*opened);
+    }
+    if (!store) return std::vector<cache::StoreEntry>{};
+    return entries_now(*store, options, moment);
+}
+
 // Each time of the grids that then stand.
 int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
-    auto store = cache::Store::open_for_reading(options.cache);
-    if (!store) return report_error(store.error());
+    auto opened = open_if_there(options.cache);
+    if (!opened) return report_error(opened.error());
+    std::optional<cache::Store> store = std::move(*opened);
     KeptFrames kept;
     options.kept = &kept;
     return follow({options.cache, options.domain, scene.moment,
-                   [&] { return entries_now(*store, options, scene.moment); },
+                   [&] { return entries_of(store, options, scene.moment); },
                    [&](const auto& entries) {
                        kept.next_loop();
                        return draw_loop(grids_of(*store, options.domain, entries), options, scene,
@@ -180,7 +206,7 @@ int run_loop(const LoopOptions& options) {
     const auto start = Clock::now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
-    const auto scene = scene_of(options.scene);
+    const auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
     // What could never be written is refused before any grid is made.
     if (const auto writers = make_writers(options.outputs, options.animation); !writers) {

@@ -43,11 +43,12 @@ Status set_rhythm(const LoopOptions& options, level2::Moment moment, const Rhyth
         frames.push_back(std::move(frame));
     }
     if (frames.empty()) {
-        fmt::print(stderr,
-                   "stormcellar: no frame every {} s: the {} grids are too few, or farther apart "
-                   "than {} minutes\n",
-                   rhythm.interval->count(), grids.frames.size(),
-                   pipeline::BetweenGrids::longest_bridge.count());
+        fmt::print(
+            stderr, "stormcellar: no frame every {} s: {}\n", rhythm.interval->count(),
+            grids.frames.size() == 1
+                ? std::string{"one grid is too few"}
+                : fmt::format("the {} grids are too few, or farther apart than {} minutes",
+                              grids.frames.size(), pipeline::BetweenGrids::longest_bridge.count()));
     } else if (!options.quiet && !options.json) {
         fmt::print(stderr, "between the grids: {}\n", between->method_text());
     }
@@ -102,8 +103,10 @@ Status take_from_archive(const LoopOptions& options, const render::Scene& scene,
     grids.domain = grids.archive->domain;
     set_frames(grids.archive->entries, grids);
     if (grids.frames.empty()) {
-        fmt::print(stderr, "stormcellar: none of the {} volumes{} gives a frame\n",
-                   grids.archive->report.volumes, printable(range_text(options)));
+        fmt::print(stderr, "stormcellar: none of the {} {}{} gives a frame\n",
+                   grids.archive->report.volumes,
+                   plural(static_cast<std::uint64_t>(grids.archive->report.volumes), "volume"),
+                   printable(range_text(options)));
     }
     return {};
 }

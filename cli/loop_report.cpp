@@ -40,10 +40,12 @@ void print_report(const LoopOptions& options, const render::Scene& scene, const 
                   const std::optional<ArchiveGrids>& archive) {
     if (!options.json) {
         if (options.quiet) return;
-        fmt::print(stderr, "{}: {} {} to {}, {}, {} frames of {} x {} pixels, {:.1f} s\n",
+        fmt::print(stderr, "{}: {} {} to {}, {}, {} {} of {} x {} pixels, {:.1f} s\n",
                    printable(fmt::format("{}", fmt::join(options.outputs, ", "))),
                    printable(options.domain), format_utc(report.from), format_utc(report.to),
-                   options.scene.product, report.frames, scene.width, scene.height, report.total_s);
+                   options.scene.product, report.frames,
+                   plural(static_cast<std::uint64_t>(report.frames), "frame"), scene.width,
+                   scene.height, report.total_s);
         return;
     }
     auto skipped = nlohmann::json::array();

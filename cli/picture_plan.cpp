@@ -63,6 +63,19 @@ std::string error_text(const accuracy::Plan& plan) {
     return fmt::format("{} ({})", text, plan.description);
 }
 
+// The plan is for volumes: of another product's file it is an error, of a file whose volume was
+// made another product by --product it has nothing to say.
+Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
+    if (!options.is_scenes()) {
+        return fail(ErrorCode::bad_argument,
+                    "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
+                    render::product_name(product));
+    }
+    if (options.scene->of_volume) return std::string{};
+    return fail(ErrorCode::bad_argument, "{}: [plan] is for volumes: {} is drawn as it is",
+                options.scene->file, render::product_name(product));
+}
+
 }  // namespace
 
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
@@ -84,11 +97,7 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
                                  const PicturePlanOptions& options, bool json, int threads,
                                  render::Scene& scene) {
     if (!options.asked()) return std::string{};
-    if (scene.product != render::Product::volume) {
-        return fail(ErrorCode::bad_argument,
-                    "--tolerance, --effect and --explain are for volumes: {} is drawn as it is",
-                    render::product_name(scene.product));
-    }
+    if (scene.product != render::Product::volume) return without_plan(options, scene.product);
     const auto request = parse_plan(options, scene.light);
     if (!request) return pass_on(request);
     if (auto valid = render::check_frame(view, facts, scene); !valid) return pass_on(valid);

@@ -25,7 +25,8 @@ struct ReplayCommandOptions {
 };
 
 int report_stop(const synth::ReplayReport& report, std::size_t items, Interrupt& interrupt) {
-    fmt::print(stderr, "stormcellar: interrupted after {} of {} files\n", report.files, items);
+    fmt::print(stderr, "stormcellar: interrupted after {} of {} {}\n", report.files, items,
+               plural(items, "file"));
     if (!report.unfinished.empty()) {
         fmt::print(stderr, "stormcellar: {} stays unfinished\n",
                    printable(report.unfinished.native()));
@@ -58,7 +59,8 @@ int run_replay(const ReplayCommandOptions& options) {
     if (options.json) {
         print_json({{"files", report->files}, {"bytes", report->bytes}, {"total_s", total_s}});
     } else {
-        fmt::print(stderr, "{} files, {} bytes, {:.1f} s\n", report->files, report->bytes, total_s);
+        fmt::print(stderr, "{} {}, {} bytes, {:.1f} s\n", report->files,
+                   plural(report->files, "file"), report->bytes, total_s);
     }
     return exit_done;
 }

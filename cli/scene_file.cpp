@@ -211,8 +211,12 @@ void read_loop(TomlTable table, const std::filesystem::path& directory, LoopSett
     if (const auto outputs = table.texts("outputs")) {
         loop.outputs.clear();
         for (const std::string& output : *outputs) {
-            if (output.empty()) table.complain("outputs", "must not be empty");
             loop.outputs.push_back(from_directory(directory, output));
+            if (output.empty()) {
+                table.complain("outputs", "must not be empty");
+            } else if (auto fine = render::check_animation_name(loop.outputs.back()); !fine) {
+                table.complain("outputs", fine.error().message);
+            }
         }
     }
 }
@@ -263,6 +267,16 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     return {};
 }
 
+Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& options) {
+    auto scene = scene_of(options);
+    if (scene || file.path.empty()) return scene;
+    const Error& error = scene.error();
+    if (file.alone && file.alone->message == error.message) {
+        return fail(error.code, "{}: {}", file.path, error.message);
+    }
+    return fail(error.code, "{} (beside --scene {})", error.message, file.path);
+}
+
 void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, PicturePlanOptions& plan,
                     LoopSettings* loop) {
     const auto read = [&app, &file, &scene, &plan, loop](const std::string& path) {
@@ -271,6 +285,9 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
         LoopSettings& settings = loop != nullptr ? *loop : unused;
         if (auto done = read_scene_file(path, scene, plan, settings); !done) {
             file.error = done.error();
+        } else {
+            plan.scene = ScenePlan{path, plan.tolerance, plan.effects, scene.product == "volume"};
+            if (const auto alone = scene_of(scene); !alone) file.alone = alone.error();
         }
         // What is wrong with the file comes before what it might have said.
         if (file.error || (loop != nullptr && !loop->domain.empty())) need_no_more(app, "--domain");

@@ -5,7 +5,8 @@
 // Relative paths (colour tables, outputs) start at the directory of the file.
 // Errors: not_found, io ... of the file; bad_argument, "FILE:LINE: [section] key: why", for what is
 // in it, unknown keys included. What only makes sense together (a section and its line) is checked
-// by scene_of(), when the options of the command line have been added.
+// by scene_of(), when the options of the command line have been added; scene_with() then names the
+// file.
 // Thread contract: pure functions.
 #pragma once
 
@@ -37,11 +38,17 @@ struct LoopSettings {
 [[nodiscard]] Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
                                      PicturePlanOptions& plan, LoopSettings& loop);
 
-// The option --scene. `error` is what was wrong with the file, for the command to report.
+// The option --scene. `error` is what was wrong with the file, for the command to report; `alone`
+// is what makes no sense of it as long as no option is given beside it, which one may yet mend.
 struct SceneFile {
     std::string path;
     std::optional<Error> error;
+    std::optional<Error> alone;
 };
+
+// As scene_of(). Where a file was given, the message is "FILE: why" for what the file alone has
+// wrong, and "why (beside --scene FILE)" for what the options may have brought in.
+[[nodiscard]] Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& options);
 
 // Puts --scene on a subcommand: the first option that is put on it, so that those that are given
 // beside it are taken after the file and win. `loop` may be null: [loop] is then checked and left

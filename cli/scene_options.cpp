@@ -131,7 +131,9 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
         if (!ends) return pass_on(ends);
         scene.section = render::SectionLine{{(*ends)[0], (*ends)[1]}, {(*ends)[2], (*ends)[3]}};
     } else if (scene.product == render::Product::section) {
-        return fail(ErrorCode::bad_argument, "a section needs --section LAT,LON,LAT,LON");
+        return fail(ErrorCode::bad_argument,
+                    "a section needs its two ends: --section LAT,LON,LAT,LON, or [picture] section "
+                    "in a scene's file");
     }
     if (!options.colours.empty()) {
         auto colours = render::colours_from(options.colours);

@@ -57,8 +57,8 @@ int run_synth(const SynthOptions& options) {
     if (!written) return report_error(written.error());
     print_report(*written, seconds_since(start), options.json);
     if (!written->stopped) return exit_done;
-    fmt::print(stderr, "stormcellar: interrupted after {} of {} volumes\n", written->files.size(),
-               count);
+    fmt::print(stderr, "stormcellar: interrupted after {} of {} {}\n", written->files.size(), count,
+               plural(static_cast<std::uint64_t>(count), "volume"));
     interrupt.end_by_signal();
     return exit_failed;
 }

@@ -243,7 +243,7 @@ bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions&
            a.decode_threads == b.decode_threads && a.grid_threads == b.grid_threads;
 }
 
-Result<Config> load_config(const std::filesystem::path& file) {
+Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes) {
     Result<TomlFile> toml = TomlFile::open(file);
     if (!toml) return pass_on(toml);
     TomlTable root = toml->root();
@@ -254,7 +254,7 @@ Result<Config> load_config(const std::filesystem::path& file) {
     read_cache(root.section("cache"), config);
     read_rest(root.section("watch"), root.section("log"), config);
     config.loops = read_loops(root, std::filesystem::absolute(file).parent_path(),
-                              {config.drop, config.state, config.cache});
+                              {config.drop, config.state, config.cache}, scenes);
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;
 }

@@ -47,7 +47,8 @@ struct Config {
 
 // Relative paths are taken from the directory of the file. Unknown keys, wrong types, values out of
 // range and paths within one another are bad_argument: "FILE:LINE: [section] key: why".
-// Nothing is created and the directories need not exist.
-[[nodiscard]] Result<Config> load_config(const std::filesystem::path& file);
+// Nothing is created and the directories need not exist, nor, unless asked for, the loops' scenes.
+[[nodiscard]] Result<Config> load_config(const std::filesystem::path& file,
+                                         SceneFiles scenes = SceneFiles::as_named);
 
 }  // namespace stormcellar::daemon

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -58,6 +59,19 @@ void read_outputs(TomlTable& table, const fs::path& directory, const std::vector
     }
 }
 
+void read_scene(TomlTable& table, const fs::path& directory, SceneFiles scenes, LoopConfig& loop) {
+    const auto scene = table.text("scene");
+    if (!scene) return;
+    if (scene->empty()) return table.complain("scene", "must not be empty");
+    loop.scene = (directory / *scene).lexically_normal();
+    if (scenes == SceneFiles::as_named) return;
+    std::error_code error;
+    const fs::file_status found = fs::status(loop.scene, error);
+    if (fs::is_regular_file(found)) return;
+    table.complain("scene", fmt::format("{}: {}", printable(loop.scene.native()),
+                                        error ? error.message() : "is no file"));
+}
+
 void read_range(TomlTable& table, LoopConfig& loop) {
     if (const auto last = table.whole_number("last", {1, 1'000'000})) loop.last = *last;
     if (const auto hours = table.number("hours", {0.01, 8760})) {
@@ -68,17 +82,14 @@ void read_range(TomlTable& table, LoopConfig& loop) {
 }  // namespace
 
 std::vector<LoopConfig> read_loops(TomlTable& root, const fs::path& directory,
-                                   const std::vector<fs::path>& apart) {
+                                   const std::vector<fs::path>& apart, SceneFiles scenes) {
     std::vector<LoopConfig> loops;
     std::set<std::string> names;
     std::set<std::string> outputs;
     for (TomlTable& table : root.tables("loop")) {
         LoopConfig loop;
         read_name(table, names, loop);
-        if (const auto scene = table.text("scene")) {
-            if (scene->empty()) table.complain("scene", "must not be empty");
-            loop.scene = (directory / *scene).lexically_normal();
-        }
+        read_scene(table, directory, scenes, loop);
         if (const auto domain = table.text("domain")) {
             if (!cache::is_domain_name(*domain)) {
                 table.complain("domain",

@@ -39,11 +39,16 @@ struct LoopState {
     bool operator==(const LoopState&) const = default;
 };
 
+// Whether a scene's file has to be there. A service runs without: a file that is gone stops its
+// loop, which says so, and nothing else.
+enum class SceneFiles { as_named, must_exist };
+
 // All [[loop]] tables; what makes no sense is complained of and left out. Relative paths start at
 // `directory`; no output may lie within one of `apart`.
 [[nodiscard]] std::vector<LoopConfig> read_loops(TomlTable& root,
                                                  const std::filesystem::path& directory,
-                                                 const std::vector<std::filesystem::path>& apart);
+                                                 const std::vector<std::filesystem::path>& apart,
+                                                 SceneFiles scenes = SceneFiles::as_named);
 
 // What `stormcellar` is given to keep it fresh, as a child of the process `parent`.
 [[nodiscard]] std::vector<std::string> arguments_of(const LoopConfig& loop,

@@ -140,7 +140,8 @@ int run(int argc, char** argv) {
                                          : fmt::format("stormcellard {}\n", software_version));
         return EXIT_SUCCESS;
     }
-    const Result<Config> config = load_config(*arguments->config);
+    const Result<Config> config = load_config(
+        *arguments->config, arguments->check ? SceneFiles::must_exist : SceneFiles::as_named);
     if (!config) return complain(config.error());
     if (arguments->check) {
         fmt::print("{}: ok\n", printable(arguments->config->native()));

@@ -144,10 +144,26 @@ std::string known_animation_endings() {
     return list + "or DIR/ for PNG files";
 }
 
+Status check_animation_name(const std::string& output) {
+    const std::string ending = std::filesystem::path(output).extension();
+    if (output.ends_with('/') || ending == ".mp4" || ending == ".webm") return {};
+    for (const Format& format : formats) {
+        if (ending == format.ending) return {};
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_directory(output, ignored)) {
+        return fail(ErrorCode::bad_argument,
+                    "{0}: is a directory; name it {0}/ to have PNG files in it", output);
+    }
+    return fail(ErrorCode::bad_argument, "{}: unknown ending '{}'; this build writes {}", output,
+                ending, known_animation_endings());
+}
+
 Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::string& output,
                                                                  const AnimationOptions& options,
                                                                  FileSystem& file_system) {
     if (auto valid = check(options); !valid) return pass_on(valid);
+    if (auto valid = check_animation_name(output); !valid) return pass_on(valid);
     if (output.ends_with('/')) return make_png_directory_writer(output, options, file_system);
     const std::string ending = std::filesystem::path(output).extension();
     for (const Format& format : formats) {
@@ -157,18 +173,9 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
         if (!encoder) return tl::unexpected(named(output, encoder.error()));
         return std::make_unique<FileWriter>(output, std::move(*encoder), file_system);
     }
-    if (ending == ".mp4" || ending == ".webm") {
-        return fail(ErrorCode::bad_argument,
-                    "{}: this build is without FFmpeg (STORMCELLAR_VIDEO), so it writes {}", output,
-                    known_animation_endings());
-    }
-    std::error_code ignored;
-    if (std::filesystem::is_directory(output, ignored)) {
-        return fail(ErrorCode::bad_argument,
-                    "{0}: is a directory; name it {0}/ to have PNG files in it", output);
-    }
-    return fail(ErrorCode::bad_argument, "{}: unknown ending '{}'; this build writes {}", output,
-                ending, known_animation_endings());
+    return fail(ErrorCode::bad_argument,
+                "{}: this build is without FFmpeg (STORMCELLAR_VIDEO), so it writes {}", output,
+                known_animation_endings());
 }
 
 Status check_frame(const Image& frame, int first_width, int first_height, int largest_side) {

@@ -45,6 +45,11 @@ struct AnimationOptions {
 // What this build can write, as a user would type it: ".webp, .gif, ..., DIR/".
 [[nodiscard]] std::string known_animation_endings();
 
+// bad_argument for a name that no build writes to: an unknown ending (the message names those that
+// this build knows), or a directory that is there and named without its "/". Videos pass in every
+// build. Nothing is made.
+[[nodiscard]] Status check_animation_name(const std::string& output);
+
 class AnimationWriter {
   public:
     // bad_argument: an ending that this build does not know (the message names those it does), or

@@ -29,6 +29,10 @@ Status set_light(const std::string& names, Light& light) {
             set.*kind.field = true;
             known = true;
         }
+        if (name == "none") {
+            return fail(ErrorCode::bad_argument, "none stands alone, not with others as in '{}'",
+                        names);
+        }
         if (!known) {
             return fail(ErrorCode::bad_argument,
                         "unknown light '{}': known are none, gradient, shadow, scattering", name);

@@ -146,6 +146,23 @@ TEST(TomlFile, TheEarliestLineIsNamed) {
     EXPECT_THAT(complaint(file), StartsWith("s.toml:2: b: "));
 }
 
+TEST(TomlFile, AMisspeltKeyIsNamedBeforeTheOneThatIsMissing) {
+    const auto read = [](std::string_view text) {
+        TomlFile file = file_of(text);
+        for (TomlTable& loop : file.root().tables("loop"))
+            if (!loop.text("name")) loop.complain("name", "must be there");
+        return complaint(file);
+    };
+    EXPECT_EQ(read("[[loop]]\nnam = \"a\"\n"), "s.toml:2: unknown key [loop] nam");
+    EXPECT_EQ(read("[[loop]]\n[[loop]]\nname = \"a\"\nnam = 1\n"),
+              "s.toml:1: [loop] name: must be there")
+        << "the unknown key is another table's";
+    EXPECT_EQ(read("[[loop]]\ntitle = \"a\"\n"), "s.toml:1: [loop] name: must be there")
+        << "nobody misspells it so";
+    EXPECT_EQ(read("[[loop]]\ntitle = \"a\"\nmane = \"a\"\n"), "s.toml:3: unknown key [loop] mane");
+    EXPECT_EQ(read("[[loop]]\nname = \"a\"\n"), "");
+}
+
 TEST(TomlFile, WhatIsNotTomlNamesTheLine) {
     for (const char* text : {"a = 1\nb = \n", "a = 1\na = 2\n", "a = 1\n[b\n"}) {
         const auto file = TomlFile::parse(text, "s.toml");

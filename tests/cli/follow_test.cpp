@@ -151,6 +151,24 @@ TEST_F(Follow, WaitsForTheFirstGridOfADomain) {
     EXPECT_EQ(program.end(SIGINT), 0);
 }
 
+TEST_F(Follow, WaitsForTheCache) {
+    fs::remove_all(directory_ / "cache");
+    RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.webp")}));
+    ASSERT_TRUE(RunningProgram::wait_for([&] { return !program.err().empty(); }));
+    EXPECT_THAT(
+        program.err(),
+        HasSubstr("there is no cache here yet; no grid of domain 'KBGM' is there; waiting"));
+    store_ = *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    commit("20050822_024400", 22);
+    ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
+    EXPECT_THAT(written(), ElementsAre("a.webp"));
+    EXPECT_EQ(program.end(SIGINT), 0);
+    fs::remove_all(directory_ / "cache");
+    const auto refused =
+        testing::run_program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif"), "--from", "eve"}));
+    EXPECT_EQ(refused.status, 2) << "what makes no sense does without a cache too";
+}
+
 TEST_F(Follow, ABurstIsOneRemake) {
     commit("20050822_024400", 22);
     RunningProgram program(STORMCELLAR_PROGRAM, arguments({"-o", out("a.gif")}));

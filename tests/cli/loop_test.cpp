@@ -361,7 +361,9 @@ TEST_F(Loop, DamagedGridIsNamedAndLeftOut) {
 TEST_F(Loop, NothingButDamagedGridsIsAFailureAndWritesNothing) {
     commit("20050822_024400", 22);
     fs::resize_file(grids_[0], 100);
-    EXPECT_EQ(run({"KBGM", "-o", out("a.webp"), "-o", out("frames/")}).status, 1);
+    const auto ran = run({"KBGM", "-o", out("a.webp"), "-o", out("frames/")});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_THAT(ran.err, HasSubstr("the only grid is damaged; nothing written"));
     EXPECT_THAT(written(), IsEmpty());
 }
 

@@ -218,6 +218,8 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
         {"loop", "ping_pong = \"on\""},
         {"loop", "outputs = \"a.webp\""},
         {"loop", "outputs = [\"\"]"},
+        {"loop", "outputs = [\"a.webp\", \"a.xyz\"]"},
+        {"loop", "outputs = [\"frames\"]"},
     };
     for (const auto& [section, line] : wrong) {
         const std::string key = line.substr(0, line.find(' '));
@@ -226,6 +228,8 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
             << line;
     }
     EXPECT_EQ(settings_.scene.scene.slices, render::Scene{}.slices) << "nothing was taken";
+    EXPECT_THAT(complaint("[loop]\noutputs = [\"a.xyz\"]\n"),
+                HasSubstr("/a.xyz: unknown ending '.xyz'; this build writes .webp, "));
 }
 
 TEST_F(SceneFileTest, PathsStartAtTheFile) {
@@ -289,6 +293,54 @@ TEST_F(SceneFileTest, WhatIsWrongIsSaidBeforeWhatIsMissing) {
         EXPECT_EQ(absent.status, exit_failed);
         EXPECT_THAT(absent.err, HasSubstr("absent: No such file"));
     }
+}
+
+TEST_F(SceneFileTest, WhatMakesNoSenseTogetherNamesTheFile) {
+    commit();
+    const auto said = [&](Command (*add)(CLI::App&), const std::string& arguments) {
+        const auto ran = run(
+            add, fmt::format("{} KBGM --cache {} --scene {}", arguments, cache(), at("s.toml")));
+        EXPECT_EQ(ran.status, exit_bad_usage) << ran.err;
+        return ran.err;
+    };
+    const std::string frame = "frame -o " + at("a.png");
+    const std::string loop = "loop -o " + at("a.webp");
+    write("[camera]\ntilt_deg = 120\n");
+    const std::string tilted = at("s.toml") + ": tilt must be 0 to 90, not 120";
+    EXPECT_THAT(said(add_frame, frame), HasSubstr(tilted));
+    EXPECT_THAT(said(add_loop, loop), HasSubstr(tilted));
+    EXPECT_THAT(said(add_frame, frame + " --width 500"), HasSubstr(tilted));
+    EXPECT_THAT(said(add_frame, frame + " --tilt 100"),
+                HasSubstr("tilt must be 0 to 90, not 100 (beside --scene " + at("s.toml") + ")"));
+    write("[picture]\nproduct = \"section\"\n");
+    EXPECT_THAT(said(add_frame, frame), HasSubstr(at("s.toml") + ": a section needs its two ends"));
+    const auto mended =
+        run(add_frame, fmt::format("{} KBGM --cache {} --scene {} --section 42,-76.1,42.3,-75.8",
+                                   frame, cache(), at("s.toml")));
+    EXPECT_EQ(mended.status, exit_done) << mended.err;
+}
+
+TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
+    commit();
+    const auto draw = [&](const std::string& more) {
+        return run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} {}", cache(),
+                                          at("s.toml"), at("a.png"), more));
+    };
+    const std::string plan = "[plan]\ntolerance = \"dE 9\"\n[plan.effects]\nevery_pixel = \"on\"\n";
+    write(plan);
+    const auto typed = draw("--product composite");
+    EXPECT_EQ(typed.status, exit_done) << typed.err;
+    for (const char* more : {"--tolerance \"dE 5\"", "--explain", "--effect=every_pixel=off"}) {
+        const auto both = draw(std::string("--product composite ") + more);
+        EXPECT_EQ(both.status, exit_bad_usage) << more;
+        EXPECT_THAT(both.err, HasSubstr("--tolerance, --effect and --explain are for volumes"));
+    }
+    write("[picture]\nproduct = \"composite\"\n" + plan);
+    const auto within = draw("");
+    EXPECT_EQ(within.status, exit_bad_usage);
+    EXPECT_THAT(within.err,
+                HasSubstr(at("s.toml") + ": [plan] is for volumes: composite is drawn"));
+    EXPECT_EQ(draw("--product volume").status, exit_done) << "now the plan has something to say";
 }
 
 TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {

@@ -281,6 +281,22 @@ TEST_F(ConfigFile, LoopsAreTaken) {
     EXPECT_TRUE(config->loops[1].outputs.empty());
 }
 
+TEST_F(ConfigFile, ScenesThatAreNotThereAreRefusedWhereTheyMustBe) {
+    write_file(directory_ / "a.toml", "");
+    const auto must_be = [&](const std::string& scene) -> std::string {
+        const std::string text =
+            std::string(paths) + "[[loop]]\nname = \"a\"\nscene = \"" + scene + "\"\n";
+        EXPECT_TRUE(load(text)) << "a service goes on without";
+        const Result<Config> config = load_config(file(), SceneFiles::must_exist);
+        return config ? "" : config.error().message;
+    };
+    const std::string directory = std::filesystem::absolute(directory_.path()).native() + "/";
+    EXPECT_EQ(must_be("a.toml"), "");
+    EXPECT_EQ(must_be("none.toml"), file().native() + ":7: [loop] scene: " + directory +
+                                        "none.toml: No such file or directory");
+    EXPECT_EQ(must_be("."), file().native() + ":7: [loop] scene: " + directory + ": is no file");
+}
+
 TEST_F(ConfigFile, LoopsThatMakeNoSenseAreRefused) {
     const auto loop = [&](const std::string& lines) {
         return complaint(std::string(paths) + "[[loop]]\n" + lines);
@@ -310,6 +326,7 @@ TEST_F(ConfigFile, LoopsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\noutputs = [\"/o/f\", \"/o/f/\"]\n"),
               "s.toml:8: [loop] outputs: /o/f/ is named twice");
     EXPECT_EQ(loop("name = \"a\"\nscene = \"b\"\nfps = 8\n"), "s.toml:8: unknown key [loop] fps");
+    EXPECT_EQ(loop("nam = \"a\"\nscene = \"b\"\n"), "s.toml:6: unknown key [loop] nam");
     EXPECT_EQ(complaint(std::string(paths) + "[loop]\nname = \"a\"\n"),
               "s.toml:5: loop: must be sections: [[loop]], is a table");
 }

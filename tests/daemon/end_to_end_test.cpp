@@ -359,6 +359,11 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
                                    file.native()));
     const auto good = run("[paths]\ndrop = \"none\"\n", {"--check-config"});
     EXPECT_EQ(good.status, 0) << "the directories need not be there to be checked";
+    const auto unseen =
+        run("[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\nscene = \"gone.toml\"\n",
+            {"--check-config"});
+    EXPECT_EQ(unseen.status, 1);
+    EXPECT_NE(unseen.err.find("c.toml:5: [loop] scene: "), std::string::npos) << unseen.err;
     const auto missing = run("[paths]\ndrop = \"none\"\nstate = \"s\"\ncache = \"c\"\n");
     EXPECT_EQ(missing.status, 1);
     EXPECT_NE(missing.err.find("the drop directory does not exist"), std::string::npos);

@@ -156,6 +156,22 @@ INSTANTIATE_TEST_SUITE_P(Formats, Animation, ::testing::ValuesIn(outputs()),
                                                                  : parameter.param.substr(2);
                          });
 
+TEST(AnimationName, NeedsAnEndingThatSomeBuildWrites) {
+    for (const char* name : {"a.webp", "/b/a.gif", "a.apng", "a.mp4", "a.webm", "frames/"}) {
+        EXPECT_TRUE(check_animation_name(name)) << name;
+    }
+    for (const char* name : {"a.xyz", "frames", "a.webp.txt", "a.WEBP", ""}) {
+        const Status status = check_animation_name(name);
+        ASSERT_FALSE(status) << name;
+        EXPECT_EQ(status.error().code, ErrorCode::bad_argument);
+        EXPECT_NE(status.error().message.find("this build writes .webp"), std::string::npos);
+    }
+    const Status directory = check_animation_name("/tmp");
+    ASSERT_FALSE(directory);
+    EXPECT_EQ(directory.error().message,
+              "/tmp: is a directory; name it /tmp/ to have PNG files in it");
+}
+
 TEST(AnimationOutput, UnknownEndingIsRefusedWithThoseThatAreKnown) {
     const auto writer = AnimationWriter::create("/tmp/loop.avi", {});
     ASSERT_FALSE(writer);

@@ -21,6 +21,12 @@ TEST(Light, IsNamedByItsKinds) {
     EXPECT_EQ(light_names(light), "gradient,shadow");
     EXPECT_FALSE(set_light("shadow,gloom", light));
     EXPECT_FALSE(set_light("", light));
+    for (const char* mixed : {"none,gradient", "shadow,none", "none,none"}) {
+        const Status status = set_light(mixed, light);
+        ASSERT_FALSE(status) << mixed;
+        EXPECT_EQ(status.error().message,
+                  fmt::format("none stands alone, not with others as in '{}'", mixed));
+    }
     EXPECT_TRUE(light.shadow) << "errors change nothing";
     ASSERT_TRUE(set_light("none", light));
     EXPECT_FALSE(light.any());

@@ -147,7 +147,8 @@ TEST(Scene, AMistakeIsNamedWithItsLineAndKey) {
          {Mistake{"\"KTLX\"", "\"OKLAHOMA\"", "scene.toml:2: [radar] station: must be four"},
           {"\"KTLX\"", "\"XSYN\"", "scene.toml:1: [radar] latitude_deg: is missing"},
           {"\"KTLX\"", "12", "scene.toml:2: [radar] station: must be text"},
-          {"station", "staton", "scene.toml:1: [radar] station: is missing"},
+          {"station", "staton", "scene.toml:2: unknown key [radar] staton"},
+          {"station", "site", "scene.toml:1: [radar] station: is missing"},
           {"[radar]", "[rader]", "scene.toml: [radar] station: is missing"},
           {"count = 2", "count = 0", "scene.toml:4: [volumes] count: 0 is out of range, must be 1"},
           {"count = 2", "count = 2.5", "[volumes] count: must be a whole number"},
@@ -299,7 +300,7 @@ TEST(Scene, RadarsOfOneOriginSeeTheSameWeather) {
         }
     }
     EXPECT_THAT(message_of(std::string(least) + "[weather]\nlatitude_deg = 3\n"),
-                HasSubstr("longitude_deg"));
+                HasSubstr("[weather] longitude_deg: is missing"));
 }
 
 TEST(Scene, AMissingFileIsNamed) {
