@@ -165,9 +165,9 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
         more.insert(more.end(), range.begin(), range.end());
         return run(more);
     };
-    const auto unknown = with_range({"--stations", "KBGM,KXXX"});
+    const auto unknown = with_range({"--stations", "KBGM,KZZZ"});
     EXPECT_EQ(unknown.status, 3);
-    EXPECT_THAT(unknown.err, HasSubstr("the catalog has nothing of KXXX"));
+    EXPECT_THAT(unknown.err, HasSubstr("the catalog has nothing of KZZZ"));
     const auto nobody = with_range({"--bounds=10,41,12,43"});
     EXPECT_EQ(nobody.status, 3);
     EXPECT_THAT(nobody.err, HasSubstr("no station of the catalog reaches the bounds"));

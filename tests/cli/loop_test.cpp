@@ -11,66 +11,18 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cache/store.h"
-#include "grid/brick_grid.h"
 #include "pipeline/ingest.h"
+#include "tests/cli/loop_fixture.h"
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
-#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
-
-class Loop : public ::testing::Test {
-  protected:
-    void commit(const std::string& compact_time, float dbz, int cells = 40) {
-        grid::Grid grid;
-        grid.spec = grid::default_spec(42.2, -75.98);
-        grid.spec.nx = grid.spec.ny = cells;
-        grid.time = grid.start_time = grid.end_time = parse_compact(compact_time).value();
-        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
-        grid.values.assign(grid.spec.cell_count(), dbz);
-        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
-        const auto bricks =
-            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
-        const auto path = store_.commit("KBGM", cache::describe(grid), bricks.view());
-        ASSERT_TRUE(path) << path.error().message;
-        grids_.push_back(*path);
-    }
-    void commit_three() {
-        commit("20050822_024400", 22);
-        commit("20050822_025000", 33);
-        commit("20050822_025600", 44);
-    }
-    testing::ProgramResult run(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(),
-                         {"loop", "--cache", (directory_ / "cache").string(), "--slices", "16"});
-        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
-    }
-    [[nodiscard]] std::string out(const std::string& name) const {
-        return (directory_ / "out" / name).string();
-    }
-    [[nodiscard]] std::vector<std::string> written() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(directory_ / "out"))
-            names.push_back(entry.path().filename());
-        std::sort(names.begin(), names.end());
-        return names;
-    }
-    void SetUp() override { fs::create_directory(directory_ / "out"); }
-
-    testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
-    std::vector<fs::path> grids_;
-};
 
 TEST_F(Loop, WritesTheSameFramesToEveryOutput) {
     commit_three();
@@ -117,98 +69,6 @@ TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
     EXPECT_EQ(frames({"--last", "9"}), (std::pair<std::string, int>("2005-08-22T02:44:00Z", 3)));
 }
 
-// Of a PNG or APNG, by keyword.
-std::map<std::string, std::string> png_texts(const std::string& path) {
-    const auto bytes = *read_file(path);
-    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::map<std::string, std::string> texts;
-    for (std::size_t at = 8; at + 12 <= all.size();) {
-        const auto byte = [&](std::size_t i) {
-            return static_cast<std::size_t>(static_cast<unsigned char>(all[at + i]));
-        };
-        const std::size_t length = byte(0) << 24U | byte(1) << 16U | byte(2) << 8U | byte(3);
-        const std::string data = all.substr(at + 8, length);
-        if (all.substr(at + 4, 4) == "tEXt") {
-            texts[data.substr(0, data.find('\0'))] = data.substr(data.find('\0') + 1);
-        }
-        at += 12 + length;
-    }
-    return texts;
-}
-
-// The blocks of the first comment of a GIF.
-std::string gif_comment(const std::string& path) {
-    const auto bytes = *read_file(path);
-    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::string comment;
-    for (std::size_t at = all.find("\x21\xFE") + 2; all[at] != '\0';) {
-        const auto length = static_cast<std::size_t>(static_cast<unsigned char>(all[at]));
-        comment += all.substr(at + 1, length);
-        at += 1 + length;
-    }
-    return comment;
-}
-
-TEST_F(Loop, EveryFormatSaysWhatItShowsAndHow) {
-    commit_three();
-    std::vector<std::string> arguments = {"KBGM"};
-    for (const char* name : {"a.webp", "a.gif", "a.apng", "a.mp4", "a.webm", "a/"}) {
-        arguments.emplace_back("-o");
-        arguments.push_back(out(name));
-    }
-    const auto result = run(arguments);
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto text_of = [&](const std::string& name) {
-        const auto bytes = *read_file(out(name));
-        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    };
-    std::map<std::string, std::string> texts = {
-        {"webp", render::decode_webp(out("a.webp")).metadata.at("XMP")},
-        {"gif", gif_comment(out("a.gif"))},
-        {"mp4", text_of("a.mp4")},
-        {"webm", text_of("a.webm")}};
-    for (const char* png : {"a.apng", "a/frame_0000.png", "a/frame_0002.png"}) {
-        for (const auto& [keyword, text] : png_texts(out(png)))
-            texts[png] += keyword + ": " + text + "\n";
-        if (std::string(png) == "a/frame_0002.png") continue;
-        EXPECT_EQ(png_texts(out(png))["Stations"], "");  // this grid names none
-    }
-    for (const auto& [name, text] : texts) {
-        SCOPED_TRACE(name);
-        for (const char* line :
-             {"Title: KBGM 2005-08-22T02:44:00Z to 2005-08-22T02:56:00Z",
-              "First time: 2005-08-22T02:44:00Z", "Last time: 2005-08-22T02:56:00Z", "Frames: 3",
-              "Domain: KBGM", "Product: volume", "Moment: REF", "Units: dBZ",
-              "Grid: 40 x 40 x 32 cells of 1 km, azimuthal_equidistant",
-              "Picture: 796 x 532 pixels, 16 slices, ", "Software: stormcellar "}) {
-            EXPECT_THAT(text, HasSubstr(line));
-        }
-    }
-    for (const char c : texts["gif"])
-        EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~'));
-    const auto bytes = text_of("a.gif") + text_of("a.webp") + text_of("a.apng");
-    ASSERT_EQ(run(arguments).status, 0);
-    EXPECT_EQ(bytes, text_of("a.gif") + text_of("a.webp") + text_of("a.apng"));
-}
-
-TEST_F(Loop, APlannedPicturesErrorIsInItsFile) {
-    commit_three();
-    const auto result = run({"KBGM", "--tolerance", "dE 5", "--width", "200", "--height", "150",
-                             "--no-labels", "-o", out("a.gif")});
-    ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("Picture error: tolerance dE 5"));
-    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("predicted dE "));
-}
-
-TEST_F(Loop, FramesOfADamagedGridAreNotCounted) {
-    commit_three();
-    fs::resize_file(grids_[0], 100);
-    ASSERT_EQ(run({"KBGM", "-o", out("a.gif")}).status, 0);
-    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("First time: 2005-08-22T02:50:00Z"));
-    EXPECT_THAT(gif_comment(out("a.gif")), HasSubstr("Frames: 2\n"));
-}
-
-// Whatever is in the grids, colours mean the same in each frame.
 TEST_F(Loop, ColoursAndViewAreThoseOfAllFrames) {
     commit("20050822_024400", 5);
     commit("20050822_025000", 70);

@@ -114,9 +114,9 @@ TEST_F(LoopKeeperTest, OnlyWhatChangesIsStoppedAndStarted) {
         if (start.find("BBBB") != std::string::npos) b = process_of(start);
         if (start.find("CCCC") != std::string::npos) c = process_of(start);
     }
-    keeper_->set({loop("a", "AAAA"), loop("b", "XXXX")});
+    keeper_->set({loop("a", "AAAA"), loop("b", "ZZZZ")});
     ASSERT_TRUE(wait_for([&] { return starts().size() == 4; }));
-    EXPECT_THAT(starts().back(), HasSubstr("XXXX"));
+    EXPECT_THAT(starts().back(), HasSubstr("ZZZZ"));
     ASSERT_TRUE(wait_for([&] { return ::kill(c, 0) != 0; }));
     EXPECT_NE(::kill(b, 0), 0) << "the new one waits for the end of the old one";
     EXPECT_EQ(::kill(a, 0), 0) << "goes on undisturbed";

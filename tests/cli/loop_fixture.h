@@ -1,0 +1,84 @@
+// tests/cli/loop_fixture.h -- a cache of small grids, and `stormcellar loop` run as a user runs it.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cache/store.h"
+#include "grid/brick_grid.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar {
+
+namespace fs = std::filesystem;
+
+class Loop : public ::testing::Test {
+  protected:
+    void commit(const std::string& compact_time, float dbz, int cells = 40) {
+        grid::Grid grid;
+        grid.spec = grid::default_spec(42.2, -75.98);
+        grid.spec.nx = grid.spec.ny = cells;
+        grid.time = grid.start_time = grid.end_time = parse_compact(compact_time).value();
+        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
+        grid.values.assign(grid.spec.cell_count(), dbz);
+        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+        const auto path = store_.commit("KBGM", cache::describe(grid), bricks.view());
+        ASSERT_TRUE(path) << path.error().message;
+        grids_.push_back(*path);
+    }
+    void commit_three() {
+        commit("20050822_024400", 22);
+        commit("20050822_025000", 33);
+        commit("20050822_025600", 44);
+    }
+    testing::ProgramResult run(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(),
+                         {"loop", "--cache", (directory_ / "cache").string(), "--slices", "16"});
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    }
+    [[nodiscard]] std::string out(const std::string& name) const {
+        return (directory_ / "out" / name).string();
+    }
+    [[nodiscard]] std::vector<std::string> written() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(directory_ / "out"))
+            names.push_back(entry.path().filename());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+    void SetUp() override { fs::create_directory(directory_ / "out"); }
+
+    testing::TemporaryDirectory directory_;
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    std::vector<fs::path> grids_;
+};
+
+// Of a PNG or APNG, by keyword.
+inline std::map<std::string, std::string> png_texts(const std::string& path) {
+    const auto bytes = *read_file(path);
+    const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::map<std::string, std::string> texts;
+    for (std::size_t at = 8; at + 12 <= all.size();) {
+        const auto byte = [&](std::size_t i) {
+            return static_cast<std::size_t>(static_cast<unsigned char>(all[at + i]));
+        };
+        const std::size_t length = byte(0) << 24U | byte(1) << 16U | byte(2) << 8U | byte(3);
+        const std::string data = all.substr(at + 8, length);
+        if (all.substr(at + 4, 4) == "tEXt") {
+            texts[data.substr(0, data.find('\0'))] = data.substr(data.find('\0') + 1);
+        }
+        at += 12 + length;
+    }
+    return texts;
+}
+
+}  // namespace stormcellar
