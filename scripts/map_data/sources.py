@@ -3,6 +3,7 @@ import collections
 import json
 import math
 import pathlib
+import struct
 
 from . import lines
 
@@ -10,7 +11,8 @@ from . import lines
 REGIONS = [(-180, 15.5, -50, 74), (170, 48, 180, 74), (141, 9, 150, 20), (122, 22, 136, 44),
            (-34, 34, -21, 43)]
 GREAT_LAKES = (-92.7, 41.2, -75.9, 49.2)
-SAME_LINE_M = 1500  # nearer than this, a shore of the Census is a line of Natural Earth's
+SAME_LINE_M = 1500  # nearer than this, a shore of the Census is a line of Natural Earth's at 1:10 million
+SAME_SHORE_M = 5000  # the same between the Census' shores and those of Natural Earth at 1:50 million
 
 
 def topology(path):
@@ -80,9 +82,12 @@ def countries(directory):
 
 
 class Nearness:
-    """How far a point is from lines, up to SAME_LINE_M."""
+    """Whether a point is within some metres of lines in a box (west, south, east, north)."""
 
-    def __init__(self, lines_, box):
+    CELLS_PER_DEGREE = 10
+
+    def __init__(self, lines_, box, distance_m):
+        self.distance_m = distance_m
         self.cells = collections.defaultdict(list)
         for line in lines_:
             for one, other in zip(line, line[1:]):
@@ -91,13 +96,16 @@ class Nearness:
                     for i in range(steps):
                         x = one[0] + (other[0] - one[0]) * i / steps
                         y = one[1] + (other[1] - one[1]) * i / steps
-                        self.cells[(int(x * 20), int(y * 20))].append((x, y))
+                        self.cells[self.cell(x, y)].append((x, y))
+
+    def cell(self, x, y):
+        return (math.floor(x * self.CELLS_PER_DEGREE), math.floor(y * self.CELLS_PER_DEGREE))
 
     def is_near(self, point):
         east = lines.METRES_PER_DEGREE * math.cos(math.radians(point[1]))
-        cx, cy = int(point[0] * 20), int(point[1] * 20)
+        cx, cy = self.cell(*point)
         return any(math.hypot((x - point[0]) * east,
-                              (y - point[1]) * lines.METRES_PER_DEGREE) < SAME_LINE_M
+                              (y - point[1]) * lines.METRES_PER_DEGREE) < self.distance_m
                    for i in (-1, 0, 1) for j in (-1, 0, 1)
                    for x, y in self.cells.get((cx + i, cy + j), ()))
 
@@ -106,7 +114,7 @@ def united_states(directory, border):
     """Counties, states, and the shores of the Great Lakes, where the Census' counties end."""
     arcs, objects = topology(pathlib.Path(directory) / "counties-10m.json")
     county, state, shore = [], [], []
-    near = Nearness(border, GREAT_LAKES)
+    near = Nearness(border, GREAT_LAKES, SAME_LINE_M)
     box = GREAT_LAKES
 
     def is_shore(one, other):
@@ -123,25 +131,34 @@ def united_states(directory, border):
     return lines.joined(county), lines.joined(state), lines.joined(shore)
 
 
-def lakes(path):
-    with open(path, encoding="utf-8") as file:
-        features = json.load(file)["features"]
+def polylines(path):
+    """The lines of a file NAME.L of R's package maps: longitude and latitude as floats in radians."""
+    data = pathlib.Path(path).read_bytes()
+    count = struct.unpack_from("<ii", data)[1]
+    for index in range(count):
+        offset, points = struct.unpack_from("<II", data, 8 + 28 * index)
+        radians = struct.unpack_from(f"<{2 * points}f", data, offset)
+        degrees = [round(math.degrees(value), 5) for value in radians]
+        yield list(zip(degrees[::2], degrees[1::2]))
+
+
+def lakes(directory, coast, shore):
+    """Natural Earth's large lakes, without what the finer coast and shore already have."""
+    box = (-180, 15, -50, 74)
+    known = Nearness(coast + shore, box, SAME_SHORE_M)
+
+    def is_new(one, other):
+        return not known.is_near(one) and not known.is_near(other)
+
     found = []
-    for feature in features:
-        geometry = feature["geometry"]
-        polygons = geometry["coordinates"]
-        if geometry["type"] == "Polygon":
-            polygons = [polygons]
-        for polygon in polygons:
-            for ring in polygon:
-                found.extend(cut_to_regions([tuple(p[:2]) for p in ring]))
-    return found
+    for line in polylines(pathlib.Path(directory) / "lakes.L"):
+        for part in cut_to_regions(line):
+            found.extend(runs(part, is_new))
+    return lines.joined(found)
 
 
 def read_layers(options):
     coast, border = countries(options.world_atlas)
     county, state, shore = united_states(options.us_atlas, border)
-    if options.lakes:
-        shore = lakes(options.lakes)
-    return {"coast": coast, "country": border, "county": county,
-            "state": state, "lake": shore}
+    return {"coast": coast, "country": border, "county": county, "state": state,
+            "lake": shore + lakes(options.r_maps, coast, shore)}

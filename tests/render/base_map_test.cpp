@@ -196,6 +196,11 @@ TEST(BaseMap, LinesAreWhereTheyAreKnownToBe) {
         {MapKind::coast, {13.6533, 144.8600}, 1.5},     // Ritidian Point, Guam
         {MapKind::lake, {43.3727, -76.6}, 15},          // Lake Ontario's southern shore
         {MapKind::lake, {41.8781, -87.6130}, 2},        // Chicago's lake front
+        {MapKind::lake, {43.7450, -81.7280}, 3},        // Goderich, Ontario, light
+        {MapKind::lake, {43.6289, -79.3947}, 4},        // Toronto, the island's airport
+        {MapKind::lake, {26.9850, -80.6210}, 3},        // Lake Okeechobee, Port Mayaca lock
+        {MapKind::lake, {40.7470, -112.1870}, 4},       // Great Salt Lake, Saltair
+        {MapKind::lake, {50.6310, -97.0400}, 5},        // Lake Winnipeg, Gimli
         {MapKind::county, {35.3772, -97.6700}, 1.5},    // Oklahoma and Cleveland, Canadian
     };
     for (const Known& k : known) {
