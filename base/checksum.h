@@ -3,12 +3,29 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace stormcellar {
 
 // XXH3, 64 bits, seed 0 (xxHash 0.8): guards our own files and detects changed raw files.
 [[nodiscard]] std::uint64_t xxh3_64(std::span<const std::byte> bytes);
+
+// The same of bytes that come one after the other, cut anywhere.
+class Xxh3Stream {
+  public:
+    Xxh3Stream();
+    Xxh3Stream(Xxh3Stream&&) noexcept;
+    Xxh3Stream& operator=(Xxh3Stream&&) noexcept;
+    ~Xxh3Stream();
+
+    void append(std::span<const std::byte> bytes);
+    [[nodiscard]] std::uint64_t value() const;  // of all up to now
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 // CRC-32 as in zlib, to be continued from a previous value (start with 0).
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t previous = 0);

@@ -9,6 +9,7 @@
 #include "cache/directories.h"
 #include "cache/leftover_watch.h"
 #include "cache/roller.h"
+#include "cache/unsynced_files.h"
 
 namespace stormcellar::cache {
 namespace {
@@ -104,7 +105,10 @@ Result<fs::path> Store::path_of(const std::string& domain, level2::Moment moment
 }
 
 Status Store::write(FileSystem& file_system, const fs::path& path,
-                    const GridDescription& description, const grid::BrickView& view) const {
+                    const GridDescription& description, const grid::BrickView& view,
+                    Durability durability) const {
+    UnsyncedFiles unsynced(file_system);
+    FileSystem& files = durability == Durability::power_cut ? file_system : unsynced;
     const fs::path day = path.parent_path();
     const fs::path& moment = day.parent_path();
     for (int tries = 1;; ++tries) {
@@ -113,8 +117,7 @@ Status Store::write(FileSystem& file_system, const fs::path& path,
             if (done) done = make_directory(directory);
         }
         if (done) {
-            if (const auto written =
-                    write_grid_file(file_system, path, description, view, packing_)) {
+            if (const auto written = write_grid_file(files, path, description, view, packing_)) {
                 return {};
             } else {
                 done = pass_on(written);
@@ -126,14 +129,15 @@ Status Store::write(FileSystem& file_system, const fs::path& path,
 
 Result<fs::path> Store::commit_within_budgets(const GridName& name, const fs::path& path,
                                               const GridDescription& description,
-                                              const grid::BrickView& view) const {
+                                              const grid::BrickView& view,
+                                              Durability durability) const {
     const std::uint64_t most = most_bytes_on_disk(description, view, roller_->block_bytes());
     const auto reserved = roller_->reserve(name, most);
     if (!reserved) return pass_on(reserved);
     if (!*reserved) return fs::path{};
     for (int tries = 1;; ++tries) {
         LeftoverWatch watch(*file_system_);
-        Status written = write(watch, path, description, view);
+        Status written = write(watch, path, description, view, durability);
         if (watch.leftover()) roller_->add_leftover(group_of(name.domain), *watch.leftover());
         if (written) return path;
         const bool again = written.error().code == ErrorCode::no_space && tries < most_tries &&
@@ -143,7 +147,7 @@ Result<fs::path> Store::commit_within_budgets(const GridName& name, const fs::pa
 }
 
 Result<fs::path> Store::commit(const std::string& domain, const GridDescription& description,
-                               const grid::BrickView& view) const {
+                               const grid::BrickView& view, Durability durability) const {
     if (file_system_ == nullptr) {
         return fail(ErrorCode::bad_argument, "{}: the cache was opened for reading only",
                     directory_.native());
@@ -152,9 +156,9 @@ Result<fs::path> Store::commit(const std::string& domain, const GridDescription&
     if (!path) return path;
     if (roller_) {
         return commit_within_budgets({domain, description.moment, description.time}, *path,
-                                     description, view);
+                                     description, view, durability);
     }
-    if (Status written = write(*file_system_, *path, description, view); !written) {
+    if (Status written = write(*file_system_, *path, description, view, durability); !written) {
         return pass_on(written);
     }
     return path;

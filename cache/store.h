@@ -69,6 +69,14 @@ struct StoreUsage {
 
 class Roller;
 
+// What a grid that has been committed survives.
+enum class Durability {
+    power_cut,
+    // Of the system: readers see it whole or not at all, but after a power cut the file may be
+    // damaged, or the one before it stand. For what is replaced in seconds and can be made again.
+    until_a_crash,
+};
+
 class Store {
   public:
     // Creates the directory when it is missing. sweep_temporary: remove leftovers of a killed
@@ -91,11 +99,13 @@ class Store {
     // is no domain's name, for a store that was opened for reading, and as write_grid_file.
     // over_budget for the newest grid of its domain, or a pinned one, when there is no room for it:
     // the newest stay until a newer one stands, so a budget must hold two of each domain. On
-    // success the grid survives a power cut, new directories included. On a full disk the oldest
-    // grids go, where a budget of bytes or percent is set; no_space when that does not help.
+    // success the grid survives a power cut (unless less is asked for), new directories included.
+    // On a full disk the oldest grids go, where a budget of bytes or percent is set; no_space when
+    // that does not help.
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
-                                         const grid::BrickView& view) const;
+                                         const grid::BrickView& view,
+                                         Durability durability = Durability::power_cut) const;
     // Whether the budgets would keep a grid of this time, if it is as large as others are on
     // average. For asking before long work; commit() decides.
     [[nodiscard]] bool would_keep(const std::string& domain, level2::Moment moment,
@@ -128,11 +138,13 @@ class Store {
     Store(FileSystem* file_system, std::filesystem::path directory);
     Status make_directory(const std::filesystem::path& directory) const;
     Status write(FileSystem& file_system, const std::filesystem::path& path,
-                 const GridDescription& description, const grid::BrickView& view) const;
+                 const GridDescription& description, const grid::BrickView& view,
+                 Durability durability) const;
     Result<std::filesystem::path> commit_within_budgets(const GridName& name,
                                                         const std::filesystem::path& path,
                                                         const GridDescription& description,
-                                                        const grid::BrickView& view) const;
+                                                        const grid::BrickView& view,
+                                                        Durability durability) const;
 
     FileSystem* file_system_;  // null: opened for reading
     std::filesystem::path directory_;

@@ -36,6 +36,12 @@ class GrowingVolume::Reader {
     std::vector<LiveSweep> take_sweeps();
     Volume facts() const;
     bool has_ended() const;
+    bool has_last_radial() const { return volume_.volume_has_ended(); }
+    bool is_of_records() const { return kind_ == Kind::records; }
+    bool holds_several() const { return !volume_.so_far_holds_one(); }
+    std::size_t droppable_sweeps() const;
+    void drop_sweep(std::size_t index) { volume_.drop_sweep(index); }
+    void put_back(std::size_t index, Sweep sweep) { volume_.put_back(index, std::move(sweep)); }
     Result<Decoded> finish();
     // There is no memory for it.
     Status give_up() { return failed_ = no_memory(); }
@@ -169,6 +175,12 @@ std::vector<LiveSweep> GrowingVolume::Reader::take_sweeps() {
     return taken;
 }
 
+// The last one is looked at by whatever comes next, closed or not.
+std::size_t GrowingVolume::Reader::droppable_sweeps() const {
+    const std::size_t count = volume_.so_far().sweeps.size();
+    return std::min(next_sweep_, count == 0 ? 0 : count - 1);
+}
+
 Volume GrowingVolume::Reader::facts() const {
     return volume_.facts(options_.fallback_station);
 }
@@ -223,6 +235,30 @@ Volume GrowingVolume::facts() const {
 
 bool GrowingVolume::has_ended() const {
     return reader_->has_ended();
+}
+
+bool GrowingVolume::has_last_radial() const {
+    return reader_->has_last_radial();
+}
+
+bool GrowingVolume::is_of_records() const {
+    return reader_->is_of_records();
+}
+
+bool GrowingVolume::holds_several() const {
+    return reader_->holds_several();
+}
+
+std::size_t GrowingVolume::droppable_sweeps() const {
+    return reader_->droppable_sweeps();
+}
+
+void GrowingVolume::drop_sweep(std::size_t index) {
+    reader_->drop_sweep(index);
+}
+
+void GrowingVolume::put_back(std::size_t index, Sweep sweep) {
+    reader_->put_back(index, std::move(sweep));
 }
 
 Result<Decoded> GrowingVolume::finish() {

@@ -40,6 +40,20 @@ class GrowingVolume {
     // negative and there are radials. More may follow all the same.
     [[nodiscard]] bool has_ended() const;
 
+    // The newest radial is marked so, whatever the control words say.
+    [[nodiscard]] bool has_last_radial() const;
+    // LDM records: what is appended is decoded at once and not held until the end.
+    [[nodiscard]] bool is_of_records() const;
+    // A further volume has begun in the file.
+    [[nodiscard]] bool holds_several() const;
+
+    // To hold less: sweeps below this index are closed and were handed out, and what take_sweeps()
+    // gave last of each is what the volume holds. They may be dropped, each once, and must be put
+    // back, bit for bit, before finish().
+    [[nodiscard]] std::size_t droppable_sweeps() const;
+    void drop_sweep(std::size_t index);
+    void put_back(std::size_t index, Sweep sweep);
+
     [[nodiscard]] Result<Decoded> finish();
 
   private:

@@ -53,10 +53,15 @@ class VolumeBuilder {
     void set_incomplete() { incomplete_ = true; }
     // What there is up to now. The last sweep may go on, and its rows may be too few or too long.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
+    [[nodiscard]] bool so_far_holds_one() const { return report_.further_volume_starts.empty(); }
     // A sweep of so_far() with its rows made whole.
     [[nodiscard]] Sweep whole_sweep(std::size_t index) const;
     // So many of the sweeps are closed by what follows.
     [[nodiscard]] std::size_t closed_sweeps() const;
+    // Gives up the arrays of a closed sweep that is not the last; another of them must be put back
+    // in its place before finish().
+    void drop_sweep(std::size_t index) { volume_.sweeps.at(index) = {}; }
+    void put_back(std::size_t index, Sweep sweep) { volume_.sweeps.at(index) = std::move(sweep); }
     // The sweep behind these has had its last radial by its status; more may follow all the same.
     [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }

@@ -1,10 +1,9 @@
 #include "pipeline/ingest.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -12,17 +11,13 @@
 
 #include "base/checksum.h"
 #include "base/file_system.h"
-#include "grid/audit.h"
-#include "grid/brick_grid.h"
-#include "grid/column_geometry.h"
-#include "grid/position_error.h"
 #include "level2/decode.h"
 #include "level2/message_2.h"
 #include "level2/volume_checks.h"
 #include "pipeline/file_facts.h"
-#include "pipeline/geometry_cache.h"
-#include "pipeline/keep_rule.h"
+#include "pipeline/living_files.h"
 #include "pipeline/mosaic_keeper.h"
+#include "pipeline/site_grids.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -31,9 +26,6 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
-
-// A geometry of the default grid takes a few MiB.
-constexpr std::size_t kept_geometries = 16;
 
 // Counts a file in while it is worked on.
 class Running {
@@ -56,27 +48,18 @@ bool has_moment(const level2::Volume& volume, level2::Moment moment) {
                        [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
 }
 
+// All that anything is made of.
+std::vector<level2::Moment> moments_of(const IngestOptions& options) {
+    std::vector<level2::Moment> moments = {options.moment};
+    for (const Domain& domain : options.domains)
+        moments.insert(moments.end(), domain.moments.begin(), domain.moments.end());
+    return moments;
+}
+
 // The reason without the path that begins it: the catalog has the path beside it.
 std::string without_path(const std::string& message, const fs::path& path) {
     const std::string start = path.native() + ": ";
     return message.starts_with(start) ? message.substr(start.size()) : message;
-}
-
-void note_position(const level2::Volume& volume, IngestOutcome& outcome) {
-    if (level2::antenna_position(volume) && !volume.station.empty()) return;
-    outcome.result = IngestResult::no_position;
-    outcome.reason = "neither the file nor the station table says where the radar stands";
-}
-
-void note_not_kept(IngestOutcome& outcome) {
-    ++outcome.not_kept;
-    outcome.reason = "older than what the cache keeps";
-}
-
-// Whether another try cannot help: the fault lies in what the file says.
-bool is_of_the_data(const Error& error) {
-    return error.code == ErrorCode::bad_argument || error.code == ErrorCode::corrupt ||
-           error.code == ErrorCode::unsupported;
 }
 
 // What was met in reading a file, in any of its volumes.
@@ -98,16 +81,26 @@ struct Ingestor::Impl {
         : catalog(its_catalog),
           store(its_store),
           options(std::move(its_options)),
-          mosaics(store, options.domains, options.frames) {}
+          mosaics(store, options.domains, options.frames) {
+        if (store == nullptr) return;
+        site_grids.emplace(*store, options);
+        if (!options.living.scratch.empty()) {
+            living.emplace(LivingFile::Options{
+                .selection = {moments_of(options), {}},
+                .moment = options.moment,
+                .fallback_station = {},
+                .scratch = options.living.scratch,
+            });
+        }
+    }
 
     catalog::Catalog& catalog;
     const cache::Store* store;  // none: files are only registered
     IngestOptions options;
-    GeometryCache geometries{kept_geometries};
     MosaicKeeper mosaics;
+    std::optional<SiteGrids> site_grids;  // where there is a cache
+    std::optional<LivingFiles> living;    // where files are followed as they grow
     std::atomic<int> running{0};
-    std::array<std::mutex, 16>
-        commits;  // one at a time for each grid file, by the hash of its path
 
     Result<IngestOutcome> read_and_take_in(const fs::path& path, const FileStamp& before,
                                            bool finish_partial, IngestOutcome outcome);
@@ -117,12 +110,12 @@ struct Ingestor::Impl {
     Result<IngestOutcome> grid_all(const FileFacts& facts,
                                    const std::vector<level2::Volume>& volumes,
                                    const Reading& reading, IngestOutcome outcome);
-    Status grid_one(const FileFacts& facts, const level2::Volume& volume, const Reading& reading,
-                    IngestOutcome& outcome);
-    Result<fs::path> commit(grid::Grid& made, const level2::Volume& volume,
-                            const grid::GridderOptions& gridder, IngestOutcome& outcome);
     Status keep_mosaics(const FileFacts& facts, const level2::Volume& volume,
                         const Reading& reading, IngestOutcome& outcome);
+    std::optional<Result<IngestOutcome>> follow(const fs::path& path, const FileStamp& before,
+                                                bool finish_partial, IngestOutcome outcome);
+    Result<IngestOutcome> show_living(const FileFacts& file, LivingFile& living_file,
+                                      IngestOutcome outcome);
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
 };
 
@@ -148,57 +141,6 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string
     outcome.station = facts.station;
     outcome.reason = rejected.reason;
     return outcome;
-}
-
-// Grids one volume and commits it. A volume whose radar nobody can place has no grid.
-Status Ingestor::Impl::grid_one(const FileFacts& facts, const level2::Volume& volume,
-                                const Reading& reading, IngestOutcome& outcome) {
-    const auto antenna = level2::antenna_position(volume);
-    if (!antenna || volume.station.empty()) {
-        note_position(volume, outcome);
-        return {};
-    }
-    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                                  antenna->altitude_m};
-    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
-    const UtcTime time = volume.start_time().value_or(UtcTime{});
-    if (!store->would_keep(site.icao, options.moment, time)) {
-        note_not_kept(outcome);
-        return {};
-    }
-    spec.spacing_m = options.spacing_m;
-    spec.nx = options.nx;
-    spec.ny = options.ny;
-    if (!options.levels_m.empty()) spec.levels_m = options.levels_m;
-
-    const auto start = Clock::now();
-    const auto geometry = geometries.get(site, spec);
-    if (!geometry) return pass_on(geometry);
-    grid::GridderOptions gridder;
-    gridder.moment = options.moment;
-    gridder.threads = share_of(options.grid_threads);
-    auto made = grid::make_grid(volume, site, **geometry, gridder);
-    if (!made) return pass_on(made);
-    made->provenance.predicted_error =
-        grid::unplanned_error(volume, site, spec, (*geometry)->frame_kind(), gridder);
-    made->provenance.source_files = {facts.path.filename().string()};
-    made->provenance.source_modified_ns = facts.modified_ns;
-    made->provenance.partial = reading.damaged || !level2::is_complete(volume);
-    made->provenance.radar_troubles = reading.troubles_of(site.icao);
-    if (antenna->disagreement) made->provenance.notes.push_back(*antenna->disagreement);
-    outcome.grid_s += seconds_since(start);
-    outcome.partial = outcome.partial || made->provenance.partial;
-
-    const auto commit_start = Clock::now();
-    auto path = commit(*made, volume, gridder, outcome);
-    outcome.commit_s += seconds_since(commit_start);
-    if (!path) return pass_on(path);
-    if (path->empty()) {
-        note_not_kept(outcome);
-    } else {
-        outcome.grids.push_back(std::move(*path));
-    }
-    return {};
 }
 
 // What a domain cannot use is no reason to reject the file, whose own grid stands.
@@ -227,24 +169,6 @@ Status Ingestor::Impl::keep_mosaics(const FileFacts& facts, const level2::Volume
     return {};
 }
 
-// A grid that cannot be audited is as good as others: nothing is known of it then.
-Result<fs::path> Ingestor::Impl::commit(grid::Grid& made, const level2::Volume& volume,
-                                        const grid::GridderOptions& gridder,
-                                        IngestOutcome& outcome) {
-    const std::string& domain = made.sites.front().icao;
-    auto path = store->path_of(domain, made.moment, made.time);
-    if (!path) return path;
-    const auto bricks = grid::BrickGrid::from(made, grid::default_quantization(options.moment));
-    const auto audited = grid::audit(bricks.view(), volume, made.sites.front(), gridder);
-    if (audited) made.provenance.audit = audited->rows;
-    const std::scoped_lock lock(commits.at(fs::hash_value(*path) % commits.size()));
-    if (auto reason = reason_to_keep(*path, cache::describe(made))) {
-        outcome.reason = std::move(*reason);
-        return path;
-    }
-    return store->commit(domain, cache::describe(made), bricks.view());
-}
-
 // Grids first, then settles the catalog's row: a crash between the two makes the work be done
 // again, never lost.
 Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
@@ -254,9 +178,14 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
     for (const level2::Volume& volume : volumes) {
         if (store == nullptr) continue;
         if (!options.own_grids) {
-            note_position(volume, outcome);
+            (void)SiteGrids::has_place(volume, outcome);
         } else if (has_moment(volume, options.moment)) {
-            if (const Status gridded = grid_one(facts, volume, reading, outcome); !gridded) {
+            const bool partial = reading.damaged || !level2::is_complete(volume);
+            const GridSource source{facts.path.filename().string(), facts.modified_ns, partial,
+                                    reading.troubles_of(volume.station)};
+            const Status gridded =
+                site_grids->keep(volume, source, share_of(options.grid_threads), outcome);
+            if (!gridded) {
                 if (!is_of_the_data(gridded.error())) return pass_on(gridded);
                 return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
             }
@@ -305,12 +234,85 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
     return grid_all(facts, volumes, reading, std::move(outcome));
 }
 
+// What has come of a volume that has not ended: for the catalog, and as a living grid.
+Result<IngestOutcome> Ingestor::Impl::show_living(const FileFacts& file, LivingFile& living_file,
+                                                  IngestOutcome outcome) {
+    outcome.result = IngestResult::incomplete;
+    const KeptVolume& kept = living_file.kept();
+    if (!living_file.has_news() || living_file.holds_several()) return outcome;
+    FileFacts facts = file;
+    facts.station = kept.facts.station;
+    facts.content_hash = living_file.content_hash();
+    facts.state = FileState::seen;
+    catalog::VolumeFacts volume_facts = facts_of(kept.facts);
+    volume_facts.sweep_count = static_cast<int>(kept.places.size());
+    volume_facts.radial_count = static_cast<int>(living_file.radials());
+    volume_facts.end_time = living_file.newest();
+    facts.volumes.push_back(volume_facts);
+    if (const auto registered = catalog.register_file(facts); !registered) {
+        return pass_on(registered);
+    }
+    outcome.station = facts.station;
+    outcome.volume_time = volume_facts.start_time;
+    if (!options.own_grids || (options.living.has_time && !options.living.has_time())) {
+        return outcome;  // with the next sweep, or when the volume has ended
+    }
+    living_file.set_shown();
+    const auto last = living->last_of(kept.facts.station);
+    std::size_t standing = 0;
+    const auto volume = living_volume(kept, last.get(), &standing);
+    if (!volume) return outcome;
+    GridSource source{facts.path.filename().string(), facts.modified_ns, true};
+    source.notes.push_back(fmt::format("living: {} sweeps have come, {} of the last volume stand",
+                                       volume->sweeps.size() - standing, standing));
+    const Status shown =
+        site_grids->keep_living(*volume, source, share_of(options.grid_threads), outcome);
+    if (!shown && !is_of_the_data(shown.error())) return pass_on(shown);
+    return outcome;
+}
+
+// None: the file is to be read as a whole.
+std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path,
+                                                            const FileStamp& before,
+                                                            bool finish_partial,
+                                                            IngestOutcome outcome) {
+    if (!living || !before.regular) return std::nullopt;
+    std::shared_ptr<LivingFile> file = living->find(path);
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_name(path);
+    facts.size_bytes = before.size_bytes;
+    facts.modified_ns = before.modified_ns;
+    if (!file && !finish_partial && LivingFile::is_growing(path)) {
+        file = living->begin(path, facts.station);
+    }
+    if (!file) return std::nullopt;
+    const auto start = Clock::now();
+    const bool has_ended = file->read_to(before.size_bytes) && file->has_ended();
+    outcome.decode_s = seconds_since(start);
+    if (!file->is_whole()) {
+        living->forget(path);
+        return std::nullopt;
+    }
+    living->grew(path, *file);
+    if (!has_ended && !finish_partial) return show_living(facts, *file, std::move(outcome));
+    living->forget(path);
+    facts.content_hash = file->content_hash();
+    auto decoded = file->finish();
+    outcome.decode_s = seconds_since(start);
+    if (!decoded) return std::nullopt;
+    auto taken = take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
+    if (taken) living->keep_last(file->take_kept());
+    return taken;
+}
+
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
     const Running running(impl_->running);
     IngestOutcome outcome;
     const auto before = stamp_of(path);
     if (!before) {
         if (before.error().code != ErrorCode::not_found) return pass_on(before);
+        if (impl_->living) impl_->living->forget(path);
         if (const auto marked = impl_->catalog.mark_gone(path); !marked) return pass_on(marked);
         outcome.result = IngestResult::vanished;
         return outcome;
@@ -320,6 +322,9 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     if (*settled) {
         outcome.result = IngestResult::unchanged;
         return outcome;
+    }
+    if (auto followed = impl_->follow(path, *before, finish_partial, outcome)) {
+        return std::move(*followed);
     }
     return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,16 @@
 
 namespace stormcellar::pipeline {
 
+// Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
+// theirs has come.
+struct LivingGrids {
+    // A directory for what they put aside, in files without names; empty: none are made.
+    std::filesystem::path scratch;
+    // Asked before each: false while there is more urgent work. The sweeps are in the next one.
+    // Empty: there is always time.
+    std::function<bool()> has_time;
+};
+
 struct IngestOptions {
     level2::Moment moment = level2::Moment::ref;
     double spacing_m = 1000;
@@ -36,6 +47,7 @@ struct IngestOptions {
     // one alone has all.
     int decode_threads = 1;
     int grid_threads = 1;
+    LivingGrids living;
 };
 
 enum class IngestResult {
@@ -59,6 +71,7 @@ struct IngestOutcome {
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
+    std::vector<std::filesystem::path> living;    // of volumes that have not ended
     int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };

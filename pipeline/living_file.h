@@ -1,0 +1,106 @@
+// pipeline/living_file.h -- one file whose volume is still growing, decoded once.
+//
+// What has been appended since the last look is read and decoded; sweeps that have closed are put
+// aside (pipeline/sweep_shelf.h), so that little is held. finish() gives what decoding the whole
+// file gives, of the moments that were selected, bit for bit; it reads the file once more to see
+// that it is still the one that was followed.
+// Only files of LDM records are followed: others are held whole anyway until their end.
+// Errors mean that the file must be taken as a whole, and are final.
+// Inside the pipeline room only. Thread contract: one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/checksum.h"
+#include "base/result.h"
+#include "level2/growing_volume.h"
+#include "pipeline/sweep_shelf.h"
+
+namespace stormcellar::pipeline {
+
+// The sweeps of a volume, put aside; const once the volume has ended.
+struct KeptVolume {
+    level2::Volume facts;  // without sweeps
+    std::string source_file;
+    std::unique_ptr<SweepShelf> shelf;
+    std::map<std::size_t, SweepShelf::Place> places;  // by index in the volume
+    struct Kept {
+        bool has_moment = false;
+        double elevation_deg = 0;  // mean
+    };
+    std::map<std::size_t, Kept> sweeps;
+};
+
+class LivingFile {
+  public:
+    struct Options {
+        level2::Selection selection;
+        level2::Moment moment = level2::Moment::ref;  // of living grids
+        std::string fallback_station;
+        std::filesystem::path scratch;
+    };
+
+    // Whether to follow the file: LDM records, of which the last is not there yet. Reads the
+    // lengths of its records.
+    [[nodiscard]] static bool is_growing(const std::filesystem::path& path);
+    static Result<std::unique_ptr<LivingFile>> begin(const std::filesystem::path& path,
+                                                     const Options& options);
+
+    // Reads and decodes up to this size. not_found when the file is gone.
+    [[nodiscard]] Status read_to(std::uint64_t size_bytes);
+    // No read has failed.
+    [[nodiscard]] bool is_whole() const { return is_whole_; }
+    // Its last radial has come.
+    [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
+    // Sweeps have come that no living grid shows yet.
+    [[nodiscard]] bool has_news() const { return has_news_; }
+    void set_shown() { has_news_ = false; }
+    // Station, pattern and position, and the sweeps that have closed; radials counts all theirs.
+    [[nodiscard]] const KeptVolume& kept() const { return *kept_; }
+    [[nodiscard]] std::size_t radials() const { return radials_; }
+    [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
+    [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
+    [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
+    // On the shelf, and in memory, about.
+    [[nodiscard]] std::uint64_t shelf_bytes() const { return kept_->shelf->bytes(); }
+    [[nodiscard]] std::uint64_t held_bytes() const { return held_bytes_; }
+
+    [[nodiscard]] Result<level2::Decoded> finish();
+    // After finish(), for the next volume of the site.
+    [[nodiscard]] std::shared_ptr<const KeptVolume> take_kept() { return std::move(kept_); }
+
+  private:
+    LivingFile(std::filesystem::path path, const Options& options);
+    Status read_on(std::uint64_t size_bytes);
+    Status take(std::span<const std::byte> bytes);
+    Status shelve_new_sweeps();
+    Status is_as_followed() const;
+
+    std::filesystem::path path_;
+    level2::Moment moment_;
+    level2::GrowingVolume growing_;
+    std::unique_ptr<KeptVolume> kept_;
+    std::size_t dropped_ = 0;  // sweeps below are on the shelf alone
+    Xxh3Stream hash_;
+    std::uint64_t inode_ = 0, read_bytes_ = 0, held_bytes_ = 0;
+    std::size_t radials_ = 0;
+    std::map<std::size_t, std::size_t> radials_of_;
+    std::optional<UtcTime> newest_;
+    bool has_news_ = false;
+    bool is_whole_ = true;
+};
+
+// The sweeps of a volume that is still growing, and before them those of the site's last volume
+// whose elevation has not come again: within 0.2 degrees. None of these when it is more than 20
+// minutes older. Only sweeps with the moment.
+[[nodiscard]] Result<level2::Volume> living_volume(const KeptVolume& growing,
+                                                   const KeptVolume* last,
+                                                   std::size_t* standing = nullptr);
+
+}  // namespace stormcellar::pipeline

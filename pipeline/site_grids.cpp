@@ -1,0 +1,138 @@
+#include "pipeline/site_grids.h"
+
+#include <chrono>
+#include <utility>
+
+#include "grid/audit.h"
+#include "grid/brick_grid.h"
+#include "grid/column_geometry.h"
+#include "grid/position_error.h"
+#include "pipeline/keep_rule.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+bool is_of_the_data(const Error& error) {
+    return error.code == ErrorCode::bad_argument || error.code == ErrorCode::corrupt ||
+           error.code == ErrorCode::unsupported;
+}
+
+void note_not_kept(IngestOutcome& outcome) {
+    ++outcome.not_kept;
+    outcome.reason = "older than what the cache keeps";
+}
+
+bool SiteGrids::has_place(const level2::Volume& volume, IngestOutcome& outcome) {
+    if (level2::antenna_position(volume) && !volume.station.empty()) return true;
+    outcome.result = IngestResult::no_position;
+    outcome.reason = "neither the file nor the station table says where the radar stands";
+    return false;
+}
+
+Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, const GridSource& source,
+                                        int threads) {
+    const auto antenna = level2::antenna_position(volume);
+    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    spec.spacing_m = options_.spacing_m;
+    spec.nx = options_.nx;
+    spec.ny = options_.ny;
+    if (!options_.levels_m.empty()) spec.levels_m = options_.levels_m;
+    const auto geometry = geometries_.get(site, spec);
+    if (!geometry) return pass_on(geometry);
+    Made made;
+    made.gridder.moment = options_.moment;
+    made.gridder.threads = threads;
+    auto gridded = grid::make_grid(volume, site, **geometry, made.gridder);
+    if (!gridded) return pass_on(gridded);
+    made.grid = std::move(*gridded);
+    grid::Provenance& provenance = made.grid.provenance;
+    provenance.predicted_error =
+        grid::unplanned_error(volume, site, spec, (*geometry)->frame_kind(), made.gridder);
+    provenance.source_files = {source.file};
+    provenance.source_modified_ns = source.modified_ns;
+    provenance.partial = source.partial;
+    provenance.radar_troubles = source.radar_troubles;
+    if (antenna->disagreement) provenance.notes.push_back(*antenna->disagreement);
+    provenance.notes.insert(provenance.notes.end(), source.notes.begin(), source.notes.end());
+    return made;
+}
+
+// A grid that cannot be audited is as good as others: nothing is known of it then.
+Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, bool is_living,
+                                   IngestOutcome& outcome) {
+    grid::Grid& grid = made.grid;
+    const std::string& domain = grid.sites.front().icao;
+    auto path = store_.path_of(domain, grid.moment, grid.time);
+    if (!path) return path;
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(options_.moment));
+    if (!is_living) {
+        const auto audited = grid::audit(bricks.view(), volume, grid.sites.front(), made.gridder);
+        if (audited) grid.provenance.audit = audited->rows;
+    }
+    const std::scoped_lock lock(commits_.at(fs::hash_value(*path) % commits_.size()));
+    if (auto reason = reason_to_keep(*path, cache::describe(grid))) {
+        outcome.reason = std::move(*reason);
+        return path;
+    }
+    return store_.commit(
+        domain, cache::describe(grid), bricks.view(),
+        is_living ? cache::Durability::until_a_crash : cache::Durability::power_cut);
+}
+
+Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
+                       IngestOutcome& outcome) {
+    if (!has_place(volume, outcome)) return {};
+    if (!store_.would_keep(volume.station, options_.moment,
+                           volume.start_time().value_or(UtcTime{}))) {
+        note_not_kept(outcome);
+        return {};
+    }
+    const auto start = Clock::now();
+    auto made = make(volume, source, threads);
+    if (!made) return pass_on(made);
+    outcome.grid_s += seconds_since(start);
+    outcome.partial = outcome.partial || source.partial;
+
+    const auto commit_start = Clock::now();
+    auto path = commit(*made, volume, false, outcome);
+    outcome.commit_s += seconds_since(commit_start);
+    if (!path) return pass_on(path);
+    if (path->empty()) {
+        note_not_kept(outcome);
+    } else {
+        outcome.grids.push_back(std::move(*path));
+    }
+    return {};
+}
+
+Status SiteGrids::keep_living(const level2::Volume& volume, const GridSource& source, int threads,
+                              IngestOutcome& outcome) {
+    const bool has_place = level2::antenna_position(volume) && !volume.station.empty();
+    if (!has_place || !store_.would_keep(volume.station, options_.moment,
+                                         volume.start_time().value_or(UtcTime{}))) {
+        return {};
+    }
+    const auto start = Clock::now();
+    auto made = make(volume, source, threads);
+    if (!made) return pass_on(made);
+    outcome.grid_s += seconds_since(start);
+    const auto commit_start = Clock::now();
+    auto path = commit(*made, volume, true, outcome);
+    outcome.commit_s += seconds_since(commit_start);
+    if (!path) return pass_on(path);
+    if (!path->empty()) outcome.living.push_back(std::move(*path));
+    return {};
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,69 @@
+// pipeline/site_grids.h -- volumes of one site -> grids about it in the cache.
+//
+// Inside the pipeline room only. Thread contract: may be used by many threads at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "cache/store.h"
+#include "grid/gridder.h"
+#include "pipeline/geometry_cache.h"
+#include "pipeline/ingest.h"
+
+namespace stormcellar::pipeline {
+
+// What the grid's provenance is to say of the raw file.
+struct GridSource {
+    std::string file;  // without directories
+    std::int64_t modified_ns = 0;
+    bool partial = false;
+    std::vector<std::string> radar_troubles = {};
+    std::vector<std::string> notes = {};
+};
+
+class SiteGrids {
+  public:
+    SiteGrids(const cache::Store& store, const IngestOptions& options)
+        : store_(store), options_(options) {}
+
+    // Whether somebody knows where the radar stands; if not the outcome says so.
+    [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
+
+    // Grids a volume, audits it and commits the grid, unless a better one stands or the budgets do
+    // not keep it: then the outcome says so. Adds to its grids and times.
+    Status keep(const level2::Volume& volume, const GridSource& source, int threads,
+                IngestOutcome& outcome);
+    // The same of a volume that still grows, in a hurry: not audited, and not synced, for it will
+    // be replaced in seconds and made again after a crash. Adds to the outcome's `living`.
+    Status keep_living(const level2::Volume& volume, const GridSource& source, int threads,
+                       IngestOutcome& outcome);
+
+  private:
+    struct Made {
+        grid::Grid grid;
+        grid::GridderOptions gridder;
+    };
+    Result<Made> make(const level2::Volume& volume, const GridSource& source, int threads);
+    Result<std::filesystem::path> commit(Made& made, const level2::Volume& volume, bool is_living,
+                                         IngestOutcome& outcome);
+
+    const cache::Store& store_;
+    const IngestOptions& options_;
+    // A geometry of the default grid takes a few MiB.
+    static constexpr std::size_t kept_geometries = 16;
+    GeometryCache geometries_{kept_geometries};
+    // One commit at a time for each grid file, by the hash of its path.
+    std::array<std::mutex, 16> commits_;
+};
+
+// Whether another try cannot help: the fault lies in what the file says.
+[[nodiscard]] bool is_of_the_data(const Error& error);
+void note_not_kept(IngestOutcome& outcome);
+
+}  // namespace stormcellar::pipeline
