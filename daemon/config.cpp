@@ -133,6 +133,7 @@ void read_ingest(TomlTable ingest, Config& config) {
             std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     }
     config.ingest.grid_threads = config.ingest.decode_threads;
+    if (const auto living = ingest.flag("living")) config.living = *living;
     read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
     read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
     if (const auto name = ingest.text("moment")) {

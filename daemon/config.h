@@ -28,7 +28,8 @@ struct Config {
     std::filesystem::path cache = "/var/cache/stormcellar";
 
     pipeline::IngestOptions ingest;
-    int workers = 0;  // 0: one a processor; see worker_count()
+    bool living = true;  // volumes are gridded while they grow
+    int workers = 0;     // 0: one a processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};

@@ -8,9 +8,19 @@ IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Confi
     : drop_(config.drop),
       catalog_(std::move(catalog)),
       store_(std::move(store)),
-      ingestor_(catalog_, store_, config.ingest),
+      ingestor_(catalog_, store_, options_of(config, pressed_)),
       mender_(catalog_, store_, ingestor_, config.ingest.moment),
       site_watch_(store_, config.ingest.domains) {}
+
+pipeline::IngestOptions IngestSink::options_of(const Config& config,
+                                               std::shared_ptr<const std::atomic<bool>> pressed) {
+    pipeline::IngestOptions options = config.ingest;
+    if (config.living) {
+        options.living.scratch = config.state;
+        options.living.has_time = [pressed = std::move(pressed)] { return !*pressed; };
+    }
+    return options;
+}
 
 Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
     auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog");

@@ -2,6 +2,7 @@
 // Thread contract: that of Sink.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "daemon/config.h"
@@ -17,6 +18,7 @@ class IngestSink final : public Sink {
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override;
+    void set_pressed(bool pressed) override { *pressed_ = pressed; }
     Result<int> mark_missing() override { return catalog_.mark_missing(drop_); }
     CacheRolled roll_cache(const cache::Budgets& budgets) override;
     std::vector<std::string> take_repairs() override;
@@ -30,7 +32,11 @@ class IngestSink final : public Sink {
   private:
     IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config);
 
+    static pipeline::IngestOptions options_of(const Config& config,
+                                              std::shared_ptr<const std::atomic<bool>> pressed);
+
     std::filesystem::path drop_;
+    std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
     catalog::Catalog catalog_;
     cache::Store store_;
     pipeline::Ingestor ingestor_;

@@ -11,9 +11,9 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::uint32_t wanted = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE |
-                                 IN_DELETE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR |
-                                 IN_DONT_FOLLOW | IN_EXCL_UNLINK;
+constexpr std::uint32_t wanted = IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM |
+                                 IN_CREATE | IN_DELETE | IN_DELETE_SELF | IN_MOVE_SELF |
+                                 IN_ONLYDIR | IN_DONT_FOLLOW | IN_EXCL_UNLINK;
 
 ErrorCode code_of(int error_number) {
     switch (error_number) {

@@ -44,7 +44,8 @@ void Intake::offer(Job job, const FileStamp& stamp) {
 
 void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
     Job job{.path = path, .closed_at = clock_.steady(), .newest_ns = clock_.wall_ns()};
-    if (const auto incomplete_at = growing_.found_incomplete_at(path)) {
+    const auto incomplete_at = growing_.found_incomplete_at(path);
+    if (incomplete_at && !followed_.contains(path)) {
         const SteadyTime earliest = *incomplete_at + reread_;
         if (earliest > clock_.steady()) job.not_before = earliest;
     }
@@ -78,6 +79,7 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
 // refused one is no loss: the row says so when it is next looked at.
 void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
+    followed_.erase(path);
     seen_.forget(path);
     schedule_.offer({.path = path, .closed_at = std::nullopt, .newest_ns = 0});
 }
@@ -121,12 +123,15 @@ void Intake::job_ended(const Finished& finished) {
         return;
     }
     SteadyTime again{};
+    followed_.erase(path);
     switch (finished.taken->ingest.result) {
         case pipeline::IngestResult::incomplete:
-            again = finished.ended + reread_;
+            if (!finished.taken->ingest.followed) again = finished.ended + reread_;
             if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended)) {
                 refused_ = true;
                 seen_.forget(path);
+            } else if (finished.taken->ingest.followed) {
+                followed_.insert(path);
             }
             break;
         case pipeline::IngestResult::vanished:

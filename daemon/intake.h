@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,12 @@ class Intake final : public WatchListener {
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
     void file_created(const std::filesystem::path& path, const FileStamp& stamp) override;
+    [[nodiscard]] bool follows(const std::filesystem::path& path) const override {
+        return followed_.contains(path);
+    }
+    void file_grew(const std::filesystem::path& path, const FileStamp& stamp) override {
+        file_closed(path, stamp);
+    }
     void file_found(const std::filesystem::path& path, const FileStamp& stamp) override;
     void file_gone(const std::filesystem::path& path) override;
     void events_lost() override;
@@ -74,6 +81,8 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
+    // Growing files of which only what is new is read, and so at once.
+    std::set<std::filesystem::path> followed_;
     bool refused_ = false;  // something did not fit since the last scan began
     bool lost_ = false;
     std::uint64_t overflows_ = 0;

@@ -73,7 +73,9 @@ void Service::turn() {
     intake_.poll_growing();
     start_jobs();
     keep_house();
-    idle_ = intake_.pending().waiting == 0;
+    const std::size_t waiting = intake_.pending().waiting;
+    idle_ = waiting == 0;
+    parts_.sink.set_pressed(waiting > static_cast<std::size_t>(config_.worker_count()));
 }
 
 SteadyTime Service::next_time() const {

@@ -124,9 +124,13 @@ void Watcher::handle_file(const DirectoryEvent& event, const std::filesystem::pa
         listener_.file_gone(path);
         return;
     }
+    const bool closed_or_made = (event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE)) != 0;
+    if (!closed_or_made && !listener_.follows(path)) return;
     const FileFound found = look_at(path);
     if (found.standing != Standing::regular) return;
-    if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0) {
+    if (!closed_or_made) {
+        listener_.file_grew(path, found.stamp);
+    } else if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0) {
         listener_.file_closed(path, found.stamp);
     } else if ((event.mask & IN_CREATE) != 0) {
         listener_.file_created(path, found.stamp);

@@ -30,6 +30,11 @@ class WatchListener {
     virtual void file_closed(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // Made here and not closed yet; or a hard link, for which no close ever comes.
     virtual void file_created(const std::filesystem::path& path, const FileStamp& stamp) = 0;
+    // Whether to tell of each write to the file, before it is closed.
+    [[nodiscard]] virtual bool follows(const std::filesystem::path& /*path*/) const {
+        return false;
+    }
+    virtual void file_grew(const std::filesystem::path& /*path*/, const FileStamp& /*stamp*/) {}
     // Stands in a directory that was read.
     virtual void file_found(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // Deleted, or renamed away.

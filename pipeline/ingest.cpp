@@ -238,6 +238,7 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
 Result<IngestOutcome> Ingestor::Impl::show_living(const FileFacts& file, LivingFile& living_file,
                                                   IngestOutcome outcome) {
     outcome.result = IngestResult::incomplete;
+    outcome.followed = true;
     const KeptVolume& kept = living_file.kept();
     if (!living_file.has_news() || living_file.holds_several()) return outcome;
     FileFacts facts = file;

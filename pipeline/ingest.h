@@ -67,7 +67,8 @@ struct IngestOutcome {
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
     std::string reason;    // why rejected, or what is wrong or worth saying; one line
-    bool partial = false;  // gridded: some volume had not ended, or was damaged
+    bool followed = false;  // incomplete: what is appended will be read without the rest
+    bool partial = false;   // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed

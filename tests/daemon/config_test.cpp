@@ -45,6 +45,8 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_EQ(shipped->workers, bare->workers);
     EXPECT_EQ(shipped->quiet, bare->quiet);
     EXPECT_EQ(shipped->reread, bare->reread);
+    EXPECT_TRUE(shipped->living);
+    EXPECT_TRUE(bare->living);
     EXPECT_EQ(shipped->rescan, bare->rescan);
     EXPECT_EQ(shipped->queue_limit, bare->queue_limit);
     EXPECT_EQ(shipped->refill, bare->refill);
@@ -63,13 +65,14 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
 }
 
 TEST_F(ConfigFile, EveryKeyIsTaken) {
-    const Result<Config> config = load(std::string(paths) +
-                                       "[ingest]\nworkers = 3\nthreads = 2\nquiet_seconds = 1.5\n"
-                                       "reread_seconds = 0\nmoment = \"VEL\"\nspacing_km = 0.5\n"
-                                       "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
-                                       "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
-                                       "[watch]\nrescan_seconds = 7\nqueue_limit = 99\n"
-                                       "[log]\nlevel = \"debug\"\n");
+    const Result<Config> config =
+        load(std::string(paths) +
+             "[ingest]\nworkers = 3\nthreads = 2\nquiet_seconds = 1.5\n"
+             "reread_seconds = 0\nliving = false\nmoment = \"VEL\"\nspacing_km = 0.5\n"
+             "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
+             "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
+             "[watch]\nrescan_seconds = 7\nqueue_limit = 99\n"
+             "[log]\nlevel = \"debug\"\n");
     ASSERT_TRUE(config) << config.error().message;
     EXPECT_EQ(config->drop, "/d");
     EXPECT_EQ(config->state, "/s");
@@ -79,6 +82,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->ingest.grid_threads, 2);
     EXPECT_EQ(config->quiet, std::chrono::milliseconds{1500});
     EXPECT_EQ(config->reread, std::chrono::milliseconds{0});
+    EXPECT_FALSE(config->living);
     EXPECT_EQ(config->refill, std::chrono::minutes{30});
     EXPECT_EQ(config->packing, cache::Packing::lz4);
     EXPECT_EQ(config->ingest.moment, level2::Moment::vel);

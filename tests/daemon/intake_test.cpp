@@ -65,6 +65,34 @@ TEST_F(IntakeTest, AClosedFileIsAJobAtOnceWithTheTimeOfItsClose) {
     EXPECT_EQ(next(), "");
 }
 
+TEST_F(IntakeTest, AFollowedFileIsReadAtEveryWriteWithoutAPause) {
+    pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
+    followed.followed = true;
+    intake_.file_closed(at("a"), make("a"));
+    EXPECT_FALSE(intake_.follows(at("a")));
+    EXPECT_EQ(next(), "a");
+    end("a", followed);
+    EXPECT_TRUE(intake_.follows(at("a")));
+    EXPECT_EQ(next(), "");
+    intake_.file_grew(at("a"), make("a", "12"));
+    const auto job = intake_.next_job();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->closed_at, now_);
+    intake_.file_grew(at("a"), make("a", "123"));  // while it is read
+    end("a", followed);
+    EXPECT_EQ(next(), "a");
+    // One that must be read from its start each time has to wait.
+    end("a", IngestResult::incomplete);
+    EXPECT_FALSE(intake_.follows(at("a")));
+    intake_.file_closed(at("a"), make("a", "1234"));
+    EXPECT_EQ(next(), "");
+    now_ += milliseconds{500};
+    EXPECT_EQ(next(), "a");
+    end("a", followed);
+    intake_.file_gone(at("a"));
+    EXPECT_FALSE(intake_.follows(at("a")));
+}
+
 TEST_F(IntakeTest, WhatIsClosedNowGoesBeforeTheBacklog) {
     intake_.file_found(at("old"), make("old"));
     intake_.file_closed(at("new"), make("new"));

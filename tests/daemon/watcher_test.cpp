@@ -30,6 +30,10 @@ class Notes final : public WatchListener {
     void file_created(const fs::path& path, const FileStamp&) override { note("created", path); }
     void file_found(const fs::path& path, const FileStamp&) override { note("found", path); }
     void file_gone(const fs::path& path) override { note("gone", path); }
+    [[nodiscard]] bool follows(const fs::path& path) const override {
+        return path.filename() == followed;
+    }
+    void file_grew(const fs::path& path, const FileStamp&) override { note("grew", path); }
     void events_lost() override { said.emplace_back("lost"); }
     void drop_vanished() override { said.emplace_back("vanished"); }
     void directory_problem(const Error& error) override { problems.push_back(error); }
@@ -47,6 +51,7 @@ class Notes final : public WatchListener {
         return names;
     }
 
+    std::string followed;
     std::vector<std::string> said;
     std::vector<Error> problems;
 
@@ -305,6 +310,20 @@ TEST(ForcedWatcher, EventsOfAWatchThatIsGoneAreLeftAlone) {
     watcher.read_events();
     EXPECT_EQ(notes.said, Lines{});
     EXPECT_EQ(watcher.directory_count(), 0U);
+}
+
+TEST(ForcedWatcher, WritesAreToldOfFilesThatAreFollowedAndOfNoOthers) {
+    const testing::TemporaryDirectory directory;
+    FakeEvents events;
+    Notes notes(directory.path());
+    notes.followed = "a";
+    Watcher watcher(directory.path(), events, notes);
+    ASSERT_TRUE(watcher.scan());
+    write_file(directory / "a", "1");
+    write_file(directory / "b", "1");
+    events.waiting = {{1, IN_MODIFY, "a"}, {1, IN_MODIFY, "b"}, {1, IN_MODIFY, "gone"}};
+    watcher.read_events();
+    EXPECT_EQ(notes.said, Lines{"grew a"});
 }
 
 // An event may be read when its file has long been gone (scour).

@@ -1,0 +1,130 @@
+// The real program on files that grow: what stands in the cache while the antenna still climbs.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "base/file_system.h"
+#include "cache/grid_file.h"
+#include "cache/store.h"
+#include "synth/replay.h"
+#include "tests/daemon/running_daemon.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Written to and not closed, as LDM's pqact does without -close.
+class OpenFile {
+  public:
+    explicit OpenFile(const fs::path& path) : file_(std::fopen(path.c_str(), "ab"), &std::fclose) {}
+    void append(std::span<const std::byte> bytes) {
+        std::fwrite(bytes.data(), 1, bytes.size(), file_.get());
+        std::fflush(file_.get());
+    }
+
+  private:
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+class LivingDaemon : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        bytes_ = *read_file(*testing::data_directory() / "volumes/KLOT20220317_000842_V06");
+        ends_ = synth::piece_ends(bytes_);
+        ASSERT_GT(ends_.size(), 30U);
+    }
+    std::span<const std::byte> pieces(std::size_t from, std::size_t to) const {
+        const std::size_t start = from == 0 ? 0 : ends_[from - 1];
+        return std::span{bytes_}.subspan(start, ends_[to - 1] - start);
+    }
+    // What stands of KLOT, if anything.
+    std::optional<cache::GridDescription> newest() const {
+        const auto store = cache::Store::open_for_reading(daemon_.cache());
+        if (!store) return std::nullopt;
+        const auto grids = store->list("KLOT", level2::Moment::ref, std::nullopt, std::nullopt);
+        if (!grids || grids->empty()) return std::nullopt;
+        const auto file = cache::GridFile::open(grids->back().path);
+        if (!file) return std::nullopt;
+        return file->description();
+    }
+    bool wait_for_grid(const std::function<bool(const cache::GridDescription&)>& is_so) const {
+        for (int i = 0; i < 3000; ++i) {
+            const auto grid = newest();
+            if (grid && is_so(*grid)) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds{20});
+        }
+        return false;
+    }
+    static bool is_living(const cache::GridDescription& grid) {
+        const auto& notes = grid.provenance.notes;
+        return grid.provenance.partial && !notes.empty() && notes.back().starts_with("living: ");
+    }
+    // No file that we made for a while is left, whatever happened to the program.
+    void expect_nothing_left_behind() const {
+        for (const fs::path& directory : {daemon_.root() / "state", daemon_.cache()}) {
+            for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+                EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix))
+                    << entry.path();
+            }
+        }
+    }
+    std::vector<std::byte> bytes_;
+    std::vector<std::size_t> ends_;
+    RunningDaemon daemon_;
+};
+
+constexpr const char* patient = "[ingest]\nquiet_seconds = 60\n";
+
+TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
+    daemon_.start(patient);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
+    OpenFile file(daemon_.drop() / "KLOT20220317_000842_V06");
+    file.append(pieces(0, 12));
+    ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
+    const std::size_t sweeps = newest()->provenance.sweeps.size();
+    file.append(pieces(12, 40));
+    ASSERT_TRUE(wait_for_grid([&](const cache::GridDescription& grid) {
+        return is_living(grid) && grid.provenance.sweeps.size() > sweeps;
+    })) << daemon_.log();
+    EXPECT_EQ(daemon_.status()["ingested"], 0);
+    file.append(pieces(40, ends_.size()));
+    ASSERT_TRUE(wait_for_grid([](const cache::GridDescription& grid) {
+        return !grid.provenance.partial && grid.provenance.notes.empty();
+    })) << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    expect_nothing_left_behind();
+}
+
+TEST_F(LivingDaemon, AKilledDaemonGoesOnWithWhatHasGrown) {
+    daemon_.start(patient);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
+    OpenFile file(daemon_.drop() / "KLOT20220317_000842_V06");
+    file.append(pieces(0, 20));
+    ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
+    daemon_.signal(SIGKILL);
+    EXPECT_EQ(daemon_.wait(), -SIGKILL);
+    expect_nothing_left_behind();
+    file.append(pieces(20, 45));
+    const std::size_t sweeps = newest()->provenance.sweeps.size();
+    daemon_.start(patient);
+    ASSERT_TRUE(wait_for_grid([&](const cache::GridDescription& grid) {
+        return is_living(grid) && grid.provenance.sweeps.size() > sweeps;
+    })) << daemon_.log();
+    file.append(pieces(45, ends_.size()));
+    ASSERT_TRUE(wait_for_grid([](const cache::GridDescription& grid) {
+        return !grid.provenance.partial;
+    })) << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0);
+    expect_nothing_left_behind();
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
