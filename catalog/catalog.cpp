@@ -241,6 +241,16 @@ Result<Registered> Catalog::register_file(const FileFacts& facts) {
     return registered;
 }
 
+Status Catalog::register_files(const std::string& station, const std::vector<FileFacts>& files) {
+    const auto registered =
+        impl_->with(database_name(station), true, [&](StationDatabase& database) {
+            database.register_files(files);
+            return true;
+        });
+    if (!registered) return pass_on(registered);
+    return {};
+}
+
 Result<int> Catalog::mark_gone(const fs::path& path) {
     const auto names = impl_->names();
     if (!names) return pass_on(names);

@@ -109,6 +109,9 @@ class Catalog {
 
     // On success a power cut does not undo it, but for a state of `seen`, which may be lost.
     Result<Registered> register_file(const FileFacts& facts);
+    // The same of several files of one station, all of them or none; for files of which rows stand
+    // there already, as those of a volume's chunks.
+    Status register_files(const std::string& station, const std::vector<FileFacts>& files);
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 

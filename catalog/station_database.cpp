@@ -109,6 +109,21 @@ void StationDatabase::set_durable(bool durable) {
 Registered StationDatabase::register_file(const FileFacts& facts) {
     set_durable(facts.state != FileState::seen);
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    const Registered registered = register_row(facts);
+    if (registered != Registered::unchanged) transaction.commit();
+    return registered;
+}
+
+void StationDatabase::register_files(const std::vector<FileFacts>& files) {
+    set_durable(true);
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const FileFacts& facts : files)
+        register_row(facts);
+    transaction.commit();
+}
+
+// Inside a transaction.
+Registered StationDatabase::register_row(const FileFacts& facts) {
     SQLite::Statement known(database_,
                             "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
                             "FROM file WHERE path = ?");
@@ -151,7 +166,6 @@ Registered StationDatabase::register_file(const FileFacts& facts) {
         if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
         insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }
-    transaction.commit();
     return exists ? Registered::updated : Registered::added;
 }
 

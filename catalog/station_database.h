@@ -39,6 +39,8 @@ class StationDatabase {
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
     Registered register_file(const FileFacts& facts);
+    // All in one transaction.
+    void register_files(const std::vector<FileFacts>& files);
     // Rows of files that are gone, verbatim but for their state; in one transaction. For a new
     // database.
     void restore_gone(const std::vector<SalvagedFile>& files);
@@ -59,6 +61,7 @@ class StationDatabase {
     StationDatabase(const std::string& uri, int flags, std::string station);
 
     void set_durable(bool durable);
+    Registered register_row(const FileFacts& facts);
     std::int64_t restore_volume(const SalvagedVolume& volume);
     std::int64_t insert_volume(const VolumeFacts& facts, int generation);
     void insert_part(std::int64_t file_id, int ordinal, std::int64_t volume_id);

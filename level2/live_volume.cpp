@@ -119,6 +119,13 @@ bool LiveVolume::is_due(Clock::time_point now) const {
     return has_ended() && (missing_numbers().empty() || waited >= options_.grace);
 }
 
+std::uint64_t LiveVolume::held_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& [number, chunk] : chunks_)
+        bytes += chunk.held_bytes;
+    return bytes;
+}
+
 Volume LiveVolume::facts() const {
     VolumeBuilder builder{options_.decode.output_limit_bytes};
     for (const auto& [number, chunk] : chunks_) {

@@ -77,6 +77,8 @@ class LiveVolume {
     // Whole, or there is no use in waiting longer.
     [[nodiscard]] bool is_due(Clock::time_point now) const;
     [[nodiscard]] bool is_empty() const { return chunks_.empty(); }
+    // What the decoded chunks take in memory.
+    [[nodiscard]] std::uint64_t held_bytes() const;
 
     // Gives up the volume; nothing is left. Errors: those of decode(), empty where no chunk came.
     [[nodiscard]] Result<Decoded> finish();

@@ -1,23 +1,16 @@
 #include "pipeline/ingest.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <utility>
-
-#include <fmt/ranges.h>
 
 #include "base/checksum.h"
 #include "base/file_system.h"
 #include "level2/decode.h"
 #include "level2/message_2.h"
 #include "level2/volume_checks.h"
-#include "pipeline/file_facts.h"
-#include "pipeline/living_files.h"
-#include "pipeline/mosaic_keeper.h"
-#include "pipeline/site_grids.h"
+#include "pipeline/ingest_parts.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -26,18 +19,6 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
-
-// Counts a file in while it is worked on.
-class Running {
-  public:
-    explicit Running(std::atomic<int>& count) : count_(count) { ++count_; }
-    Running(const Running&) = delete;
-    Running& operator=(const Running&) = delete;
-    ~Running() { --count_; }
-
-  private:
-    std::atomic<int>& count_;
-};
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -62,62 +43,28 @@ std::string without_path(const std::string& message, const fs::path& path) {
     return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
-// What was met in reading a file, in any of its volumes.
-struct Reading {
-    bool damaged = false;                    // bytes are lost
-    std::vector<std::string> troubles = {};  // of the radar, by its last message 2
-
-    // As grids keep them.
-    [[nodiscard]] std::vector<std::string> troubles_of(const std::string& station) const {
-        if (troubles.empty()) return {};
-        return {fmt::format("{}: {}", station, fmt::join(troubles, ", "))};
-    }
-};
-
 }  // namespace
 
-struct Ingestor::Impl {
-    Impl(catalog::Catalog& its_catalog, const cache::Store* its_store, IngestOptions its_options)
-        : catalog(its_catalog),
-          store(its_store),
-          options(std::move(its_options)),
-          mosaics(store, options.domains, options.frames) {
-        if (store == nullptr) return;
-        site_grids.emplace(*store, options);
-        if (!options.living.scratch.empty()) {
-            living.emplace(LivingFile::Options{
-                .selection = {moments_of(options), {}},
-                .moment = options.moment,
-                .fallback_station = {},
-                .scratch = options.living.scratch,
-            });
-        }
-    }
-
-    catalog::Catalog& catalog;
-    const cache::Store* store;  // none: files are only registered
-    IngestOptions options;
-    MosaicKeeper mosaics;
-    std::optional<SiteGrids> site_grids;  // where there is a cache
-    std::optional<LivingFiles> living;    // where files are followed as they grow
-    std::atomic<int> running{0};
-
-    Result<IngestOutcome> read_and_take_in(const fs::path& path, const FileStamp& before,
-                                           bool finish_partial, IngestOutcome outcome);
-    Result<IngestOutcome> reject(const FileFacts& facts, std::string reason, IngestOutcome outcome);
-    Result<IngestOutcome> take_in(FileFacts facts, level2::Decoded decoded, bool finish_partial,
-                                  IngestOutcome outcome);
-    Result<IngestOutcome> grid_all(const FileFacts& facts,
-                                   const std::vector<level2::Volume>& volumes,
-                                   const Reading& reading, IngestOutcome outcome);
-    Status keep_mosaics(const FileFacts& facts, const level2::Volume& volume,
-                        const Reading& reading, IngestOutcome& outcome);
-    std::optional<Result<IngestOutcome>> follow(const fs::path& path, const FileStamp& before,
-                                                bool finish_partial, IngestOutcome outcome);
-    Result<IngestOutcome> show_living(const FileFacts& file, LivingFile& living_file,
-                                      IngestOutcome outcome);
-    [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
-};
+Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_store,
+                     IngestOptions its_options)
+    : catalog(its_catalog),
+      store(its_store),
+      options(std::move(its_options)),
+      mosaics(store, options.domains, options.frames) {
+    if (store == nullptr) return;
+    site_grids.emplace(*store, options);
+    if (options.living.scratch.empty()) return;
+    const LivingFile::Options follow{
+        .selection = {moments_of(options), {}},
+        .moment = options.moment,
+        .fallback_station = {},
+        .scratch = options.living.scratch,
+        .chunk_timeout = options.living.chunk_timeout,
+        .chunk_grace = options.living.chunk_grace,
+    };
+    living.emplace(follow);
+    chunks.emplace(follow);
+}
 
 Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
     : impl_(new Impl(catalog, &store, std::move(options))) {}
@@ -234,79 +181,6 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
     return grid_all(facts, volumes, reading, std::move(outcome));
 }
 
-// What has come of a volume that has not ended: for the catalog, and as a living grid.
-Result<IngestOutcome> Ingestor::Impl::show_living(const FileFacts& file, LivingFile& living_file,
-                                                  IngestOutcome outcome) {
-    outcome.result = IngestResult::incomplete;
-    outcome.followed = true;
-    const KeptVolume& kept = living_file.kept();
-    if (!living_file.has_news() || living_file.holds_several()) return outcome;
-    FileFacts facts = file;
-    facts.station = kept.facts.station;
-    facts.content_hash = living_file.content_hash();
-    facts.state = FileState::seen;
-    catalog::VolumeFacts volume_facts = facts_of(kept.facts);
-    volume_facts.sweep_count = static_cast<int>(kept.places.size());
-    volume_facts.radial_count = static_cast<int>(living_file.radials());
-    volume_facts.end_time = living_file.newest();
-    facts.volumes.push_back(volume_facts);
-    if (const auto registered = catalog.register_file(facts); !registered) {
-        return pass_on(registered);
-    }
-    outcome.station = facts.station;
-    outcome.volume_time = volume_facts.start_time;
-    if (!options.own_grids || (options.living.has_time && !options.living.has_time())) {
-        return outcome;  // with the next sweep, or when the volume has ended
-    }
-    living_file.set_shown();
-    const auto last = living->last_of(kept.facts.station);
-    std::size_t standing = 0;
-    const auto volume = living_volume(kept, last.get(), &standing);
-    if (!volume) return outcome;
-    GridSource source{facts.path.filename().string(), facts.modified_ns, true};
-    source.notes.push_back(fmt::format("living: {} sweeps have come, {} of the last volume stand",
-                                       volume->sweeps.size() - standing, standing));
-    const Status shown =
-        site_grids->keep_living(*volume, source, share_of(options.grid_threads), outcome);
-    if (!shown && !is_of_the_data(shown.error())) return pass_on(shown);
-    return outcome;
-}
-
-// None: the file is to be read as a whole.
-std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path,
-                                                            const FileStamp& before,
-                                                            bool finish_partial,
-                                                            IngestOutcome outcome) {
-    if (!living || !before.regular) return std::nullopt;
-    std::shared_ptr<LivingFile> file = living->find(path);
-    FileFacts facts;
-    facts.path = path;
-    facts.station = station_of_name(path);
-    facts.size_bytes = before.size_bytes;
-    facts.modified_ns = before.modified_ns;
-    if (!file && !finish_partial && LivingFile::is_growing(path)) {
-        file = living->begin(path, facts.station);
-    }
-    if (!file) return std::nullopt;
-    const auto start = Clock::now();
-    const bool has_ended = file->read_to(before.size_bytes) && file->has_ended();
-    outcome.decode_s = seconds_since(start);
-    if (!file->is_whole()) {
-        living->forget(path);
-        return std::nullopt;
-    }
-    living->grew(path, *file);
-    if (!has_ended && !finish_partial) return show_living(facts, *file, std::move(outcome));
-    living->forget(path);
-    facts.content_hash = file->content_hash();
-    auto decoded = file->finish();
-    outcome.decode_s = seconds_since(start);
-    if (!decoded) return std::nullopt;
-    auto taken = take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
-    if (taken) living->keep_last(file->take_kept());
-    return taken;
-}
-
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
     const Running running(impl_->running);
     IngestOutcome outcome;
@@ -324,6 +198,12 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         outcome.result = IngestResult::unchanged;
         return outcome;
     }
+    const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
+    if (chunk) {
+        if (auto taken = impl_->take_chunk(*chunk, *before, finish_partial, outcome)) {
+            return std::move(*taken);
+        }
+    }
     if (auto followed = impl_->follow(path, *before, finish_partial, outcome)) {
         return std::move(*followed);
     }
@@ -334,6 +214,10 @@ Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {
     const Running running(impl_->running);
     const auto before = stamp_of(path);
     if (!before) return pass_on(before);
+    if (const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt) {
+        impl_->chunks->forget(*chunk);
+        if (auto taken = impl_->take_chunk(*chunk, *before, true, {})) return std::move(*taken);
+    }
     return impl_->read_and_take_in(path, *before, true, {});
 }
 

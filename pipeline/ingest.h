@@ -9,6 +9,7 @@
 // Thread contract: an Ingestor may be used by many threads at once, for different files.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -33,6 +34,9 @@ struct LivingGrids {
     // Asked before each: false while there is more urgent work. The sweeps are in the next one.
     // Empty: there is always time.
     std::function<bool()> has_time;
+    // Of volumes that come as one file a chunk (level2/live_volume.h).
+    std::chrono::seconds chunk_timeout{600};
+    std::chrono::seconds chunk_grace{30};
 };
 
 struct IngestOptions {
@@ -66,7 +70,7 @@ struct IngestOutcome {
     IngestResult result = IngestResult::rejected;
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
-    std::string reason;    // why rejected, or what is wrong or worth saying; one line
+    std::string reason;     // why rejected, or what is wrong or worth saying; one line
     bool followed = false;  // incomplete: what is appended will be read without the rest
     bool partial = false;   // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;

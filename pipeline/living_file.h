@@ -9,6 +9,7 @@
 // Inside the pipeline room only. Thread contract: one thread at a time.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -44,6 +45,7 @@ class LivingFile {
         level2::Moment moment = level2::Moment::ref;  // of living grids
         std::string fallback_station;
         std::filesystem::path scratch;
+        std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
     };
 
     // Whether to follow the file: LDM records, of which the last is not there yet. Reads the

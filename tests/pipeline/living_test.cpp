@@ -68,7 +68,11 @@ struct House {
         IngestOptions options;
         options.spacing_m = 4000;
         options.nx = options.ny = 115;
-        if (living) options.living = {where, std::move(has_time)};
+        if (living) {
+            options.living.scratch = where;
+            options.living.has_time = std::move(has_time);
+            options.living.chunk_grace = std::chrono::seconds{0};
+        }
         ingestor.emplace(*catalog, *store, options);
     }
     std::vector<cache::StoreEntry> grids(const std::string& domain) const {
@@ -246,6 +250,127 @@ TEST_F(Living, AVolumeThatStopsIsWhatItIsWhenReadWhole) {
     House whole(directory_ / "whole", false);
     ASSERT_EQ(whole.ingestor->ingest(path, true)->result, IngestResult::gridded);
     EXPECT_EQ(*read_file(house_.grids("KLOT")[0].path), *read_file(whole.grids("KLOT")[0].path));
+}
+
+// Cuts a file as LDM hands it on, one file a record; gives the paths in their order.
+class LivingChunks : public Living {
+  protected:
+    void SetUp() override {
+        Living::SetUp();
+        bytes_ = real_bytes(busy);
+        fs::create_directories(drop_);
+        const std::vector<std::size_t> ends = synth::piece_ends(bytes_);
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            const char kind = i == 0 ? 'S' : i + 1 == ends.size() ? 'E' : 'I';
+            names_.push_back(fmt::format("20220317-000842-{:03}-{}", i + 1, kind));
+            const std::size_t from = i == 0 ? 0 : ends[i - 1];
+            parts_.push_back(std::span{bytes_}.subspan(from, ends[i] - from));
+        }
+        // What the whole file gives.
+        const fs::path file = directory_ / "KLOT20220317_000842_V06";
+        append_to(file, bytes_);
+        ASSERT_EQ(whole_.ingestor->ingest(file, false)->result, IngestResult::gridded);
+    }
+    IngestOutcome take(House& house, std::size_t i, bool finish_partial = false) {
+        const fs::path path = drop_ / names_[i];
+        if (!fs::exists(path)) append_to(path, parts_[i]);
+        date(path);
+        auto outcome = house.ingestor->ingest(path, finish_partial);
+        EXPECT_TRUE(outcome) << outcome.error().message;
+        return outcome ? *outcome : IngestOutcome{};
+    }
+    void expect_same_cells(const House& house) {
+        ASSERT_EQ(house.grids("KLOT").size(), 1U);
+        const auto a = cache::GridFile::open(house.grids("KLOT")[0].path);
+        const auto b = cache::GridFile::open(whole_.grids("KLOT")[0].path);
+        ASSERT_TRUE(a && b);
+        EXPECT_FALSE(a->description().provenance.partial);
+        EXPECT_TRUE(std::ranges::equal(a->view().codes, b->view().codes));
+        EXPECT_TRUE(std::ranges::equal(a->view().states, b->view().states));
+        EXPECT_EQ(a->description().provenance.sweeps, b->description().provenance.sweeps);
+        EXPECT_EQ(a->description().time, b->description().time);
+    }
+    void expect_one_volume(House& house) {
+        const auto volumes = house.catalog->list("KLOT", {});
+        ASSERT_EQ(volumes->size(), 1U);
+        EXPECT_EQ(volumes->at(0).path.filename(), names_[0]);
+        EXPECT_EQ(volumes->at(0).state, catalog::FileState::complete);
+        EXPECT_EQ(volumes->at(0).generation, 0);
+        const auto rows = house.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+        EXPECT_EQ(rows->size(), names_.size());
+    }
+    fs::path drop_ = directory_ / "drop/KLOT/494";
+    House whole_{directory_ / "whole", false};
+    std::vector<std::byte> bytes_;
+    std::vector<std::string> names_;
+    std::vector<std::span<const std::byte>> parts_;
+};
+
+TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i) {
+        const IngestOutcome outcome = take(house_, i);
+        EXPECT_EQ(outcome.result, IngestResult::incomplete) << i;
+        shown += outcome.living.size();
+    }
+    EXPECT_GT(shown, 5U);
+    EXPECT_EQ(take(house_, 0, true).result, IngestResult::registered) << "not in the name of all";
+    const IngestOutcome last = take(house_, names_.size() - 1);
+    EXPECT_EQ(last.result, IngestResult::gridded);
+    EXPECT_EQ(last.station, "KLOT");
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        EXPECT_EQ(take(house_, i, true).result, IngestResult::unchanged) << i;
+}
+
+TEST_F(LivingChunks, MayComeInAnyOrder) {
+    std::vector<std::size_t> order(names_.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = (i * 17 + 5) % order.size();  // 55 has no factor 17
+    for (std::size_t i = 0; i + 1 < order.size(); ++i)
+        EXPECT_NE(take(house_, order[i]).result, IngestResult::gridded) << order[i];
+    EXPECT_EQ(take(house_, order.back()).result, IngestResult::gridded);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
+    for (std::size_t i = 0; i < 30; ++i)
+        take(house_, i);
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    for (std::size_t i = 30; i < names_.size(); ++i)
+        take(house_, i);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i == 20) continue;
+        EXPECT_NE(take(house_, i).result, IngestResult::gridded);
+    }
+    const IngestOutcome partial = take(house_, names_.size() - 1, true);
+    EXPECT_EQ(partial.result, IngestResult::gridded);
+    EXPECT_TRUE(partial.partial);
+    EXPECT_NE(partial.reason.find("missing chunks: 21"), std::string::npos) << partial.reason;
+    EXPECT_EQ(take(house_, 20).result, IngestResult::gridded);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, OneThatIsNoneIsRejectedByItself) {
+    for (std::size_t i = 0; i < 10; ++i)
+        take(house_, i);
+    const fs::path path = drop_ / "20220317-000842-011-I";
+    append_to(path, std::vector<std::byte>(5000, std::byte{7}));
+    EXPECT_EQ(house_.ingestor->ingest(path, true)->result, IngestResult::rejected);
+    EXPECT_EQ(take(house_, 9, true).result, IngestResult::incomplete) << "the volume goes on";
 }
 
 TEST_F(Living, BeyondTheLimitTheOldestIsGivenUp) {

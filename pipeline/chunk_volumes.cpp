@@ -1,0 +1,175 @@
+#include "pipeline/chunk_volumes.h"
+
+#include <algorithm>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "base/checksum.h"
+#include "base/file_system.h"
+#include "pipeline/drop_names.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+// No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
+constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
+constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
+constexpr std::size_t most_volumes = 1024;
+
+}  // namespace
+
+std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
+    const std::string file = path.filename().string();
+    auto name = level2::parse_chunk_name(file);
+    if (!name) return std::nullopt;
+    const std::size_t at = file.find(name->volume);
+    const std::string before = at == std::string::npos ? std::string{} : file.substr(0, at);
+    return ChunkPath{path, (path.parent_path() / (before + name->volume)).native(),
+                     std::move(*name)};
+}
+
+ChunkVolume::ChunkVolume(const LivingFile::Options& options, level2::LiveOptions live)
+    : moment_(options.moment), live_(std::move(live)) {
+    auto shelf = SweepShelf::make_in(options.scratch);
+    if (!shelf) return;
+    kept_ = std::make_unique<KeptVolume>();
+    kept_->shelf = std::move(*shelf);
+}
+
+ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
+    const auto known = files_.find(chunk.path);
+    if (known != files_.end() && known->second.stamp == stamp) {
+        return known->second.is_whole ? Added::added : Added::unfinished;
+    }
+    const auto bytes = read_file(chunk.path, most_chunk_bytes);
+    if (!bytes) return Added::not_ours;
+    File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
+    const auto added =
+        live_.add(chunk.name.number, chunk.name.kind, *bytes, level2::LiveVolume::Clock::now());
+    if (!added) {
+        const ErrorCode code = added.error().code;
+        if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
+        file.is_whole = false;
+        files_.insert_or_assign(chunk.path, file);
+        return Added::unfinished;
+    }
+    if (*added == level2::LiveVolume::Added::another_volume) return Added::not_ours;
+    files_.insert_or_assign(chunk.path, file);
+    shelve_new_sweeps();
+    return Added::added;
+}
+
+void ChunkVolume::add_siblings(const ChunkPath& of) {
+    std::error_code error;
+    std::vector<ChunkPath> found;
+    for (fs::directory_iterator at(of.path.parent_path(), error), end; !error && at != end;
+         at.increment(error)) {
+        if (is_temporary_name(at->path().filename().string())) continue;
+        auto chunk = ChunkPath::of(at->path());
+        if (chunk && chunk->key == of.key && chunk->path != of.path) {
+            found.push_back(std::move(*chunk));
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const ChunkPath& a, const ChunkPath& b) {
+        return std::tie(a.name.number, a.path) < std::tie(b.name.number, b.path);
+    });
+    for (const ChunkPath& chunk : found) {
+        const auto stamp = stamp_of(chunk.path);
+        if (stamp && stamp->regular) (void)add(chunk, *stamp);
+    }
+}
+
+bool ChunkVolume::is_newest(const ChunkPath& chunk) const {
+    return std::none_of(files_.begin(), files_.end(),
+                        [&](const auto& entry) { return entry.second.number > chunk.name.number; });
+}
+
+fs::path ChunkVolume::first_file() const {
+    const auto first =
+        std::min_element(files_.begin(), files_.end(), [](const auto& a, const auto& b) {
+            return std::tuple(!a.second.is_whole, a.second.number, a.first) <
+                   std::tuple(!b.second.is_whole, b.second.number, b.first);
+        });
+    return first->first;
+}
+
+// Sweeps are told apart by their cut, which no late chunk changes.
+void ChunkVolume::shelve(const level2::Sweep& sweep) {
+    if (!kept_) return;
+    const auto place = kept_->shelf->put(sweep);
+    if (!place) return;
+    const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
+    const bool has_moment = sweep.find(moment_) != nullptr;
+    kept_->places.insert_or_assign(cut, *place);
+    kept_->sweeps.insert_or_assign(cut, KeptVolume::Kept{has_moment, sweep.mean_elevation_deg()});
+    has_news_ = has_news_ || has_moment;
+}
+
+void ChunkVolume::shelve_new_sweeps() {
+    for (const level2::LiveSweep& live : live_.take_sweeps())
+        shelve(live.sweep);
+    if (kept_) kept_->facts = live_.facts();
+}
+
+Result<level2::Decoded> ChunkVolume::finish() {
+    auto decoded = live_.finish();
+    if (!decoded || !kept_) return decoded;
+    kept_->facts = decoded->volume;
+    kept_->facts.sweeps.clear();
+    for (const level2::Sweep& sweep : decoded->volume.sweeps) {
+        if (!kept_->places.contains(
+                static_cast<std::size_t>(std::max(0, sweep.elevation_number)))) {
+            shelve(sweep);
+        }
+    }
+    return decoded;
+}
+
+std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
+    const std::scoped_lock lock(mutex_);
+    Followed& followed = volumes_[chunk.key];
+    followed.turn = next_turn_++;
+    if (!followed.volume) {
+        level2::LiveOptions live;
+        live.timeout = options_.chunk_timeout;
+        live.grace = options_.chunk_grace;
+        live.decode.output_limit_bytes = most_output_bytes;
+        live.decode.selection = options_.selection;
+        live.decode.fallback_station = station_of_chunk(chunk.path);
+        followed.volume = std::make_shared<ChunkVolume>(options_, std::move(live));
+    }
+    return followed.volume;
+}
+
+void ChunkVolumes::grew(const ChunkPath& chunk, std::uint64_t held_bytes) {
+    const std::scoped_lock lock(mutex_);
+    const auto own = volumes_.find(chunk.key);
+    if (own != volumes_.end()) own->second.held_bytes = held_bytes;
+    std::uint64_t held = 0;
+    for (const auto& [key, followed] : volumes_)
+        held += followed.held_bytes;
+    while (volumes_.size() > 1 && (held > most_held_bytes_ || volumes_.size() > most_volumes)) {
+        auto oldest = volumes_.end();
+        for (auto at = volumes_.begin(); at != volumes_.end(); ++at) {
+            if (at == own) continue;
+            if (oldest == volumes_.end() || at->second.turn < oldest->second.turn) oldest = at;
+        }
+        held -= oldest->second.held_bytes;
+        volumes_.erase(oldest);
+    }
+}
+
+void ChunkVolumes::forget(const ChunkPath& chunk) {
+    const std::scoped_lock lock(mutex_);
+    volumes_.erase(chunk.key);
+}
+
+std::size_t ChunkVolumes::count() const {
+    const std::scoped_lock lock(mutex_);
+    return volumes_.size();
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,115 @@
+// pipeline/chunk_volumes.h -- volumes that come as one file a chunk.
+//
+// Chunks of one volume are the files of a directory whose names differ in the chunk's number and
+// kind alone (level2/chunk_name.h). Whichever of them is met first, all that lie there are read, so
+// that nothing depends on what was seen before: after a restart, and when a late chunk comes, the
+// volume is put together again from the files.
+// Bounded: beyond so many bytes the volume to which nothing has come for longest is forgotten, and
+// put together again with its next chunk.
+// Inside the pipeline room only. Thread contract: find() by many threads; a volume by whoever holds
+// its mutex.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "level2/chunk_name.h"
+#include "level2/live_volume.h"
+#include "pipeline/file_facts.h"
+#include "pipeline/living_file.h"
+
+namespace stormcellar::pipeline {
+
+// A path that is named as a chunk.
+struct ChunkPath {
+    std::filesystem::path path;
+    std::string key;  // the same for all chunks of a volume
+    level2::ChunkName name;
+
+    [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);
+};
+
+class ChunkVolume {
+  public:
+    ChunkVolume(const LivingFile::Options& options, level2::LiveOptions live);
+
+    enum class Added : std::uint8_t {
+        added,       // or was there
+        unfinished,  // nothing in it is whole yet
+        not_ours,    // no chunk of this volume, whatever its name says: to be taken by itself
+    };
+    // Reads the file unless it is known with this stamp.
+    [[nodiscard]] Added add(const ChunkPath& chunk, const FileStamp& stamp);
+    // All others that lie beside this one.
+    void add_siblings(const ChunkPath& of);
+
+    [[nodiscard]] bool is_newest(const ChunkPath& chunk) const;
+    [[nodiscard]] bool is_whole() const { return live_.is_whole(); }
+    [[nodiscard]] bool is_due() const { return live_.is_due(level2::LiveVolume::Clock::now()); }
+    [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
+    // Sweeps have come that no living grid shows yet.
+    [[nodiscard]] bool has_news() const { return has_news_; }
+    void set_shown() { has_news_ = false; }
+    // Null where there is no room on the shelf.
+    [[nodiscard]] const KeptVolume* kept() const { return kept_.get(); }
+    [[nodiscard]] std::uint64_t held_bytes() const { return live_.held_bytes(); }
+
+    struct File {
+        FileStamp stamp;
+        std::uint64_t content_hash = 0;
+        int number = 0;
+        bool is_whole = true;
+    };
+    [[nodiscard]] const std::map<std::filesystem::path, File>& files() const { return files_; }
+    // Of the lowest number that is whole; there must be one.
+    [[nodiscard]] std::filesystem::path first_file() const;
+    [[nodiscard]] std::string station() const { return live_.facts().station; }
+
+    [[nodiscard]] Result<level2::Decoded> finish();
+    [[nodiscard]] std::shared_ptr<const KeptVolume> take_kept() { return std::move(kept_); }
+
+    std::mutex mutex;
+    bool is_loaded = false;  // what lies beside the first chunk was added
+
+  private:
+    void shelve(const level2::Sweep& sweep);
+    void shelve_new_sweeps();
+
+    level2::Moment moment_;
+    level2::LiveVolume live_;
+    std::unique_ptr<KeptVolume> kept_;
+    std::map<std::filesystem::path, File> files_;
+    bool has_news_ = false;
+};
+
+class ChunkVolumes {
+  public:
+    explicit ChunkVolumes(LivingFile::Options options,
+                          std::uint64_t most_held_bytes = std::uint64_t{192} << 20)
+        : options_(std::move(options)), most_held_bytes_(most_held_bytes) {}
+
+    // Made where it is not known.
+    [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk);
+    void grew(const ChunkPath& chunk, std::uint64_t held_bytes);
+    void forget(const ChunkPath& chunk);
+    [[nodiscard]] std::size_t count() const;
+
+  private:
+    struct Followed {
+        std::shared_ptr<ChunkVolume> volume;
+        std::uint64_t turn = 0, held_bytes = 0;
+    };
+    LivingFile::Options options_;
+    std::uint64_t most_held_bytes_;
+    mutable std::mutex mutex_;  // guards what follows
+    std::uint64_t next_turn_ = 0;
+    std::map<std::string, Followed> volumes_;
+};
+
+}  // namespace stormcellar::pipeline

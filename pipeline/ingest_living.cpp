@@ -1,0 +1,186 @@
+// Volumes that are taken in while they grow: appended to one file, or one file a chunk.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "pipeline/ingest_parts.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::FileFacts;
+using catalog::FileState;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, const std::string& source_file,
+                                         std::int64_t modified_ns, IngestOutcome& outcome) {
+    // A grid is named by the start in the header: without it, it would stay beside the whole one.
+    if (!kept.facts.header) return false;
+    if (!options.own_grids || (options.living.has_time && !options.living.has_time())) {
+        return false;  // with the next sweep, or when the volume has ended
+    }
+    const auto last = living->last_of(kept.facts.station);
+    std::size_t standing = 0;
+    const auto volume = living_volume(kept, last.get(), &standing);
+    if (!volume) return true;
+    GridSource source{source_file, modified_ns, true};
+    source.notes.push_back(fmt::format("living: {} sweeps have come, {} of the last volume stand",
+                                       volume->sweeps.size() - standing, standing));
+    const Status shown =
+        site_grids->keep_living(*volume, source, share_of(options.grid_threads), outcome);
+    if (!shown && !is_of_the_data(shown.error())) return pass_on(shown);
+    return true;
+}
+
+// What has come of a volume that has not ended: for the catalog, and as a living grid.
+Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFile& living_file,
+                                                IngestOutcome outcome) {
+    outcome.result = IngestResult::incomplete;
+    outcome.followed = true;
+    const KeptVolume& kept = living_file.kept();
+    if (!living_file.has_news() || living_file.holds_several()) return outcome;
+    FileFacts facts = file;
+    facts.station = kept.facts.station;
+    facts.content_hash = living_file.content_hash();
+    facts.state = FileState::seen;
+    catalog::VolumeFacts volume_facts = facts_of(kept.facts);
+    volume_facts.sweep_count = static_cast<int>(kept.places.size());
+    volume_facts.radial_count = static_cast<int>(living_file.radials());
+    volume_facts.end_time = living_file.newest();
+    facts.volumes.push_back(volume_facts);
+    if (const auto registered = catalog.register_file(facts); !registered) {
+        return pass_on(registered);
+    }
+    outcome.station = facts.station;
+    outcome.volume_time = volume_facts.start_time;
+    const auto shown =
+        show_living(kept, facts.path.filename().string(), facts.modified_ns, outcome);
+    if (!shown) return pass_on(shown);
+    if (*shown) living_file.set_shown();
+    return outcome;
+}
+
+std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path,
+                                                            const FileStamp& before,
+                                                            bool finish_partial,
+                                                            IngestOutcome outcome) {
+    if (!living || !before.regular) return std::nullopt;
+    std::shared_ptr<LivingFile> file = living->find(path);
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_name(path);
+    facts.size_bytes = before.size_bytes;
+    facts.modified_ns = before.modified_ns;
+    if (!file && !finish_partial && LivingFile::is_growing(path)) {
+        file = living->begin(path, facts.station);
+    }
+    if (!file) return std::nullopt;
+    const auto start = Clock::now();
+    const bool has_ended = file->read_to(before.size_bytes) && file->has_ended();
+    outcome.decode_s = seconds_since(start);
+    if (!file->is_whole()) {
+        living->forget(path);
+        return std::nullopt;
+    }
+    living->grew(path, *file);
+    if (!has_ended && !finish_partial) return show_file(facts, *file, std::move(outcome));
+    living->forget(path);
+    facts.content_hash = file->content_hash();
+    auto decoded = file->finish();
+    outcome.decode_s = seconds_since(start);
+    if (!decoded) return std::nullopt;
+    auto taken = take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
+    if (taken) living->keep_last(file->take_kept());
+    return taken;
+}
+
+std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath& chunk,
+                                                                const FileStamp& before,
+                                                                bool finish_partial,
+                                                                IngestOutcome outcome) {
+    if (!before.regular) return std::nullopt;
+    const std::shared_ptr<ChunkVolume> volume = chunks->find(chunk);
+    const std::scoped_lock lock(volume->mutex);
+    const auto start = Clock::now();
+    const ChunkVolume::Added added = volume->add(chunk, before);
+    if (added == ChunkVolume::Added::not_ours) return std::nullopt;
+    if (!volume->is_loaded) volume->add_siblings(chunk);
+    volume->is_loaded = true;
+    outcome.decode_s = seconds_since(start);
+    outcome.result = IngestResult::incomplete;
+    if (added == ChunkVolume::Added::unfinished) {
+        if (finish_partial) return std::nullopt;
+        return outcome;
+    }
+    FileFacts facts;
+    facts.path = chunk.path;
+    facts.size_bytes = before.size_bytes;
+    facts.modified_ns = before.modified_ns;
+    facts.content_hash = volume->files().at(chunk.path).content_hash;
+    facts.station = volume->station();
+    if (facts.station.empty()) facts.station = station_of_chunk(chunk.path);
+    facts.state = FileState::seen;
+    outcome.station = facts.station;
+    if (const auto registered = catalog.register_file(facts); !registered) {
+        return pass_on(registered);
+    }
+    if (volume->is_whole() || (finish_partial && volume->is_due())) {
+        // A volume that could not be stored is put together again.
+        chunks->forget(chunk);
+        return finish_chunks(*volume, facts.station, std::move(outcome));
+    }
+    chunks->grew(chunk, volume->held_bytes());
+    if (volume->has_news() && volume->kept() != nullptr) {
+        const auto shown = show_living(*volume->kept(), volume->first_file().filename().string(),
+                                       facts.modified_ns, outcome);
+        if (!shown) return pass_on(shown);
+        if (*shown) volume->set_shown();
+    }
+    // One of a volume is waited for in the name of all.
+    if (!volume->is_newest(chunk)) outcome.result = IngestResult::registered;
+    outcome.followed = true;
+    return outcome;
+}
+
+// The first chunk's row stands for the volume; those of the others say that they were taken in.
+Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const std::string& station,
+                                                    IngestOutcome outcome) {
+    const auto start = Clock::now();
+    const std::filesystem::path first = volume.first_file();
+    FileFacts facts;
+    facts.station = station;
+    std::vector<FileFacts> others;
+    for (const auto& [path, file] : volume.files()) {
+        facts.path = path;
+        facts.size_bytes = file.stamp.size_bytes;
+        facts.modified_ns = file.stamp.modified_ns;
+        facts.content_hash = file.content_hash;
+        facts.state = FileState::complete;
+        if (path != first && file.is_whole) others.push_back(facts);
+    }
+    const auto& file = volume.files().at(first);
+    facts.path = first;
+    facts.size_bytes = file.stamp.size_bytes;
+    facts.modified_ns = file.stamp.modified_ns;
+    facts.content_hash = file.content_hash;
+    auto decoded = volume.finish();
+    outcome.decode_s += seconds_since(start);
+    if (!decoded) return reject(facts, decoded.error().message, outcome);
+    auto taken = take_in(std::move(facts), std::move(*decoded), true, std::move(outcome));
+    if (!taken) return taken;
+    if (Status settled = catalog.register_files(station, others); !settled) {
+        return pass_on(settled);
+    }
+    living->keep_last(volume.take_kept());
+    return taken;
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,92 @@
+// pipeline/ingest_parts.h -- what an Ingestor consists of.
+//
+// Inside the pipeline room only. Thread contract: that of Ingestor.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "level2/decode.h"
+#include "pipeline/chunk_volumes.h"
+#include "pipeline/file_facts.h"
+#include "pipeline/ingest.h"
+#include "pipeline/living_files.h"
+#include "pipeline/mosaic_keeper.h"
+#include "pipeline/site_grids.h"
+
+namespace stormcellar::pipeline {
+
+// Counts a file in while it is worked on.
+class Running {
+  public:
+    explicit Running(std::atomic<int>& count) : count_(count) { ++count_; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { --count_; }
+
+  private:
+    std::atomic<int>& count_;
+};
+
+// What was met in reading a file, in any of its volumes.
+struct Reading {
+    bool damaged = false;                    // bytes are lost
+    std::vector<std::string> troubles = {};  // of the radar, by its last message 2
+
+    // As grids keep them.
+    [[nodiscard]] std::vector<std::string> troubles_of(const std::string& station) const {
+        if (troubles.empty()) return {};
+        return {fmt::format("{}: {}", station, fmt::join(troubles, ", "))};
+    }
+};
+
+struct Ingestor::Impl {
+    Impl(catalog::Catalog& its_catalog, const cache::Store* its_store, IngestOptions its_options);
+
+    catalog::Catalog& catalog;
+    const cache::Store* store;  // none: files are only registered
+    IngestOptions options;
+    MosaicKeeper mosaics;
+    std::optional<SiteGrids> site_grids;  // where there is a cache
+    // Where volumes are followed as they grow:
+    std::optional<LivingFiles> living;
+    std::optional<ChunkVolumes> chunks;
+    std::atomic<int> running{0};
+
+    Result<IngestOutcome> read_and_take_in(const std::filesystem::path& path,
+                                           const FileStamp& before, bool finish_partial,
+                                           IngestOutcome outcome);
+    Result<IngestOutcome> reject(const catalog::FileFacts& facts, std::string reason,
+                                 IngestOutcome outcome);
+    Result<IngestOutcome> take_in(catalog::FileFacts facts, level2::Decoded decoded,
+                                  bool finish_partial, IngestOutcome outcome);
+    Result<IngestOutcome> grid_all(const catalog::FileFacts& facts,
+                                   const std::vector<level2::Volume>& volumes,
+                                   const Reading& reading, IngestOutcome outcome);
+    Status keep_mosaics(const catalog::FileFacts& facts, const level2::Volume& volume,
+                        const Reading& reading, IngestOutcome& outcome);
+    // None: the file is to be read as a whole.
+    std::optional<Result<IngestOutcome>> follow(const std::filesystem::path& path,
+                                                const FileStamp& before, bool finish_partial,
+                                                IngestOutcome outcome);
+    // None: the file is to be taken by itself.
+    std::optional<Result<IngestOutcome>> take_chunk(const ChunkPath& chunk, const FileStamp& before,
+                                                    bool finish_partial, IngestOutcome outcome);
+    Result<IngestOutcome> finish_chunks(ChunkVolume& volume, const std::string& station,
+                                        IngestOutcome outcome);
+    Result<IngestOutcome> show_file(const catalog::FileFacts& file, LivingFile& living_file,
+                                    IngestOutcome outcome);
+    // False where there is no time for it.
+    Result<bool> show_living(const KeptVolume& kept, const std::string& source_file,
+                             std::int64_t modified_ns, IngestOutcome& outcome);
+    [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
+};
+
+}  // namespace stormcellar::pipeline
