@@ -39,9 +39,12 @@ class Loop : public ::testing::Test {
         commit("20050822_025000", 33);
         commit("20050822_025600", 44);
     }
+    static bool has(const std::vector<std::string>& arguments, const char* option) {
+        return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+    }
     testing::ProgramResult run(std::vector<std::string> arguments) const {
-        // Few slices are quick; only volumes have any.
-        if (std::find(arguments.begin(), arguments.end(), "--product") == arguments.end()) {
+        // Few slices are quick. Only volumes have any, and a tolerance chooses them.
+        if (!has(arguments, "--product") && !has(arguments, "--tolerance")) {
             arguments.insert(arguments.begin(), {"--slices", "16"});
         }
         arguments.insert(arguments.begin(), {"loop", "--cache", (directory_ / "cache").string()});
