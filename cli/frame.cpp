@@ -213,12 +213,15 @@ Status check_options(const FrameOptions& options) {
     return check_target(options.output);
 }
 
-int run_frame(const FrameOptions& options) {
+int run_frame(FrameOptions options) {
     const auto start = Clock::now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
     const auto scene = scene_with(options.scene_file, options.scene);
     if (!scene) return report_error(scene.error());
+    auto plan = plan_beside_slices(options.plan, options.scene);
+    if (!plan) return report_error(plan.error());
+    options.plan = std::move(*plan);
     const auto store = cache::Store::open_for_reading(options.cache);
     if (!store) return report_error(store.error());
     const auto entry = find_grid(*store, options, scene->moment);

@@ -202,17 +202,39 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
                   options.follow, interrupt.flag());
 }
 
-int run_loop(const LoopOptions& options) {
+// What can be said before any grid is looked for. Sets what the options make of each other.
+Result<render::Scene> check(LoopOptions& options) {
+    if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
+    if (auto fine = check_outputs(options.outputs); !fine) return pass_on(fine);
+    auto scene = scene_with(options.scene_file, options.scene);
+    if (!scene) return scene;
+    auto plan = plan_beside_slices(options.plan, options.scene);
+    if (!plan) return pass_on(plan);
+    options.plan = std::move(*plan);
+    if (auto fine = check_sources(options); !fine) return pass_on(fine);
+    return scene;
+}
+
+// Writes nothing, and asks for no directory to be there.
+int only_check(const LoopOptions& options) {
+    for (const std::string& output : options.outputs) {
+        if (auto fine = render::check_animation_name(output); !fine) {
+            return report_error(fine.error());
+        }
+    }
+    const auto range = parse_time_range(options.range);
+    return range ? exit_done : report_error(range.error());
+}
+
+int run_loop(LoopOptions options) {
     const auto start = Clock::now();
-    if (options.scene_file.error) return report_error(*options.scene_file.error);
-    if (auto fine = check_outputs(options.outputs); !fine) return report_error(fine.error());
-    const auto scene = scene_with(options.scene_file, options.scene);
+    const auto scene = check(options);
     if (!scene) return report_error(scene.error());
+    if (options.only_check) return only_check(options);
     // What could never be written is refused before any grid is made.
     if (const auto writers = make_writers(options.outputs, options.animation); !writers) {
         return report_error(writers.error());
     }
-    if (auto fine = check_sources(options); !fine) return report_error(fine.error());
     Interrupt interrupt;
     if (options.follow.wanted) return follow_loop(options, *scene, interrupt);
     auto grids = find_grids(options, *scene, interrupt);

@@ -42,6 +42,8 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     loop.add_flag("--ping-pong", options.ping_pong,
                   "There and back: behind the last frame the others again, down to the second");
     add_follow_options(loop, options.follow);
+    loop.add_flag("--check", options.only_check, "Say what is wrong with all this, and end")
+        ->group("");  // not shown: for stormcellard --check-config
     loop.add_flag("--json", options.json,
                   "Say what was done as one JSON document; with --follow one a line");
     loop.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors");

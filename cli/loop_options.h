@@ -28,6 +28,7 @@ struct LoopOptions : LoopSettings {
     std::string time_method;  // empty: advected
     bool json = false;
     bool quiet = false;
+    bool only_check = false;  // nothing is drawn
     SceneOptions scene;
     PicturePlanOptions plan;
     KeptFrames* kept = nullptr;  // of a loop that is followed

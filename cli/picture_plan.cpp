@@ -1,5 +1,7 @@
 #include "cli/picture_plan.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -38,6 +40,20 @@ Result<PictureRequest> parse_plan(const PicturePlanOptions& options, const rende
 render::VolumeChoice choice_of(const render::Scene& scene) {
     return {scene.slices,         scene.integration,  !(scene.pixel_tolerance > 0),
             scene.light.gradient, scene.light.shadow, scene.light.scattering};
+}
+
+bool chooses_slices(const std::string& effect) {
+    return effect.starts_with("slices_");
+}
+
+bool has(const std::vector<std::string>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The effects that were asked for leave the number of slices alone, and no tolerance chooses it.
+bool keeps_slices(const PicturePlanOptions& options) {
+    return options.tolerance.empty() &&
+           std::none_of(options.effects.begin(), options.effects.end(), chooses_slices);
 }
 
 // What the settings leave of the default.
@@ -84,13 +100,37 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
            "--tolerance", options.tolerance,
            "What the picture may be off, \"dE 2\" (99 % of the pixels, CIEDE2000), or take, "
            "\"20 ms\": slices and rays are chosen for it")
-        ->group(group);
+        ->group(group)
+        ->each([&options](const std::string&) { options.tolerance_typed = true; });
     app.add_option("--effect", options.effects,
                    "NAME=on|off|auto, any number; --explain lists the effects")
-        ->group(group);
+        ->group(group)
+        ->each([&options](const std::string&) { options.effects_typed = true; });
     app.add_flag("--explain", options.explain,
                  "Say how large each effect is, and why it is on or off")
         ->group(group);
+}
+
+Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
+                                              const SceneOptions& scene) {
+    const bool typed = has(scene.typed, "--slices");
+    const bool in_file = !typed && has(scene.in_file, "[volume] slices");
+    PicturePlanOptions kept = plan;
+    if (typed && !plan.tolerance_typed) kept.tolerance.clear();
+    if (typed && !plan.effects_typed) std::erase_if(kept.effects, chooses_slices);
+    if (!typed && (!in_file || plan.tolerance_typed || plan.effects_typed)) return kept;
+    if (keeps_slices(kept)) return kept;
+    if (typed) {
+        return fail(ErrorCode::bad_argument,
+                    "--slices and --{} exclude each other: {} how many slices there are",
+                    kept.tolerance.empty() ? "effect slices_..." : "tolerance",
+                    kept.tolerance.empty() ? "the effect says" : "the tolerance chooses");
+    }
+    return fail(ErrorCode::bad_argument,
+                "{}: [volume] slices and [plan] {} exclude each other: the plan chooses how many "
+                "slices there are",
+                plan.scene ? plan.scene->file : "",
+                kept.tolerance.empty() ? "effects slices_..." : "tolerance");
 }
 
 Result<std::string> plan_picture(const grid::BrickView& view, const render::FrameFacts& facts,
@@ -114,7 +154,13 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
     }
     if (!planned->plan.meets_budget)
         return fail(ErrorCode::not_found, "{}", planned->plan.shortfall);
-    scene.slices = planned->choice.slices;
+    if (!keeps_slices(options)) {
+        scene.slices = planned->choice.slices;
+    } else if (options.explain && scene.slices != planned->choice.slices) {
+        fmt::print(json ? stderr : stdout,
+                   "The picture has the {} slices that were asked for, the plan is of {}.\n",
+                   scene.slices, planned->choice.slices);
+    }
     scene.integration = planned->choice.integration;
     scene.pixel_tolerance = planned->choice.every_pixel ? 0 : render::interpolated_tolerance;
     scene.light.gradient = planned->choice.gradient;

@@ -7,6 +7,7 @@
 
 #include "accuracy/plan.h"
 #include "base/result.h"
+#include "cli/scene_options.h"
 #include "render/render.h"
 
 namespace CLI {
@@ -27,6 +28,7 @@ struct ScenePlan {
 struct PicturePlanOptions {
     std::string tolerance;
     std::vector<std::string> effects;
+    bool tolerance_typed = false, effects_typed = false;
     bool explain = false;
     std::optional<ScenePlan> scene;  // none: no file was given
 
@@ -39,7 +41,14 @@ struct PicturePlanOptions {
 
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 
-// Plans for this grid and sets the scene's slices, integration and rays as planned; prints the plan
+// A number of slices and a plan that chooses it (a tolerance, an effect slices_...) exclude each
+// other. What was typed wins over a scene's file, of which the other is left out; where both were
+// typed, or stand in the file, bad_argument names them.
+[[nodiscard]] Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
+                                                            const SceneOptions& scene);
+
+// Plans for this grid and sets the scene's slices, integration and rays as planned (slices that no
+// tolerance or effect chooses stay as they are); prints the plan
 // where that was asked for, to stderr with `json`, else to stdout. Gives what the plan knows of the
 // picture's error, in one line. Nothing happens, and the line is empty, when nothing was asked.
 // A plan of the scene's file is left out for a product that was typed and is no volume.

@@ -17,6 +17,7 @@
 #include "base/toml_file.h"
 #include "cache/grid_name.h"
 #include "cli/commands.h"
+#include "cli/product_options.h"
 #include "render/colour/colour_file.h"
 #include "render/plan/volume_plan.h"
 
@@ -103,6 +104,7 @@ bool is_colour_file(const std::string& name) {
 
 void read_picture(TomlTable picture, const std::filesystem::path& directory,
                   SceneOptions& options) {
+    note_keys(picture, "picture", options);
     read_text(picture, "product", options.product,
               [](const std::string& name) { return status_of(render::product_from_name(name)); });
     read_text(picture, "moment", options.moment, [](const std::string& name) -> Status {
@@ -132,6 +134,7 @@ void read_picture(TomlTable picture, const std::filesystem::path& directory,
 }
 
 void read_camera(TomlTable camera, SceneOptions& options) {
+    note_keys(camera, "camera", options);
     render::Camera& view = options.scene.camera;
     read_number(camera, "azimuth_deg", {-3600, 3600}, view.azimuth_deg);
     read_number(camera, "tilt_deg", {0, 180}, view.tilt_deg);
@@ -147,6 +150,7 @@ void read_camera(TomlTable camera, SceneOptions& options) {
 }
 
 void read_light(TomlTable light, SceneOptions& options) {
+    note_keys(light, "light", options);
     if (const auto kinds = light.texts("kinds")) {
         render::Light lit;
         const std::string names =
@@ -159,6 +163,7 @@ void read_light(TomlTable light, SceneOptions& options) {
 }
 
 void read_volume(TomlTable volume, SceneOptions& options) {
+    note_keys(volume, "volume", options);
     render::Scene& scene = options.scene;
     read_whole(volume, "slices", {8, 4096}, scene.slices);
     read_number(volume, "exaggeration", {0.1, 100}, scene.vertical_exaggeration);
@@ -168,6 +173,7 @@ void read_volume(TomlTable volume, SceneOptions& options) {
 }
 
 void read_labels(TomlTable labels, SceneOptions& options) {
+    note_keys(labels, "labels", options);
     if (const auto show = labels.flag("show")) options.no_labels = !*show;
     read_number(labels, "ring_spacing_km", {1, 1000}, options.range_ring_spacing_km);
     read_text(labels, "time_zone", options.time_zone, [](const std::string& zone) -> Status {
@@ -191,7 +197,9 @@ void read_plan(TomlTable plan, PicturePlanOptions& options) {
     }
 }
 
-void read_loop(TomlTable table, const std::filesystem::path& directory, LoopSettings& loop) {
+void read_loop(TomlTable table, const std::filesystem::path& directory, SceneOptions& options,
+               LoopSettings& loop) {
+    note_keys(table, "loop", options);
     read_text(table, "domain", loop.domain, [](const std::string& name) -> Status {
         if (cache::is_domain_name(name)) return {};
         return fail(ErrorCode::bad_argument, "'{}' is no domain's name", printable(name));
@@ -254,12 +262,13 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     PicturePlanOptions new_plan = plan;
     LoopSettings new_loop = loop;
     read_picture(root.section("picture"), file.parent_path(), new_scene);
+    new_scene.file_product = new_scene.product;
     read_camera(root.section("camera"), new_scene);
     read_light(root.section("light"), new_scene);
     read_volume(root.section("volume"), new_scene);
     read_labels(root.section("labels"), new_scene);
     read_plan(root.section("plan"), new_plan);
-    read_loop(root.section("loop"), file.parent_path(), new_loop);
+    read_loop(root.section("loop"), file.parent_path(), new_scene, new_loop);
     if (auto fine = toml->finish(); !fine) return fine;
     scene = std::move(new_scene);
     plan = std::move(new_plan);

@@ -7,6 +7,7 @@
 
 #include "base/local_time.h"
 #include "base/number_list.h"
+#include "cli/product_options.h"
 #include "render/colour/colour_file.h"
 
 namespace stormcellar::cli {
@@ -108,6 +109,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--height", scene.height, "Pixels")->group(group)->capture_default_str();
     add_view_options(app, options);
     add_label_options(app, options);
+    note_typed_options(app, options);
 }
 
 Result<render::Scene> scene_of(const SceneOptions& options) {
@@ -116,6 +118,7 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     if (options.threads < 0 || options.threads > 1024) {
         return fail(ErrorCode::bad_argument, "threads must be 0 to 1024, not {}", options.threads);
     }
+    if (auto used = check_product_options(*product, options); !used) return pass_on(used);
     render::Scene scene = options.scene;
     scene.product = *product;
     const auto moment = level2::moment_from_name(options.moment);

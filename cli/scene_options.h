@@ -30,6 +30,11 @@ struct SceneOptions {
     double range_ring_spacing_km = 50;
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
+    // Of those that not every product uses (cli/product_options.h): the options that were typed,
+    // and what a scene's file says, with the product that the file is for.
+    std::vector<std::string> typed;
+    std::vector<std::string> in_file;
+    std::string file_product;  // empty: no file was given
 };
 
 // Puts the options of product, colours, camera and labels on a subcommand, and --threads. `options`

@@ -17,6 +17,7 @@
 #include "daemon/config.h"
 #include "daemon/ingest_sink.h"
 #include "daemon/log.h"
+#include "daemon/loop_check.h"
 #include "daemon/service.h"
 #include "pipeline/instance_lock.h"
 
@@ -29,7 +30,7 @@ constexpr int exit_bad_usage = 2;
 constexpr std::string_view usage =
     "usage: stormcellard --config FILE [--check-config]\n"
     "  --config FILE    what to watch and how (TOML)\n"
-    "  --check-config   say whether FILE is right, and end\n"
+    "  --check-config   say whether FILE and its loops' scenes are right, and end\n"
     "  --version, --help\n";
 
 struct Arguments {
@@ -144,6 +145,10 @@ int run(int argc, char** argv) {
         *arguments->config, arguments->check ? SceneFiles::must_exist : SceneFiles::as_named);
     if (!config) return complain(config.error());
     if (arguments->check) {
+        if (const Status fine = check_loops(config->loops, config->cache); !fine) {
+            return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
+                                                            fine.error().message)});
+        }
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }

@@ -61,13 +61,14 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
     return picture;
 }
 
-Image draw_section_picture(const grid::BrickView& view, const Scene& scene, const Frame& frame,
-                           int threads) {
+Result<Image> draw_section_picture(const grid::BrickView& view, const Scene& scene,
+                                   const Frame& frame, int threads) {
     const LabelLayout& layout = frame.layout;
     const SectionPlace place =
         section_place(layout.width, layout.height, layout.scale, scene.labels);
     const Section section =
         cut_section(view, scene.moment, *scene.section, place.width, place.height, threads);
+    if (auto in_grid = check_in_grid(section, *view.spec); !in_grid) return pass_on(in_grid);
     return draw_section(section, colours_of(scene), place, layout.width, layout.height,
                         layout.scale, scene.labels ? &frame.fonts : nullptr);
 }
@@ -132,7 +133,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     }
 
     const bool section = scene.product == Product::section;
-    auto picture = section ? Result<Image>(draw_section_picture(view, scene, frame, threads))
+    auto picture = section ? draw_section_picture(view, scene, frame, threads)
                            : draw_picture(view, columns, scene, geometry, frame, threads, keeper);
     if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);

@@ -38,7 +38,8 @@ struct FrameFacts {
 
 // A loop hands the same keeper to each of its frames: map and colours are then prepared once, and
 // room is taken once. The pixels are the same with it or without.
-// bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's.
+// bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's,
+// or a section outside it.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameKeeper* keeper = nullptr);

@@ -94,6 +94,18 @@ Section cut_section(const grid::BrickView& view, level2::Moment moment, const Se
     return section;
 }
 
+Status check_in_grid(const Section& section, const grid::GridSpec& spec) {
+    const auto& in_grid = section.in_grid;
+    if (std::any_of(in_grid.begin(), in_grid.end(), [](auto in) { return in != 0; })) return {};
+    const grid::GridProjection projection(spec);
+    return fail(ErrorCode::bad_argument,
+                "the section from {} to {} lies wholly outside the grid, which reaches from {} in "
+                "the south-west to {} in the north-east",
+                place_text(section.line.from), place_text(section.line.to),
+                place_text(projection.to_geo({-0.5, -0.5})),
+                place_text(projection.to_geo({spec.nx - 0.5, spec.ny - 0.5})));
+}
+
 SectionPlace section_place(int width, int height, double scale, bool labels) {
     if (!labels) return {0, 0, width, height};
     const auto scaled = [&](double length) {

@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "base/result.h"
 #include "grid/brick_view.h"
 #include "grid/site_frame.h"
 #include "level2/volume.h"
@@ -33,6 +34,9 @@ struct Section {
 // `width` and `height` at least 1, the line valid (validate(Scene)).
 [[nodiscard]] Section cut_section(const grid::BrickView& view, level2::Moment moment,
                                   const SectionLine& line, int width, int height, int threads);
+
+// bad_argument, saying where the grid is, when no part of the section lies in it.
+[[nodiscard]] Status check_in_grid(const Section& section, const grid::GridSpec& spec);
 
 // Where in a picture of this size the section lies: room for axes, unless `labels` are off.
 struct SectionPlace {

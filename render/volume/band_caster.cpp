@@ -79,14 +79,15 @@ template <class Ask>
 void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
     Tiles tiles(*this, tile_row);
     if (!tiles.any()) return;
-    const int top = tile_row * tile_edge;
-    const int bottom = std::min(top + tile_edge, height_);
+    const int side = mask_.edge();
+    const int top = tile_row * side;
+    const int bottom = std::min(top + side, height_);
     for (int tile = 0; tile < mask_.tiles_across(); ++tile) {
         if (!tiles.enter(tile)) continue;
-        const int left = tile * tile_edge;
-        const int right = std::min(left + tile_edge, width_);
-        // By quarters: sixteen rays of a square find more of the same than those of two rows.
-        const int edge = std::max(tile_edge / 2, stride);
+        const int left = tile * side;
+        const int right = std::min(left + side, width_);
+        // Sixteen rays of a square find more of the same than those of two rows.
+        const int edge = std::max(small_tile_edge, stride);
         for (int from_y = top; from_y < bottom; from_y += edge) {
             for (int from_x = left; from_x < right; from_x += edge) {
                 for (int y = from_y; y < std::min(from_y + edge, bottom); y += stride) {
@@ -100,8 +101,9 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
 }
 
 void BandCaster::cast_first(int tile_row, int stride) const {
-    const int rows = std::min(tile_edge, height_ - tile_row * tile_edge);
-    std::fill_n(at(0, tile_row * tile_edge), static_cast<std::ptrdiff_t>(rows) * width_ * 4, 0.0F);
+    const int top = tile_row * mask_.edge();
+    const int rows = std::min(mask_.edge(), height_ - top);
+    std::fill_n(at(0, top), static_cast<std::ptrdiff_t>(rows) * width_ * 4, 0.0F);
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 

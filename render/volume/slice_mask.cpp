@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "base/parallel.h"
 #include "render/volume/block_codes.h"
@@ -16,7 +18,6 @@ using grid::brick_edge;
 
 // Steps by which a bit may be set too early or too late: covers the rounding of both sides.
 constexpr double slack = 0.01;
-constexpr double half_tile_pixels = 0.5 * tile_edge;
 
 // Sets the bits from `first` to `last`, both included.
 void set_bits(std::uint64_t* words, int first, int last) {
@@ -65,28 +66,48 @@ struct SliceMask::Cells {
 };
 
 SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
-                     const TransferFunction& transfer, int threads)
+                     const TransferFunction& transfer, int threads, int edge)
     : geometry_(geometry),
       slices_(slices),
+      edge_(edge),
       step_m_((geometry.far_m() - geometry.near_m()) / slices),
-      tiles_across_((geometry.width() + tile_edge - 1) / tile_edge),
-      tiles_down_((geometry.height() + tile_edge - 1) / tile_edge),
+      tiles_across_((geometry.width() + edge - 1) / edge),
+      tiles_down_((geometry.height() + edge - 1) / edge),
       words_per_tile_(static_cast<std::size_t>(slices + 63) / 64),
       block_edge_(block_edge_for(*view.spec, geometry)),
-      rows_(static_cast<std::size_t>(tiles_down_)) {
-    std::vector<Boxes> found(static_cast<std::size_t>(view.bricks_x));
+      boxes_(static_cast<std::size_t>(view.bricks_x)),
+      row_ends_(static_cast<std::size_t>(tiles_down_)) {
+    // How many boxes of each slab of bricks reach into each row, and then where their numbers go.
+    const auto rows = static_cast<std::size_t>(tiles_down_);
+    std::vector<std::size_t> places(boxes_.size() * rows);
     for_each_piece(view.bricks_x, threads, [&](int bx) {
+        const auto slab = static_cast<std::size_t>(bx);
         for (int by = 0; by < view.bricks_y; ++by) {
             for (int bz = 0; bz < view.bricks_z; ++bz)
-                add_brick(view, transfer, {bx, by, bz}, found[static_cast<std::size_t>(bx)]);
+                add_brick(view, transfer, {bx, by, bz}, boxes_[slab]);
+        }
+        for (const Box& box : boxes_[slab]) {
+            for (int row = box.first_row; row <= box.last_row; ++row)
+                ++places[slab * rows + static_cast<std::size_t>(row)];
         }
     });
-    for (const Boxes& boxes : found) {
-        for (const Box& box : boxes) {
-            for (int row = box.first_row; row <= box.last_row; ++row)
-                rows_[static_cast<std::size_t>(row)].push_back(box);
-        }
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t slab = 0; slab < boxes_.size(); ++slab)
+            count += std::exchange(places[slab * rows + row], count);
+        row_ends_[row] = count;
     }
+    in_rows_.resize(count);
+    for_each_piece(view.bricks_x, threads, [&](int bx) {
+        const auto slab = static_cast<std::size_t>(bx);
+        const Boxes& boxes = boxes_[slab];
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            for (int row = boxes[i].first_row; row <= boxes[i].last_row; ++row) {
+                in_rows_[places[slab * rows + static_cast<std::size_t>(row)]++] = {
+                    static_cast<std::uint32_t>(slab), static_cast<std::uint32_t>(i)};
+            }
+        }
+    });
 }
 
 void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer,
@@ -205,14 +226,14 @@ bool SliceMask::place_in_picture(Box& box) const {
     const Outline outline =
         geometry_.is_perspective() ? perspective_outline(box) : parallel_outline(box);
     if (geometry_.is_perspective() && outline.farthest_m < geometry_.near_m()) return false;
-    const auto tile = [](double pixel, int tiles) {
-        return static_cast<int>(std::floor(std::clamp(pixel / tile_edge, -1.0, 1.0 * tiles)));
+    const auto tile = [&](double pixel, int tiles) {
+        return static_cast<int>(std::floor(std::clamp(pixel / edge_, -1.0, 1.0 * tiles)));
     };
     box.first_tile = std::max(tile(outline.left, tiles_across_), 0);
     box.last_tile = std::min(tile(outline.right, tiles_across_), tiles_across_ - 1);
     box.first_row = std::max(tile(outline.top, tiles_down_), 0);
     box.last_row = std::min(tile(outline.bottom, tiles_down_), tiles_down_ - 1);
-    const double half = half_tile_pixels * geometry_.metres_per_pixel(outline.farthest_m);
+    const double half = 0.5 * edge_ * geometry_.metres_per_pixel(outline.farthest_m);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double widen =
             half * (std::abs(geometry_.right()[axis]) + std::abs(geometry_.up()[axis])) +
@@ -255,17 +276,20 @@ void SliceMask::mark(const Box& box, const Vec3& start, const Direction& directi
 }
 
 bool SliceMask::fill_band(int tile_row, std::vector<std::uint64_t>& words) const {
-    const Boxes& boxes = rows_[static_cast<std::size_t>(tile_row)];
-    if (boxes.empty()) return false;
+    const auto row = static_cast<std::size_t>(tile_row);
+    const std::size_t begin = row == 0 ? 0 : row_ends_[row - 1];
+    const auto in_row = std::span(in_rows_).subspan(begin, row_ends_[row] - begin);
+    if (in_row.empty()) return false;
     words.assign(static_cast<std::size_t>(tiles_across_) * words_per_tile_, 0);
     const auto middle = [&](int tile) {
-        return Pixel{tile * tile_edge + half_tile_pixels, tile_row * tile_edge + half_tile_pixels};
+        return Pixel{(tile + 0.5) * edge_, (tile_row + 0.5) * edge_};
     };
     const Vec3 start = geometry_.point(middle(0), geometry_.near_m());
     const Vec3 next = geometry_.point(middle(1), geometry_.near_m());
     const Vec3 per_tile = {next[0] - start[0], next[1] - start[1], next[2] - start[2]};
     const Direction parallel = direction(geometry_.forward());
-    for (const Box& box : boxes) {
+    for (const BoxNumber& number : in_row) {
+        const Box& box = boxes_[number.slab][number.box];
         for (int tile = box.first_tile; tile <= box.last_tile; ++tile) {
             const Vec3 from = {start[0] + tile * per_tile[0], start[1] + tile * per_tile[1],
                                start[2] + tile * per_tile[2]};

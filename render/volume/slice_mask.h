@@ -3,7 +3,7 @@
 // The picture is divided into square tiles. A bit for each tile and step (between two slices) says
 // whether any point of that step under any pixel of the tile may find a visible value. Bits err to
 // the safe side only. What may be visible is told by the bricks' least and largest codes, and
-// inside a brick by those of its blocks, 2 to 16 cells wide, about as wide as a tile. Thread
+// inside a brick by those of its blocks, 2 to 16 cells wide, about as wide as 8 pixels. Thread
 // contract: immutable; fill_band() may run on many threads.
 #pragma once
 
@@ -17,14 +17,16 @@
 
 namespace stormcellar::render {
 
-inline constexpr int tile_edge = 8;  // pixels
+// Pixels. Small tiles are those of one packet of rays: fewer steps are sampled in vain.
+inline constexpr int tile_edge = 8, small_tile_edge = 4;
 
 class SliceMask {
   public:
     // The geometry must outlive this.
     SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
-              const TransferFunction& transfer, int threads);
+              const TransferFunction& transfer, int threads, int edge = tile_edge);
 
+    [[nodiscard]] int edge() const { return edge_; }  // of a tile, pixels
     [[nodiscard]] int tiles_across() const { return tiles_across_; }
     [[nodiscard]] int tiles_down() const { return tiles_down_; }
     [[nodiscard]] std::size_t words_per_tile() const { return words_per_tile_; }
@@ -58,12 +60,17 @@ class SliceMask {
               std::uint64_t* words) const;
 
     const ViewGeometry& geometry_;
-    int slices_;
+    int slices_, edge_;
     double step_m_;
     int tiles_across_, tiles_down_;
     std::size_t words_per_tile_;
-    int block_edge_;           // cells
-    std::vector<Boxes> rows_;  // of tiles: the boxes that reach into them
+    int block_edge_;  // cells
+    struct BoxNumber {
+        std::uint32_t slab, box;
+    };
+    std::vector<Boxes> boxes_;           // of each slab of bricks
+    std::vector<BoxNumber> in_rows_;     // of tiles, row after row: the boxes that reach into them
+    std::vector<std::size_t> row_ends_;  // in them
 };
 
 }  // namespace stormcellar::render

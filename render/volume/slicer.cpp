@@ -70,13 +70,14 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads);
+    // Where the picture is interpolated between rays, about every second one is cast.
+    const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
+    room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads,
+                      all_rays ? small_tile_edge : tile_edge);
     room.shadows.reset();
     if (options_.light.needs_volume()) {
         room.shadows.emplace(view, *transfer_, step_m(), geometry_, options_.light, threads);
     }
-    // Where the picture is interpolated between rays, about every second one is cast.
-    const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
     const double rays = (all_rays ? 1.0 : 0.5) * layer.width * layer.height;
     const double samples = rays * options_.slices;
     room.has_corners = CornerTable::serves(view, samples);

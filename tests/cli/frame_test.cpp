@@ -137,6 +137,22 @@ TEST_F(Frame, DrawsEveryProduct) {
     EXPECT_FALSE(fs::exists(out("b.png")));
 }
 
+// 2026-11-22: such a section was an empty picture.
+TEST_F(Frame, ASectionOutsideTheGridIsRefused) {
+    EXPECT_EQ(run("--domain KBGM --product section --section 35,-98,35.5,-97 -o " + out("b.png")),
+              exit_bad_usage);
+    EXPECT_THAT(messages_,
+                ::testing::HasSubstr("the section from 35.000\u00B0N 98.000\u00B0W to "
+                                     "35.500\u00B0N 97.000\u00B0W lies wholly outside the grid"));
+    // 40 columns and rows of 1 km about 42.2 N 75.98 W: 20 km are 0.180 and 0.243 degrees.
+    EXPECT_THAT(messages_, ::testing::HasSubstr("from 42.020\u00B0N 76.22"));
+    EXPECT_THAT(messages_, ::testing::HasSubstr("to 42.380\u00B0N 75.73"));
+    EXPECT_FALSE(fs::exists(out("b.png")));
+    EXPECT_EQ(run("--domain KBGM --product section --section 42.2,-79,42.2,-76 -o " + out("b.png")),
+              exit_done)
+        << "a part of it lies within";
+}
+
 TEST_F(Frame, TakesTheNewestGridOfTheMoment) {
     EXPECT_EQ(run("--domain KBGM --moment VEL --product cappi -o " + out("a.png")), exit_done)
         << messages_;

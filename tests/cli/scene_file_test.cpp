@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/file_system.h"
 #include "cache/store.h"
 #include "cli/commands.h"
 #include "grid/brick_grid.h"
@@ -99,9 +100,8 @@ TEST_F(SceneFileTest, AnEmptyFileChangesNothing) {
 
 TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
     const Status status = read(
-        "[picture]\nproduct = \"section\"\nmoment = \"RHO\"\ncolours = \"safe-rho\"\n"
-        "height_km = 4.5\nsection = [35, -98.5, 36.25, -97]\necho_top_dbz = 30\nwidth = 640\n"
-        "height = 480\n"
+        "[picture]\nproduct = \"volume\"\nmoment = \"RHO\"\ncolours = \"safe-rho\"\n"
+        "width = 640\nheight = 480\n"
         "[camera]\nazimuth_deg = 135\ntilt_deg = 120\nzoom = 2.5\nfield_of_view_deg = 35\n"
         "at_km = [-20, 5.5, 3]\n"
         "[light]\nkinds = [\"shadow\", \"gradient\"]\nsun_deg = [120, 30]\n"
@@ -110,13 +110,9 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
     ASSERT_TRUE(status) << status.error().message;
     const auto scene = scene_of(settings_.scene);
     ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->product, render::Product::section);
+    EXPECT_EQ(scene->product, render::Product::volume);
     EXPECT_EQ(scene->moment, level2::Moment::rho);
     EXPECT_EQ(scene->colours->name, "safe-rho");
-    EXPECT_EQ(scene->cappi_height_m, 4500);
-    EXPECT_EQ(scene->section->from.longitude_deg, -98.5);
-    EXPECT_EQ(scene->section->to.latitude_deg, 36.25);
-    EXPECT_EQ(scene->echo_top_dbz, 30);
     EXPECT_EQ(scene->width, 640);
     EXPECT_EQ(scene->height, 480);
     EXPECT_EQ(scene->camera.azimuth_deg, 135);
@@ -137,6 +133,26 @@ TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
     EXPECT_FALSE(scene->labels);
     EXPECT_EQ(scene->range_ring_spacing_m, 25e3);
     EXPECT_EQ(settings_.scene.time_zone, "America/Chicago");
+}
+
+TEST_F(SceneFileTest, EveryKeyOfAFlatPictureReachesTheScene) {
+    ASSERT_TRUE(read("[picture]\nproduct = \"section\"\nsection = [35, -98.5, 36.25, -97]\n"));
+    const auto section = scene_of(settings_.scene);
+    ASSERT_TRUE(section) << section.error().message;
+    EXPECT_EQ(section->product, render::Product::section);
+    EXPECT_EQ(section->section->from.longitude_deg, -98.5);
+    EXPECT_EQ(section->section->to.latitude_deg, 36.25);
+    settings_ = {};
+    ASSERT_TRUE(read("[picture]\nproduct = \"cappi\"\nheight_km = 4.5\n[camera]\nzoom = 2\n"));
+    const auto cappi = scene_of(settings_.scene);
+    ASSERT_TRUE(cappi) << cappi.error().message;
+    EXPECT_EQ(cappi->cappi_height_m, 4500);
+    EXPECT_EQ(cappi->camera.zoom, 2);
+    settings_ = {};
+    ASSERT_TRUE(read("[picture]\nproduct = \"echotop\"\necho_top_dbz = 30\n"));
+    const auto tops = scene_of(settings_.scene);
+    ASSERT_TRUE(tops) << tops.error().message;
+    EXPECT_EQ(tops->echo_top_dbz, 30);
 }
 
 TEST_F(SceneFileTest, EveryKeyOfPlanAndLoopIsTaken) {
@@ -341,6 +357,78 @@ TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
     EXPECT_THAT(within.err,
                 HasSubstr(at("s.toml") + ": [plan] is for volumes: composite is drawn"));
     EXPECT_EQ(draw("--product volume").status, exit_done) << "now the plan has something to say";
+}
+
+// 2026-11-22: keys that the picture did not use were dropped without a word.
+TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
+    commit();
+    const auto draw = [&](const std::string& more) {
+        return run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} {}", cache(),
+                                          at("s.toml"), at("a.png"), more));
+    };
+    const std::string keys =
+        "[camera]\ntilt_deg = 40\n[light]\nkinds = [\"shadow\"]\n[volume]\nslices = 16\n"
+        "[labels]\nring_spacing_km = 20\n[loop]\norbit_deg = 90\n";
+    write(keys);
+    for (const char* product : {"composite", "vil", "section --section 42,-76.1,42.3,-75.8"}) {
+        const auto typed = draw(fmt::format("--product {}", product));
+        EXPECT_EQ(typed.status, exit_done) << typed.err;
+    }
+    const auto both = draw("--product composite --opacity 2");
+    EXPECT_EQ(both.status, exit_bad_usage);
+    EXPECT_THAT(both.err, HasSubstr("--opacity is for volume: composite does not use it (beside "));
+    write("[picture]\nproduct = \"composite\"\n" + keys);
+    for (const char* more : {"", "--product vil"}) {
+        const auto within = draw(more);
+        EXPECT_EQ(within.status, exit_bad_usage) << "the file is no good for its own product";
+        EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume: "));
+        EXPECT_THAT(within.err, HasSubstr(at("s.toml")));
+    }
+    EXPECT_EQ(draw("--product volume").status, exit_done) << "now they have something to say";
+}
+
+// 2026-11-22: the number of slices was dropped beside a tolerance, and rounded by --explain.
+TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
+    commit();
+    const auto draw = [&](const std::string& more) {
+        return run(add_frame, fmt::format("frame KBGM --cache {} --width 400 --height 300 -o {} {}",
+                                          cache(), at("a.png"), more));
+    };
+    const auto refused = [&](const std::string& more) {
+        const auto ran = draw(more);
+        EXPECT_EQ(ran.status, exit_bad_usage) << more;
+        return ran.err;
+    };
+    // The picture says itself how many slices it has.
+    const auto has_slices = [&](int count) {
+        const auto bytes = *read_file(at("a.png"));
+        const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        return all.find(fmt::format(", {} slices", count)) != std::string::npos;
+    };
+    EXPECT_THAT(refused("--slices 40 --tolerance \"dE 9\""),
+                HasSubstr("--slices and --tolerance exclude each other: the tolerance chooses"));
+    EXPECT_THAT(refused("--slices 40 --effect slices_128=on"),
+                HasSubstr("--slices and --effect slices_... exclude each other"));
+    EXPECT_EQ(draw("--slices 40 --effect every_pixel=off").status, exit_done);
+    EXPECT_TRUE(has_slices(40)) << "no rung, but asked for";
+    const auto explained = draw("--slices 40 --explain");
+    EXPECT_EQ(explained.status, exit_done) << explained.err;
+    EXPECT_THAT(explained.out,
+                HasSubstr("has the 40 slices that were asked for, the plan is of 64"));
+    EXPECT_TRUE(has_slices(40));
+    const std::string scene = "--scene " + at("s.toml");
+    write("[volume]\nslices = 40\n");
+    EXPECT_EQ(draw(scene + " --effect slices_128=on --effect slices_64=on").status, exit_done);
+    EXPECT_FALSE(has_slices(40)) << "what is typed wins";
+    EXPECT_EQ(draw(scene + " --tolerance \"dE 60\"").status, exit_done);
+    EXPECT_FALSE(has_slices(40)) << "what is typed wins";
+    write("[plan]\ntolerance = \"dE 9\"\n[plan.effects]\nslices_64 = \"on\"\n");
+    EXPECT_EQ(draw(scene + " --slices 40").status, exit_done);
+    EXPECT_TRUE(has_slices(40)) << "what is typed wins";
+    write("[volume]\nslices = 40\n[plan]\ntolerance = \"dE 9\"\n");
+    EXPECT_THAT(
+        refused(scene),
+        HasSubstr(at("s.toml") + ": [volume] slices and [plan] tolerance exclude each other"));
 }
 
 TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {

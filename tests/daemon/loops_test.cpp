@@ -11,6 +11,8 @@
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -130,6 +132,42 @@ TEST_F(Loops, AReloadStartsAndStopsThem) {
     EXPECT_TRUE(daemon_.wait_for([](const json& s) { return s["loops"]["each"].empty(); }))
         << daemon_.log();
     EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
+}
+
+// 2026-11-22: that a scene's file was there was all that was looked at.
+TEST(CheckConfig, LooksIntoTheLoopsScenes) {
+    const testing::TemporaryDirectory directory;
+    const auto check = [&](const std::string& scene, const std::string& loop,
+                           const std::string& path) {
+        write_file(directory / "scene.toml", scene);
+        write_file(directory / "c.toml",
+                   "[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\n" + loop);
+        // `env` sets where stormcellar is.
+        return testing::run_program("/usr/bin/env", {"PATH=" + path, STORMCELLARD, "--check-config",
+                                                     "--config", (directory / "c.toml").native()});
+    };
+    const std::string& path = with_program().at("PATH");
+    const std::string loop =
+        "domain = \"KBGM\"\nscene = \"scene.toml\"\noutputs = [\"gone/a.webp\"]\n";
+    const auto good = check("[picture]\nproduct = \"composite\"\n", loop, path);
+    EXPECT_EQ(good.status, 0) << good.err;
+    EXPECT_TRUE(good.out.ends_with("c.toml: ok\n")) << good.out;
+    EXPECT_FALSE(fs::exists(directory / "gone")) << "nothing is made";
+
+    const auto refused = [&](const testing::ProgramResult& ran, const std::string& why) {
+        EXPECT_EQ(ran.status, 1);
+        EXPECT_NE(ran.err.find("c.toml: [[loop]] a: "), std::string::npos) << ran.err;
+        EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
+    };
+    refused(check("[picture]\nproduct = \"hologram\"\n", loop, path),
+            "scene.toml:2: [picture] product: unknown product 'hologram'");
+    refused(check("[picture]\nproduct = \"vil\"\n[volume]\nhaze = true\n", loop, path),
+            "scene.toml: [volume] haze is for volume: vil does not use it");
+    refused(check("[picture]\nproduct = \"section\"\n", loop, path),
+            "scene.toml: a section needs its two ends");
+    refused(check("", "scene = \"scene.toml\"\noutputs = [\"a.webp\"]\n", path), "--domain");
+    refused(check("", "domain = \"KBGM\"\noutputs = [\"a.xyz\"]\n", path), "unknown ending '.xyz'");
+    refused(check("", loop, "/nowhere"), "no program stormcellar");
 }
 
 }  // namespace

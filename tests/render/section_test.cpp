@@ -119,5 +119,21 @@ TEST(SectionPlace, LeavesRoomForAxesOnlyWithLabels) {
     EXPECT_LT(labelled.top + labelled.height, 270);
 }
 
+TEST(Section, OutsideTheGridIsSaidToBe) {
+    const grid::GridSpec spec = small_spec(41, 8);
+    const auto bricks = bricks_of(make_grid_of(spec, [](int, int, int) { return valued(30); }));
+    const auto check = [&](double x0, double x1) {
+        return check_in_grid(
+            cut_section(bricks.view(), Moment::ref, between(spec, x0, 20, x1, 20), 60, 9, 1), spec);
+    };
+    EXPECT_TRUE(check(-30, 10));
+    EXPECT_TRUE(check(39, 90));
+    const Status outside = check(42, 90);
+    ASSERT_FALSE(outside);
+    EXPECT_EQ(outside.error().code, ErrorCode::bad_argument);
+    const grid::GeoPoint corner = grid::GridProjection(spec).to_geo({-0.5, -0.5});
+    EXPECT_NE(outside.error().message.find(place_text(corner)), std::string::npos);
+}
+
 }  // namespace
 }  // namespace stormcellar::render
