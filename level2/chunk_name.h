@@ -1,5 +1,6 @@
 // level2/chunk_name.h -- names of live chunks, "YYYYMMDD-HHMMSS-NNN-T" (ICD 2620010 section 6 gives
-// the parts; the cloud buckets and LDM's users write them so).
+// the parts; the cloud buckets and LDM's users write them so; LDM's own product names give
+// the number without leading zeros, and pqact cannot add them, so they may be missing).
 #pragma once
 
 #include <cstdint>

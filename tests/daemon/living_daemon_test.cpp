@@ -103,6 +103,29 @@ TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
     expect_nothing_left_behind();
 }
 
+TEST_F(LivingDaemon, FilesOfOneChunkEachBecomeAVolume) {
+    daemon_.start(patient);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));
+    const fs::path directory = daemon_.drop() / "KLOT/494";
+    fs::create_directories(directory);
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+        // As pqact names them: without leading zeros.
+        const std::string kind = i == 0 ? "S" : i + 1 == ends_.size() ? "E" : "I";
+        OpenFile(directory / ("20220317-000842-" + std::to_string(i + 1) + "-" + kind))
+            .append(pieces(i, i + 1));
+        if (i == 20) {
+            ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
+        }
+    }
+    ASSERT_TRUE(wait_for_grid([](const cache::GridDescription& grid) {
+        return !grid.provenance.partial;
+    })) << daemon_.log();
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 1; }));
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_EQ(daemon_.status()["rejected"], 0) << daemon_.log();
+    expect_nothing_left_behind();
+}
+
 TEST_F(LivingDaemon, AKilledDaemonGoesOnWithWhatHasGrown) {
     daemon_.start(patient);
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["state"] == "running"; }));

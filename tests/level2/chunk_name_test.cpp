@@ -8,7 +8,7 @@ namespace {
 TEST(ChunkName, IsReadWithWhatStandsAroundIt) {
     for (const char* name :
          {"20220317-000842-017-I", "KLOT-20220317-000842-017-I", "/ldm/KLOT/20220317-000842-017-I",
-          "20220317-000842-017-I.bz2", "20220317-000842-017-I-V06"}) {
+          "20220317-000842-017-I.bz2", "20220317-000842-017-I-V06", "20220317-000842-17-I"}) {
         const auto chunk = parse_chunk_name(name);
         ASSERT_TRUE(chunk) << name;
         EXPECT_EQ(chunk->volume, "20220317-000842");
@@ -22,9 +22,9 @@ TEST(ChunkName, IsReadWithWhatStandsAroundIt) {
 
 TEST(ChunkName, OtherNamesAreNone) {
     for (const char* name :
-         {"", "KLOT20220317_000842_V06", "20220317-000842-017-X", "20220317-000842-17-I",
-          "120220317-000842-017-I", "20220317-000842-017-IX", "20220317-000842-000-S",
-          "20220317-000842-017-I/file"}) {
+         {"", "KLOT20220317_000842_V06", "20220317-000842-017-X", "20220317-000842-0017-I",
+          "20220317-000842--I", "120220317-000842-017-I", "20220317-000842-017-IX",
+          "20220317-000842-000-S", "20220317-000842-017-I/file"}) {
         EXPECT_FALSE(parse_chunk_name(name)) << name;
     }
 }
