@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 // No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
-constexpr std::size_t most_volumes = 1024;
+constexpr std::size_t most_volumes = 320;  // each has a descriptor
+constexpr std::size_t most_siblings = 2000;
 
 }  // namespace
 
@@ -69,7 +70,8 @@ void ChunkVolume::add_siblings(const ChunkPath& of) {
          at.increment(error)) {
         if (is_temporary_name(at->path().filename().string())) continue;
         auto chunk = ChunkPath::of(at->path());
-        if (chunk && chunk->key == of.key && chunk->path != of.path) {
+        if (chunk && chunk->key == of.key && chunk->path != of.path &&
+            found.size() < most_siblings) {
             found.push_back(std::move(*chunk));
         }
     }

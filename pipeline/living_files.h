@@ -20,7 +20,7 @@
 namespace stormcellar::pipeline {
 
 struct LivingLimits {
-    std::size_t files = 512;
+    std::size_t files = 320;  // each has a descriptor, and each site's last volume
     std::uint64_t held_bytes = std::uint64_t{384} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
 };

@@ -50,6 +50,26 @@ TEST_F(StoreTest, CommitOfTheSameTimeReplaces) {
     EXPECT_EQ(store.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size(), 1U);
 }
 
+TEST_F(StoreTest, WhatNeedNotSurviveAPowerCutIsNotWaitedFor) {
+    testing::PowerCutFileSystem files;
+    const auto store = *Store::open_for_writing(files, directory_ / "c", false);
+    ASSERT_TRUE(commit(store, "KBGM", "2022-03-17T00:00"));  // makes the directories
+    GridDescription about = describe(testing::small_grid());
+    about.time = *parse_utc("2022-03-17T00:05", UtcTime{});
+    const auto bricks = grid::BrickGrid::from(testing::small_grid(), grid::Quantization{});
+    const auto path = store.commit("KBGM", about, bricks.view(), Durability::until_a_crash);
+    ASSERT_TRUE(path);
+    const auto file = GridFile::open(*path);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_TRUE(file->verify());
+    files.power_cut();
+    EXPECT_FALSE(GridFile::open(*path)) << "it was synced all the same";
+    EXPECT_EQ(
+        store.list("KBGM", level2::Moment::ref, std::nullopt, about.time - std::chrono::minutes{1})
+            ->size(),
+        1U);
+}
+
 TEST_F(StoreTest, DomainNamesThatCouldLeaveTheStoreAreRefused) {
     const auto store = *Store::open_for_writing(real_file_system(), directory_.path(), false);
     for (const char* name : {"", "..", "../x", "a/b", "-x", ".hidden", "a b"}) {

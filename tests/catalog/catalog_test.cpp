@@ -53,6 +53,18 @@ TEST_F(CatalogTest, RegisteringTheSameFileTwiceChangesNothing) {
     EXPECT_EQ(catalog_.list("KTLX", {})->size(), 1U);
 }
 
+TEST_F(CatalogTest, SeveralFilesAreRegisteredTogether) {
+    FileFacts first = file("/d/a", {});
+    FileFacts second = file("/d/b", {});
+    ASSERT_TRUE(catalog_.register_files("KTLX", {first, second}));
+    for (const char* path : {"/d/a", "/d/b"})
+        EXPECT_TRUE(*catalog_.is_settled(path, 1000, 42)) << path;
+    EXPECT_TRUE(catalog_.list("KTLX", {})->empty()) << "there is no volume in them";
+    EXPECT_EQ(catalog_.list("KTLX", {std::nullopt, std::nullopt, true})->size(), 2U);
+    ASSERT_TRUE(catalog_.register_files("KTLX", {first, second})) << "and again";
+    ASSERT_TRUE(catalog_.register_files("KTLX", {}));
+}
+
 TEST_F(CatalogTest, KeepsEveryFact) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00:00.250Z")})));
     const CatalogEntry entry = catalog_.list("KTLX", {})->at(0);
