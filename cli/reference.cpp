@@ -1,5 +1,7 @@
 #include "cli/reference.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -48,6 +50,22 @@ void add_options(const CLI::App& app, const std::string& group_of_all,
     }
 }
 
+// Those of no group first, then group by group, as --help has them.
+void sort_by_group(std::vector<OptionReference>& options) {
+    std::vector<std::string> groups{""};
+    for (const OptionReference& option : options) {
+        if (std::find(groups.begin(), groups.end(), option.group) == groups.end()) {
+            groups.push_back(option.group);
+        }
+    }
+    const auto place = [&](const OptionReference& option) {
+        return std::find(groups.begin(), groups.end(), option.group) - groups.begin();
+    };
+    std::stable_sort(
+        options.begin(), options.end(),
+        [&](const OptionReference& a, const OptionReference& b) { return place(a) < place(b); });
+}
+
 CommandReference command_of(const CLI::App& app, const std::string& name) {
     CommandReference command;
     command.name = name;
@@ -63,6 +81,7 @@ CommandReference command_of(const CLI::App& app, const std::string& name) {
                                                 : fmt::format("{} {}", name, inner->get_name())));
         }
     }
+    sort_by_group(command.options);
     return command;
 }
 
