@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "base/version.h"
 #include "cache/map_guard.h"
 #include "cli/commands.h"
+#include "cli/reference.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -71,6 +73,17 @@ int flushed(int status) {
     return status == exit_done ? exit_failed : status;
 }
 
+// Hidden: for the build of the package (cli/reference.h).
+int print_reference(const CLI::App& app, const std::string& kind) {
+    const std::optional<std::string> text = reference_text(app, kind);
+    if (!text) {
+        fmt::print(stderr, "stormcellar: --reference: man, bash, zsh or fish\n");
+        return exit_bad_usage;
+    }
+    fmt::print("{}", *text);
+    return exit_done;
+}
+
 int run(int argc, char** argv) {
     keep_freed_memory();
     cache::install_map_guard();
@@ -85,6 +98,8 @@ int run(int argc, char** argv) {
         commands.push_back(add(app));
     }
     refuse_empty(app);
+    if (argc == 3 && std::string_view{argv[1]} == "--reference")
+        return print_reference(app, argv[2]);
     if (const auto word = unknown_command(commands, argc, argv)) {
         fmt::print(stderr, "stormcellar: there is no command '{}'\nTry 'stormcellar --help'.\n",
                    printable(*word));

@@ -5,12 +5,15 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/stormcellarConfig.cmak
   ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake INSTALL_DESTINATION ${STORMCELLAR_CMAKE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
-install(EXPORT stormcellarTargets NAMESPACE stormcellar:: DESTINATION ${STORMCELLAR_CMAKE_DIR})
+install(EXPORT stormcellarTargets NAMESPACE stormcellar:: DESTINATION ${STORMCELLAR_CMAKE_DIR}
+  COMPONENT development)
 install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
   ${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
-  DESTINATION ${STORMCELLAR_CMAKE_DIR})
-install(FILES LICENSE README.md docs/operations.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  DESTINATION ${STORMCELLAR_CMAKE_DIR} COMPONENT development)
+install(FILES README.md docs/operations.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The Debian package says it in its copyright file.
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 # Scenes of pictures, for stormcellar frame and loop.
 install(FILES scenes/picture-regional.toml scenes/picture-section.toml scenes/picture-supercell.toml
   scenes/storm-colours.toml scenes/clear-air-colours.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/stormcellar/scenes)

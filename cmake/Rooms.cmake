@@ -18,11 +18,12 @@ function(stormcellar_room name)
   if(STORMCELLAR_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM stormcellar_headers)
   endif()
-  install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    COMPONENT development)
   if(NOT ARG_WITHOUT_HEADERS)
     install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar/${name}
-      FILES_MATCHING PATTERN "*.h")
+      COMPONENT development FILES_MATCHING PATTERN "*.h")
   endif()
 endfunction()
 

@@ -68,9 +68,16 @@ std::optional<std::vector<LoopState>> LoopKeeper::news() {
     return states_;
 }
 
+std::optional<SteadyTime> LoopKeeper::turns_until() const {
+    const SteadyTime turned = turned_;
+    if (turned == SteadyTime::max()) return std::nullopt;
+    return turned + longest_sleep;
+}
+
 void LoopKeeper::run() {
     while (true) {
         const SteadyTime now = std::chrono::steady_clock::now();
+        turned_ = now;
         wake_up_.clear();
         for (Slot& slot : slots_)
             listen(slot, now);

@@ -39,6 +39,9 @@ class LoopKeeper {
     // Tells all to end, and does not wait; the destructor or wait() does, a few seconds at most.
     void stop();
     void wait();
+    // By when its thread turns again unless it hangs; none where there is no thread. From any
+    // thread.
+    [[nodiscard]] std::optional<SteadyTime> turns_until() const;
     // What has changed since the last call; none when nothing has.
     std::optional<std::vector<LoopState>> news();
 
@@ -76,7 +79,8 @@ class LoopKeeper {
     std::filesystem::path program_;
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
-    std::list<Slot> slots_;  // of the thread
+    std::atomic<SteadyTime> turned_{SteadyTime::max()};  // max: it has not begun
+    std::list<Slot> slots_;                              // of the thread
     RateLimit lines_{20, std::chrono::seconds{60}};
     std::mutex mutex_;
     std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, as the next two

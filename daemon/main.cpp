@@ -1,4 +1,4 @@
-// stormcellard: the service. Usage: stormcellard --config FILE [--check-config]
+// stormcellard: the service. Its usage is the text below.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -18,6 +18,7 @@
 #include "daemon/ingest_sink.h"
 #include "daemon/log.h"
 #include "daemon/loop_check.h"
+#include "daemon/loops_service.h"
 #include "daemon/service.h"
 #include "pipeline/instance_lock.h"
 
@@ -28,14 +29,18 @@ constexpr int exit_failed = 1;
 constexpr int exit_bad_usage = 2;
 
 constexpr std::string_view usage =
-    "usage: stormcellard --config FILE [--check-config]\n"
+    "usage: stormcellard --config FILE [--no-loops | --loops-only | --check-config]\n"
     "  --config FILE    what to watch and how (TOML)\n"
+    "  --no-loops       leave [[loop]] to another stormcellard\n"
+    "  --loops-only     keep [[loop]] and do nothing else\n"
     "  --check-config   say whether FILE and its loops' scenes are right, and end\n"
     "  --version, --help\n";
 
 struct Arguments {
     std::optional<std::filesystem::path> config;
     bool check = false;
+    bool no_loops = false;
+    bool loops_only = false;
     bool help = false;
     bool version = false;
 };
@@ -51,6 +56,10 @@ std::optional<Arguments> parse(int argc, char** argv) {
             arguments.config = word.substr(9);
         } else if (word == "--check-config") {
             arguments.check = true;
+        } else if (word == "--no-loops") {
+            arguments.no_loops = true;
+        } else if (word == "--loops-only") {
+            arguments.loops_only = true;
         } else if (word == "--version") {
             arguments.version = true;
         } else if (word == "--help" || word == "-h") {
@@ -60,6 +69,7 @@ std::optional<Arguments> parse(int argc, char** argv) {
         }
     }
     if (!arguments.help && !arguments.version && !arguments.config) return std::nullopt;
+    if (arguments.no_loops && arguments.loops_only) return std::nullopt;
     return arguments;
 }
 
@@ -95,7 +105,20 @@ std::unique_ptr<EventSource> open_events() {
     return no_events();
 }
 
-int serve(const Config& config, const std::filesystem::path& file) {
+int serve_loops(const Config& config, const std::filesystem::path& file) {
+    set_up_logging(config.log_level);
+    const std::filesystem::path directory = LoopsService::directory(config);
+    if (const Status ready = make_directory(directory); !ready) return complain(ready.error());
+    const auto lock = pipeline::InstanceLock::acquire(directory);
+    if (!lock) return complain(lock.error());
+    const Result<Signals> signals = Signals::open();
+    if (!signals) return complain(signals.error());
+    SystemdNotifier notifier;
+    LoopsService(config, file, {notifier, real_file_system(), &*signals}).run();
+    return EXIT_SUCCESS;
+}
+
+int serve(const Config& config, const std::filesystem::path& file, bool keeps_loops) {
     keep_freed_memory();
     cache::install_map_guard();
     set_up_logging(config.log_level);
@@ -112,7 +135,9 @@ int serve(const Config& config, const std::filesystem::path& file) {
 
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
-    Service service(config, file, {**sink, *events, notifier, real_file_system(), &*signals});
+    Service service(
+        config, file,
+        {**sink, *events, notifier, real_file_system(), &*signals, real_clock(), keeps_loops});
     const Caretaker keeper(
         {(*sink)->catalog(), (*sink)->store(), (*sink)->mender(), (*sink)->site_watch()},
         {.refill = config.refill},
@@ -152,7 +177,8 @@ int run(int argc, char** argv) {
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
-    return serve(*config, *arguments->config);
+    if (arguments->loops_only) return serve_loops(*config, *arguments->config);
+    return serve(*config, *arguments->config, !arguments->no_loops);
 }
 
 }  // namespace

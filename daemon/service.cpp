@@ -59,7 +59,7 @@ bool Service::start() {
     spdlog::info("ready: watching {} ({} directories), {} files to look at, {} workers",
                  printable(config_.drop.native()), watcher_.directory_count(),
                  pending.waiting + pending.growing, config_.worker_count());
-    loop_keeper_.set(config_.loops);
+    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
     return true;
 }
 
@@ -140,7 +140,7 @@ void Service::apply(const Config& fresh) {
     config_.budgets = fresh.budgets;
     config_.log_level = fresh.log_level;
     config_.loops = fresh.loops;
-    loop_keeper_.set(config_.loops);
+    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
     pool_.resize(config_.worker_count());
     intake_.set_times(config_);
     next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);

@@ -5,7 +5,8 @@
 //   start    scan the drop directory, queue what is there, then say READY
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
-// Loops are other programs, which end with the service (daemon/loop_keeper.h).
+// Loops are other programs, which end with the service (daemon/loop_keeper.h), unless a service of
+// their own keeps them.
 // The cache is brought within its budgets every few seconds, in a thread of its own.
 // Thread contract: run() once; request_stop(), is_idle() and sites_compared() from any thread.
 #pragma once
@@ -43,6 +44,7 @@ struct ServiceParts {
     FileSystem& file_system;
     const Signals* signals = nullptr;  // none: only request_stop() ends it
     Clock clock = real_clock();
+    bool keeps_loops = true;  // false: another process does (daemon/loops_service.h)
 };
 
 enum class Stopped {

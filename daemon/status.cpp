@@ -221,4 +221,25 @@ std::string StatusBook::line(const Pending& pending) const {
                        pending.waiting, pending.running, pending.growing);
 }
 
+std::string loops_json(const std::vector<LoopState>& loops, std::string_view state, UtcTime started,
+                       UtcTime now) {
+    const nlohmann::ordered_json document = {{"state", state},
+                                             {"pid", ::getpid()},
+                                             {"version", software_version},
+                                             {"started", format_utc(started)},
+                                             {"updated", format_utc(now)},
+                                             {"loops", json_of(loops)}};
+    return document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string loops_line(const std::vector<LoopState>& loops) {
+    std::size_t running = 0;
+    std::uint64_t made = 0;
+    for (const LoopState& loop : loops) {
+        running += loop.is_running ? 1 : 0;
+        made += loop.made;
+    }
+    return fmt::format("{} of {} loops run, made {}", running, loops.size(), made);
+}
+
 }  // namespace stormcellar::daemon

@@ -39,6 +39,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -101,6 +102,12 @@ class StatusBook {
     std::deque<Volume> volumes_;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites_;  // by domain, a, b
 };
+
+// The document and the STATUS= line of a process that keeps loops alone (daemon/loops_service.h):
+// "2 of 3 loops run, made 12".
+[[nodiscard]] std::string loops_json(const std::vector<LoopState>& loops, std::string_view state,
+                                     UtcTime started, UtcTime now);
+[[nodiscard]] std::string loops_line(const std::vector<LoopState>& loops);
 
 // Seconds from the last close that was seen to the end of the job; none when none was seen.
 [[nodiscard]] std::optional<double> latency_of(const Finished& finished);

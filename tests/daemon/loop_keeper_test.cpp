@@ -161,6 +161,20 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
     EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
 }
 
+// A watchdog goes by this: a thread that hangs does not move it.
+TEST_F(LoopKeeperTest, SaysUntilWhenItTurnsAgain) {
+    keep(program("sleep 100\n"));
+    EXPECT_FALSE(keeper_->turns_until()) << "no loops, no thread that could hang";
+    const SteadyTime before = std::chrono::steady_clock::now();
+    keeper_->set({loop("one", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return keeper_->turns_until().has_value(); }));
+    const auto first = *keeper_->turns_until();
+    EXPECT_GT(first, before);
+    EXPECT_LE(first, std::chrono::steady_clock::now() + std::chrono::seconds{60});
+    keeper_->set({loop("two", "KTLX")});
+    EXPECT_TRUE(wait_for([&] { return *keeper_->turns_until() > first; }));
+}
+
 TEST(LoopArguments, SayWhatTheTableSays) {
     const LoopConfig all{.name = "n",
                          .scene = "/s.toml",

@@ -54,7 +54,8 @@ RunningDaemon::~RunningDaemon() {
 }
 
 void RunningDaemon::start(const std::string& more,
-                          const std::map<std::string, std::string>& environment) {
+                          const std::map<std::string, std::string>& environment,
+                          const std::vector<std::string>& options) {
     const std::filesystem::path file = root_ / "stormcellard.toml";
     write_file(file, "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n" + more);
     posix_spawn_file_actions_t actions;
@@ -62,6 +63,7 @@ void RunningDaemon::start(const std::string& more,
     posix_spawn_file_actions_addopen(&actions, 2, (root_ / "log").c_str(),
                                      O_WRONLY | O_CREAT | O_APPEND, 0600);
     std::vector<std::string> arguments = {STORMCELLARD, "--config", file.native()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
     std::vector<std::string> variables = environment_with(environment);
     const int failed = ::posix_spawn(&child_, STORMCELLARD, &actions, nullptr,
                                      pointers(arguments).data(), pointers(variables).data());
@@ -95,15 +97,16 @@ std::string RunningDaemon::log() const {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-nlohmann::json RunningDaemon::status() const {
-    std::ifstream file(root_ / "state/status.json");
+nlohmann::json RunningDaemon::status(const std::string& name) const {
+    std::ifstream file(root_ / "state" / name);
     if (!file) return nullptr;
     return nlohmann::json::parse(file);
 }
 
-bool RunningDaemon::wait_for(const std::function<bool(const nlohmann::json&)>& wanted) const {
+bool RunningDaemon::wait_for(const std::function<bool(const nlohmann::json&)>& wanted,
+                             const std::string& name) const {
     for (int i = 0; i < steps_a_minute; ++i) {
-        const nlohmann::json now = status();
+        const nlohmann::json now = status(name);
         if (!now.is_null() && wanted(now)) return true;
         std::this_thread::sleep_for(step);
     }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 #include <sys/types.h>
@@ -25,9 +26,11 @@ class RunningDaemon {
     RunningDaemon& operator=(const RunningDaemon&) = delete;
     ~RunningDaemon();
 
-    // `more` is added to the configuration, which names the paths; throws when it cannot start.
+    // `more` is added to the configuration, which names the paths, `options` to the command line;
+    // throws when it cannot start.
     void start(const std::string& more = {},
-               const std::map<std::string, std::string>& environment = {});
+               const std::map<std::string, std::string>& environment = {},
+               const std::vector<std::string>& options = {});
     void signal(int number) const;
     // The exit status, or minus the signal that ended it. Throws after 60 s.
     int wait();
@@ -38,10 +41,11 @@ class RunningDaemon {
     [[nodiscard]] std::filesystem::path catalog() const { return root_ / "state/catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return root_ / "cache"; }
     [[nodiscard]] std::string log() const;
-    // Null when there is none yet.
-    [[nodiscard]] nlohmann::json status() const;
+    // Null when there is none yet. `name`: below root/state.
+    [[nodiscard]] nlohmann::json status(const std::string& name = "status.json") const;
     // False when it does not come true within a minute.
-    bool wait_for(const std::function<bool(const nlohmann::json&)>& status) const;
+    bool wait_for(const std::function<bool(const nlohmann::json&)>& status,
+                  const std::string& name = "status.json") const;
     bool wait_for_log(const std::string& text) const;
 
   private:

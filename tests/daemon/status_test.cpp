@@ -178,5 +178,27 @@ TEST(StatusBook, OddBytesInNamesAreEscaped) {
     EXPECT_EQ(status["volumes"][0]["file"], "/d/\\xc3(");
 }
 
+// A process that keeps loops alone says the same of them, and nothing of ingest.
+TEST(LoopsStatus, IsTheSameForLoopsAlone) {
+    std::vector<LoopState> loops(3);
+    loops[0].name = "a";
+    loops[0].is_running = true;
+    loops[0].made = 5;
+    loops[2].is_running = true;
+    loops[2].made = 7;
+    EXPECT_EQ(loops_line({}), "0 of 0 loops run, made 0");
+    EXPECT_EQ(loops_line(loops), "2 of 3 loops run, made 12");
+    const auto status = nlohmann::json::parse(
+        loops_json(loops, "running", *parse_utc("2024-06-01T22:00:00Z", now_utc()),
+                   *parse_utc("2024-06-01T22:05:00Z", now_utc())));
+    EXPECT_EQ(status["state"], "running");
+    EXPECT_EQ(status["started"], "2024-06-01T22:00:00Z");
+    EXPECT_EQ(status["updated"], "2024-06-01T22:05:00Z");
+    StatusBook book("/d", "/c");
+    book.set_loops(loops);
+    EXPECT_EQ(status["loops"], nlohmann::json::parse(book.json({}, now_utc()))["loops"]);
+    EXPECT_FALSE(status.contains("ingested"));
+}
+
 }  // namespace
 }  // namespace stormcellar::daemon

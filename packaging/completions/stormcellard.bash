@@ -1,0 +1,12 @@
+# bash completion of stormcellard.
+_stormcellard() {
+    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
+    if [[ $previous == --config || $previous == '=' || $current == '=' ]]; then
+        mapfile -t COMPREPLY < <(compgen -f -- "${current#=}")
+        compopt -o filenames 2>/dev/null
+    else
+        mapfile -t COMPREPLY < <(compgen -W '--config --no-loops --loops-only --check-config
+            --version --help' -- "$current")
+    fi
+}
+complete -F _stormcellard stormcellard

@@ -1,0 +1,37 @@
+# Installs the configuration, manual pages and completions below CMAKE_INSTALL_PREFIX, which is known
+# only now. Needs STORMCELLAR_SOURCE, STORMCELLAR_REFERENCE (what make-reference wrote) and PROJECT_VERSION.
+include(${STORMCELLAR_SOURCE}/systemd/units.cmake)
+stormcellar_sysconfdir(${CMAKE_INSTALL_PREFIX} STORMCELLAR_SYSCONFDIR)
+set(STORMCELLAR_DATADIR ${CMAKE_INSTALL_PREFIX}/share)
+set(STORMCELLAR_DOCDIR ${CMAKE_INSTALL_PREFIX}/share/doc/stormcellar)
+set(work ${STORMCELLAR_REFERENCE}/installed)
+
+foreach(page stormcellar.1 stormcellard.8 stormcellard.toml.5)
+  configure_file(${STORMCELLAR_REFERENCE}/${page} ${work}/${page} @ONLY)
+  execute_process(COMMAND gzip -9nf ${work}/${page} COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "[0-9]$" section ${page})
+  file(INSTALL ${work}/${page}.gz DESTINATION ${STORMCELLAR_DATADIR}/man/man${section})
+endforeach()
+
+# Debian's zsh looks into these two.
+set(zsh_directory site-functions)
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(zsh_directory vendor-completions)
+endif()
+foreach(program stormcellar stormcellard)
+  set(from ${STORMCELLAR_REFERENCE}/${program})
+  file(INSTALL ${from}.bash DESTINATION ${STORMCELLAR_DATADIR}/bash-completion/completions
+    RENAME ${program})
+  file(INSTALL ${from}.zsh DESTINATION ${STORMCELLAR_DATADIR}/zsh/${zsh_directory} RENAME _${program})
+  file(INSTALL ${from}.fish DESTINATION ${STORMCELLAR_DATADIR}/fish/vendor_completions.d)
+endforeach()
+
+# The explained configuration goes beside the documentation each time, and to its place only where
+# there is none yet: an operator's changes are never written over.
+file(READ ${STORMCELLAR_SOURCE}/daemon/stormcellard.toml configuration)
+string(REPLACE "/usr/local/share" "${STORMCELLAR_DATADIR}" configuration "${configuration}")
+file(WRITE ${work}/stormcellard.toml "${configuration}")
+file(INSTALL ${work}/stormcellard.toml DESTINATION ${STORMCELLAR_DOCDIR})
+if(NOT EXISTS "$ENV{DESTDIR}${STORMCELLAR_SYSCONFDIR}/stormcellar/stormcellard.toml")
+  file(INSTALL ${work}/stormcellard.toml DESTINATION ${STORMCELLAR_SYSCONFDIR}/stormcellar)
+endif()

@@ -1,0 +1,24 @@
+# What depends on the prefix: the units, and where the configuration goes. Included when the tree is
+# configured, and again when it is installed, which may be below another prefix.
+
+# Sets `variable` to the directory of configuration files of the prefix: /etc for /usr.
+function(stormcellar_sysconfdir prefix variable)
+  if(prefix STREQUAL "/usr" OR prefix STREQUAL "/")
+    set(${variable} /etc PARENT_SCOPE)
+  else()
+    set(${variable} ${prefix}/etc PARENT_SCOPE)
+  endif()
+endfunction()
+
+# Writes the units as they are below `prefix` to `directory`; `libdir` is relative to the prefix.
+function(stormcellar_write_units source prefix libdir directory)
+  stormcellar_sysconfdir(${prefix} STORMCELLAR_SYSCONFDIR)
+  set(STORMCELLAR_BINDIR ${prefix}/bin)
+  set(STORMCELLAR_LIBDIR ${prefix}/${libdir})
+  set(STORMCELLAR_DOCDIR ${prefix}/share/doc/stormcellar)
+  file(READ ${source}/hardening.conf STORMCELLAR_HARDENING)
+  string(CONFIGURE "${STORMCELLAR_HARDENING}" STORMCELLAR_HARDENING @ONLY)
+  foreach(unit stormcellard stormcellar-loops)
+    configure_file(${source}/${unit}.service.in ${directory}/${unit}.service @ONLY)
+  endforeach()
+endfunction()
