@@ -54,6 +54,8 @@ struct IngestOutcome {
     IngestResult result = IngestResult::rejected;
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
+    std::optional<UtcTime> newest_radial;    // by the radar's clock; plausible times alone
+    std::optional<ErrorCode> rejected_with;  // of what kind the reason is; rejected files alone
     std::string reason;    // why rejected, or what is wrong or worth saying; one line
     bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
