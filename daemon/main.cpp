@@ -18,6 +18,7 @@
 #include "daemon/ingest_sink.h"
 #include "daemon/log.h"
 #include "daemon/service.h"
+#include "daemon/status_server.h"
 #include "pipeline/instance_lock.h"
 
 namespace stormcellar::daemon {
@@ -111,7 +112,16 @@ int serve(const Config& config, const std::filesystem::path& file) {
 
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
-    Service service(config, file, {**sink, *events, notifier, real_file_system(), &*signals});
+    StatusBoard board;
+    Service service(config, file,
+                    {.sink = **sink,
+                     .events = *events,
+                     .notifier = notifier,
+                     .file_system = real_file_system(),
+                     .signals = &*signals,
+                     .board = &board});
+    const StatusServer status_server(
+        {.socket = config.status.socket, .http_port = config.status.http_port}, pages_of(board));
     const Caretaker keeper(
         {(*sink)->catalog(), (*sink)->store(), (*sink)->mender(), (*sink)->site_watch()},
         {.refill = config.refill},
@@ -140,13 +150,15 @@ int run(int argc, char** argv) {
                                          : fmt::format("stormcellard {}\n", software_version));
         return EXIT_SUCCESS;
     }
-    const Result<Config> config = load_config(
+    Result<Config> config = load_config(
         *arguments->config, arguments->check ? SceneFiles::must_exist : SceneFiles::as_named);
     if (!config) return complain(config.error());
     if (arguments->check) {
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
+    if (config->status.socket.empty())
+        config->status.socket = default_socket(config->state, std::getenv("RUNTIME_DIRECTORY"));
     return serve(*config, *arguments->config);
 }
 

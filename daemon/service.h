@@ -27,6 +27,7 @@
 #include "daemon/reporter.h"
 #include "daemon/signals.h"
 #include "daemon/sink.h"
+#include "daemon/status_board.h"
 #include "daemon/status_file.h"
 #include "daemon/wake_up.h"
 #include "daemon/watcher.h"
@@ -43,6 +44,7 @@ struct ServiceParts {
     FileSystem& file_system;
     const Signals* signals = nullptr;  // none: only request_stop() ends it
     Clock clock = real_clock();
+    StatusBoard* board = nullptr;  // none: the status is in its file alone
 };
 
 enum class Stopped {
@@ -79,6 +81,7 @@ class Service {
     void keep_house();
     void report_repairs();
     void report_sites();
+    void publish(bool at_once);
     [[nodiscard]] SteadyTime next_time() const;
 
     Config config_;
@@ -89,6 +92,7 @@ class Service {
     Reporter reporter_;
     StatusBook status_;
     StatusFile status_file_;
+    Pending published_;  // as it was last looked at
     WatchdogFeed watchdog_;
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
