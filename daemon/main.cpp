@@ -95,6 +95,16 @@ std::unique_ptr<EventSource> open_events() {
     return no_events();
 }
 
+void know_stations(catalog::Catalog& catalog, Service& service) {
+    const auto stations = catalog.stations();
+    if (!stations) {
+        spdlog::warn("what was known of stations: {}", printable(stations.error().message));
+        return;
+    }
+    for (const catalog::StationSummary& station : *stations)
+        if (station.latest) service.know_station(station.station, *station.latest);
+}
+
 int serve(const Config& config, const std::filesystem::path& file) {
     keep_freed_memory();
     cache::install_map_guard();
@@ -120,6 +130,7 @@ int serve(const Config& config, const std::filesystem::path& file) {
                      .file_system = real_file_system(),
                      .signals = &*signals,
                      .board = &board});
+    know_stations((*sink)->catalog(), service);
     const StatusServer status_server(
         {.socket = config.status.socket, .http_port = config.status.http_port}, pages_of(board));
     const Caretaker keeper(

@@ -45,6 +45,10 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), {});
 }
 
+void Service::know_station(const std::string& station, UtcTime newest_volume) {
+    status_.stations().add_known(station, newest_volume, now_utc());
+}
+
 void Service::request_stop() {
     stop_requested_ = true;
     wake_up_.set();

@@ -58,6 +58,8 @@ class Service {
     // `config_file` is what SIGHUP reads again.
     Service(Config config, std::filesystem::path config_file, ServiceParts parts);
 
+    // Before run(): a station of the catalog and its newest volume.
+    void know_station(const std::string& station, UtcTime newest_volume);
     Stopped run();
     void request_stop();
     // Whether no file waits, for work that may wait; from any thread.

@@ -78,6 +78,8 @@ void StationBook::add_missing_chunks(const std::string& station, MissingChunks m
 }
 
 void StationBook::add_known(const std::string& station, UtcTime newest_volume, UtcTime now) {
+    if (station.empty() || newest_volume > now + most_ahead || now - newest_volume > known_for)
+        return;
     if (StationState* state = find(station)) advance(state->volume_time, newest_volume, now);
 }
 

@@ -53,6 +53,7 @@ class StationBook {
     static constexpr std::size_t most_stations = 512;
     static constexpr std::chrono::minutes most_ahead{10};
     static constexpr std::chrono::hours most_live_age{1};
+    static constexpr std::chrono::hours known_for{7 * 24};
 
     // `latency_s`: from the close that was seen to the end; `at`: our clock, when the job ended.
     void add(const pipeline::IngestOutcome& outcome, std::optional<double> latency_s, UtcTime at);
@@ -60,7 +61,8 @@ class StationBook {
     // for, those that did not.
     void add_data(const std::string& station, UtcTime at);
     void add_missing_chunks(const std::string& station, MissingChunks missing);
-    // What was known before the start: the newest volume of the catalog.
+    // What was known before the start: the newest volume of the catalog. So a station that fell
+    // silent is not forgotten by a restart; one that has been silent for longer than a week is.
     void add_known(const std::string& station, UtcTime newest_volume, UtcTime now);
 
     [[nodiscard]] const std::map<std::string, StationState>& stations() const { return stations_; }

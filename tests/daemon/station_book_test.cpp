@@ -96,7 +96,9 @@ TEST(StationBook, AStationKnownBeforeTheStartHasAnAgeAndNothingElse) {
     book.add_known("KOUN", t0 + hours{50}, t0);
     EXPECT_EQ(book.stations().at("KTLX").volume_time, t0);
     EXPECT_FALSE(book.stations().at("KTLX").data_at);
-    EXPECT_FALSE(book.stations().at("KOUN").volume_time) << "of the future";
+    book.add_known("KBGM", t0, t0 + hours{7 * 24 + 1});
+    book.add_known("", t0, t0);
+    EXPECT_EQ(book.stations().size(), 1U) << "of the future, too old, of no station";
 }
 
 TEST(StationBook, MissingChunksAreSummedAndTheLastVolumesListed) {
