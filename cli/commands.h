@@ -44,6 +44,7 @@ Command add_grid(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_loop(CLI::App& app);
 Command add_replay(CLI::App& app);
+Command add_status(CLI::App& app);
 Command add_synth(CLI::App& app);
 
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status

@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::array all_commands{
     // Sorted by name, as --help shows them.
-    add_accuracy, add_cache, add_catalog, add_frame, add_grid,
-    add_info,     add_loop,  add_replay,  add_synth,
+    add_accuracy, add_cache, add_catalog, add_frame,  add_grid,
+    add_info,     add_loop,  add_replay,  add_status, add_synth,
 };
 
 // No option and no argument means anything when it is empty.

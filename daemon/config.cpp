@@ -19,6 +19,8 @@
 namespace stormcellar::daemon {
 namespace {
 
+constexpr std::size_t most_socket_bytes = 107;  // sun_path, with its end
+
 bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
     const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
     return end.first == directory.end();
@@ -177,6 +179,22 @@ void read_rest(TomlTable watch, TomlTable log, Config& config) {
     }
 }
 
+void read_status(TomlTable status, const std::filesystem::path& file, Config& config) {
+    read_path(status, "socket", file, config.status.socket);
+    const std::filesystem::path& socket = config.status.socket;
+    for (const std::filesystem::path* path : {&config.drop, &config.cache}) {
+        if (socket.empty() || path->empty() || !is_within(socket, *path)) continue;
+        status.complain("socket",
+                        fmt::format("{} lies within {}", socket.native(), path->native()));
+    }
+    if (socket.native().size() > most_socket_bytes) {
+        status.complain("socket", fmt::format("is longer than {} bytes", most_socket_bytes));
+    }
+    if (const auto port = status.whole_number("http_port", {0, 65'535})) {
+        config.status.http_port = *port;
+    }
+}
+
 void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
     std::uint64_t given = 0;
     if (table.is_text("bytes")) {
@@ -233,6 +251,13 @@ cache::Budgets default_budgets() {
     return budgets;
 }
 
+std::filesystem::path default_socket(const std::filesystem::path& state,
+                                     const char* runtime_directory) {
+    std::string directory = runtime_directory == nullptr ? "" : runtime_directory;
+    directory = directory.substr(0, directory.find(':'));
+    return (directory.empty() ? state : std::filesystem::path{directory}) / "status.sock";
+}
+
 int Config::worker_count() const {
     if (workers > 0) return workers;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -254,6 +279,7 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     config.ingest.domains = pipeline::read_domains(root);
     read_cache(root.section("cache"), config);
     read_rest(root.section("watch"), root.section("log"), config);
+    read_status(root.section("status"), file, config);
     config.loops = read_loops(root, std::filesystem::absolute(file).parent_path(),
                               {config.drop, config.state, config.cache}, scenes);
     if (const Status read = toml->finish(); !read) return pass_on(read);

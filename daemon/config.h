@@ -21,6 +21,18 @@ namespace stormcellar::daemon {
 // The file system at most 95 % full; no limit of bytes or age.
 [[nodiscard]] cache::Budgets default_budgets();
 
+// Where the status is asked for (status_server.h).
+struct StatusConfig {
+    std::filesystem::path socket;  // absolute; empty: default_socket()
+    int http_port = 0;             // 0: none
+    bool operator==(const StatusConfig&) const = default;
+};
+
+// status.sock in the first of systemd's $RUNTIME_DIRECTORY (none: null), else in the state
+// directory.
+[[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
+                                                   const char* runtime_directory);
+
 struct Config {
     // Absolute, symbolic links resolved; none lies within another.
     std::filesystem::path drop;
@@ -38,6 +50,7 @@ struct Config {
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
     std::string log_level = "info";
+    StatusConfig status;
     std::vector<LoopConfig> loops;
 
     [[nodiscard]] int worker_count() const;

@@ -20,6 +20,7 @@
 #include "daemon/loop_check.h"
 #include "daemon/loops_service.h"
 #include "daemon/service.h"
+#include "daemon/status_server.h"
 #include "pipeline/instance_lock.h"
 
 namespace stormcellar::daemon {
@@ -118,6 +119,16 @@ int serve_loops(const Config& config, const std::filesystem::path& file) {
     return EXIT_SUCCESS;
 }
 
+void know_stations(catalog::Catalog& catalog, Service& service) {
+    const auto stations = catalog.stations();
+    if (!stations) {
+        spdlog::warn("what was known of stations: {}", printable(stations.error().message));
+        return;
+    }
+    for (const catalog::StationSummary& station : *stations)
+        if (station.latest) service.know_station(station.station, *station.latest);
+}
+
 int serve(const Config& config, const std::filesystem::path& file, bool keeps_loops) {
     keep_freed_memory();
     cache::install_map_guard();
@@ -135,9 +146,18 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
 
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
-    Service service(
-        config, file,
-        {**sink, *events, notifier, real_file_system(), &*signals, real_clock(), keeps_loops});
+    StatusBoard board;
+    Service service(config, file,
+                    {.sink = **sink,
+                     .events = *events,
+                     .notifier = notifier,
+                     .file_system = real_file_system(),
+                     .signals = &*signals,
+                     .keeps_loops = keeps_loops,
+                     .board = &board});
+    know_stations((*sink)->catalog(), service);
+    const StatusServer status_server(
+        {.socket = config.status.socket, .http_port = config.status.http_port}, pages_of(board));
     const Caretaker keeper(
         {(*sink)->catalog(), (*sink)->store(), (*sink)->mender(), (*sink)->site_watch()},
         {.refill = config.refill},
@@ -166,7 +186,7 @@ int run(int argc, char** argv) {
                                          : fmt::format("stormcellard {}\n", software_version));
         return EXIT_SUCCESS;
     }
-    const Result<Config> config = load_config(
+    Result<Config> config = load_config(
         *arguments->config, arguments->check ? SceneFiles::must_exist : SceneFiles::as_named);
     if (!config) return complain(config.error());
     if (arguments->check) {
@@ -178,6 +198,8 @@ int run(int argc, char** argv) {
         return EXIT_SUCCESS;
     }
     if (arguments->loops_only) return serve_loops(*config, *arguments->config);
+    if (config->status.socket.empty())
+        config->status.socket = default_socket(config->state, std::getenv("RUNTIME_DIRECTORY"));
     return serve(*config, *arguments->config, !arguments->no_loops);
 }
 

@@ -20,6 +20,13 @@ constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 
+// The socket of a configuration that names none was chosen at the start.
+bool same_listening(const Config& fresh, const Config& running) {
+    const bool same_socket =
+        fresh.status.socket.empty() || fresh.status.socket == running.status.socket;
+    return same_socket && fresh.status.http_port == running.status.http_port;
+}
+
 }  // namespace
 
 Service::Service(Config config, std::filesystem::path config_file, ServiceParts parts)
@@ -33,7 +40,14 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       watchdog_(parts_.notifier.watchdog()),
       pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
-      loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {}
+      loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
+    status_.set_listening(config_.status.socket, config_.status.http_port);
+    if (parts_.board != nullptr) parts_.board->post(status_.facts(), {});
+}
+
+void Service::know_station(const std::string& station, UtcTime newest_volume) {
+    status_.stations().add_known(station, newest_volume, now_utc());
+}
 
 void Service::request_stop() {
     stop_requested_ = true;
@@ -54,7 +68,7 @@ bool Service::start() {
     if (!scan()) return false;
     const Pending pending = intake_.pending();
     status_.set_state("running");
-    status_file_.publish(status_, pending, parts_.clock.steady(), true);
+    publish(true);
     parts_.notifier.send("READY=1");
     spdlog::info("ready: watching {} ({} directories), {} files to look at, {} workers",
                  printable(config_.drop.native()), watcher_.directory_count(),
@@ -132,6 +146,7 @@ void Service::apply(const Config& fresh) {
     if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
         spdlog::warn("reload: the grid, threads and queue_limit change at a restart only");
     }
+    if (!same_listening(fresh, config_)) spdlog::warn("reload: [status] changes at a restart only");
     config_.workers = fresh.workers;
     config_.quiet = fresh.quiet;
     config_.reread = fresh.reread;
@@ -235,8 +250,16 @@ void Service::keep_house() {
         status_.set_loops(std::move(*loops));
         status_file_.changed();
     }
-    status_file_.publish(status_, intake_.pending(), now, false);
+    publish(false);
     if (watchdog_.is_due(now, pool_.oldest_start())) parts_.notifier.send("WATCHDOG=1");
+}
+
+void Service::publish(bool at_once) {
+    const Pending pending = intake_.pending();
+    if (pending != published_) status_file_.changed();
+    published_ = pending;
+    if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
+    if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
 }
 
 void Service::report_repairs() {
@@ -271,7 +294,7 @@ Stopped Service::stop() {
     idle_ = false;
     parts_.notifier.send("STOPPING=1");
     status_.set_state("stopping");
-    status_file_.publish(status_, intake_.pending(), parts_.clock.steady(), true);
+    publish(true);
     loop_keeper_.stop();
     const bool drained = pool_.drain(time_to_drain);
     loop_keeper_.wait();
@@ -283,7 +306,7 @@ Stopped Service::stop() {
         return Stopped::with_jobs;
     }
     status_.set_state("stopped");
-    status_file_.publish(status_, intake_.pending(), parts_.clock.steady(), true);
+    publish(true);
     spdlog::info("stopped: {} files ingested, {} left for the next start", status_.ingested(),
                  left);
     return Stopped::cleanly;

@@ -28,6 +28,7 @@
 #include "daemon/reporter.h"
 #include "daemon/signals.h"
 #include "daemon/sink.h"
+#include "daemon/status_board.h"
 #include "daemon/status_file.h"
 #include "daemon/wake_up.h"
 #include "daemon/watcher.h"
@@ -44,7 +45,8 @@ struct ServiceParts {
     FileSystem& file_system;
     const Signals* signals = nullptr;  // none: only request_stop() ends it
     Clock clock = real_clock();
-    bool keeps_loops = true;  // false: another process does (daemon/loops_service.h)
+    bool keeps_loops = true;       // false: another process does (daemon/loops_service.h)
+    StatusBoard* board = nullptr;  // none: the status is in its file alone
 };
 
 enum class Stopped {
@@ -58,6 +60,8 @@ class Service {
     // `config_file` is what SIGHUP reads again.
     Service(Config config, std::filesystem::path config_file, ServiceParts parts);
 
+    // Before run(): a station of the catalog and its newest volume.
+    void know_station(const std::string& station, UtcTime newest_volume);
     Stopped run();
     void request_stop();
     // Whether no file waits, for work that may wait; from any thread.
@@ -81,6 +85,7 @@ class Service {
     void keep_house();
     void report_repairs();
     void report_sites();
+    void publish(bool at_once);
     [[nodiscard]] SteadyTime next_time() const;
 
     Config config_;
@@ -91,6 +96,7 @@ class Service {
     Reporter reporter_;
     StatusBook status_;
     StatusFile status_file_;
+    Pending published_;  // as it was last looked at
     WatchdogFeed watchdog_;
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;

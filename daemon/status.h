@@ -1,35 +1,8 @@
-// daemon/status.h -- what the daemon says of itself: counters, latencies, state/status.json.
+// daemon/status.h -- what the daemon says of itself: counters, latencies, stations.
 //
-// status.json is one JSON document, replaced atomically, at most once a second and at the stop:
-//   state          "starting" | "running" | "stopping" | "stopped"
-//   pid, version, started, updated (ISO 8601 UTC)
-//   drop, cache    the directories (bytes that are not UTF-8 escaped)
-//   ingested       files whose volumes were gridded, each time they were
-//   grids          grids committed to the cache
-//   partial        how many of `ingested` were of volumes that had not ended or were damaged
-//   rejected, no_moment, no_position, unchanged, vanished   files that ended so
-//   failures       attempts that failed because the catalog or the cache could not be written
-//   pending        {"waiting","running","growing"}: files; all zero when everything is done
-//   overflows, scans, directories
-//   rolling        the cache's account, null until it was first looked at:
-//   {"grids","pinned","bytes",
-//                  "budget_bytes" (null: no limit),"evicted","evicted_bytes","not_kept"}; the last
-//                  three since the start; not_kept: grids older than what the budgets keep
-//   latency_s      {"count","median","p95","max"} seconds from the close (or rename) of a file to
-//                  its grids in the cache, waiting included, over the last 4096 ingested files
-//                  whose close was seen; files found by a scan have none. null values with count 0
-//   volumes        the last 64 ingested files, oldest first: {"file","station","time","grids",
-//                  "latency_s" (null: not seen closing),"read_s","decode_s","grid_s","commit_s"}
-//   sites          pairs of sites that overlap in a mosaic, by domain and names, as they were
-//   compared
-//                  last: {"domain","a","b","time","bias_db","azimuth_deg","elevation_deg","time_s",
-//                  "cells","correlation","apart_s","faults"}; each of the four, of B against A
-//                  (grid/site_comparison.h), is {"value","standard_error"} or, where it could not
-//                  be told, {"untold"}; faults: those that are named, one text each
-//   loops          {"running","restarts","made","last_made" (null: none yet)} of all [[loop]]
-//                  tables, and "each": [{"name","running","restarts","made","last_made","frames",
-//                  "last_problem" (null: none)}]
-// Thread contract: one thread.
+// Written as JSON (status_json.h: state/status.json and the socket) and as Prometheus text
+// (metrics_text.h).
+// Thread contract: one thread; StatusFacts is plain data and may be copied to others.
 #pragma once
 
 #include <array>
@@ -43,10 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/file_system.h"
 #include "base/utc_time.h"
 #include "cache/store.h"
 #include "daemon/loop_config.h"
+#include "daemon/station_book.h"
+#include "daemon/status_names.h"
+#include "daemon/timings.h"
 #include "daemon/worker_pool.h"
 #include "pipeline/site_watch.h"
 
@@ -54,53 +29,72 @@ namespace stormcellar::daemon {
 
 struct Pending {
     std::size_t waiting = 0, running = 0, growing = 0;
+    bool operator==(const Pending&) const = default;
 };
 
-struct LatencySummary {
-    std::size_t count = 0;
-    double median = 0, p95 = 0, max = 0;  // seconds; of `count` 0 meaningless
+// Names and reasons of all these are printable.
+struct RecentVolume {
+    std::string file, station, time;
+    std::size_t grids = 0;
+    std::optional<double> latency_s, antenna_s;
+    double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
 };
-// By nearest rank: the smallest value that at least the share of all values do not exceed.
-[[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
+
+struct RejectedFile {
+    std::string file, station, reason;
+    std::string_view code;
+    UtcTime at;
+};
+
+struct StatusFacts {
+    std::filesystem::path drop, cache, socket;  // no socket: empty
+    int http_port = 0;                          // none: 0
+    UtcTime started = now_utc();
+    std::string state = "starting";
+    std::uint64_t ingested = 0, grids = 0, partial = 0, failures = 0;
+    PerResult<std::uint64_t> results{};      // files
+    PerErrorCode<std::uint64_t> rejected{};  // of results: by what was wrong with the file
+    PerErrorCode<std::uint64_t> failed{};    // of failures: by what hindered
+    std::uint64_t overflows = 0, scans = 0;
+    std::size_t directories = 0;
+    std::optional<cache::StoreUsage> usage;
+    std::vector<LoopState> loops;
+    Timings close_to_cache{4096};
+    Timings antenna_to_cache{4096};    // of data that can have come live
+    std::uint64_t not_live = 0;        // volumes that it leaves out
+    std::deque<RecentVolume> volumes;  // the last 64, oldest first, as the next
+    std::deque<RejectedFile> rejected_files;
+    StationBook stations;
+    std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
+};
 
 class StatusBook {
   public:
     StatusBook(std::filesystem::path drop, std::filesystem::path cache);
 
-    void add(const Finished& finished);
-    void count_overflow() { ++overflows_; }
+    // `at`: when it ended, by the clock on the wall.
+    void add(const Finished& finished, UtcTime at = now_utc());
+    void count_overflow() { ++facts_.overflows; }
     void count_scan(std::size_t directories);
-    void set_state(std::string state) { state_ = std::move(state); }
+    void set_state(std::string state) { facts_.state = std::move(state); }
+    void set_listening(std::filesystem::path socket, int http_port);
     void add(pipeline::PairReport report);
-    void set_loops(std::vector<LoopState> loops) { loops_ = std::move(loops); }
-    void set_usage(const cache::StoreUsage& usage) { usage_ = usage; }
+    void set_loops(std::vector<LoopState> loops) { facts_.loops = std::move(loops); }
+    void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
+    // For chunks that are put together (station_book.h), and stations known before the start.
+    [[nodiscard]] StationBook& stations() { return facts_.stations; }
 
+    [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
     // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=.
     [[nodiscard]] std::string line(const Pending& pending) const;
-    [[nodiscard]] std::uint64_t ingested() const { return ingested_; }
+    [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 
   private:
-    struct Volume {
-        std::string file, station, time;
-        std::size_t grids = 0;
-        std::optional<double> latency_s;
-        double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
-    };
-    void add_ingested(const Finished& finished);
+    void add_ingested(const Finished& finished, UtcTime at);
+    void add_rejected(const Finished& finished, UtcTime at);
 
-    std::filesystem::path drop_, cache_;
-    UtcTime started_ = now_utc();
-    std::string state_ = "starting";
-    std::uint64_t ingested_ = 0, grids_ = 0, partial_ = 0, failures_ = 0;
-    std::array<std::uint64_t, 8> results_{};  // by IngestResult
-    std::uint64_t overflows_ = 0, scans_ = 0;
-    std::size_t directories_ = 0;
-    std::optional<cache::StoreUsage> usage_;
-    std::vector<LoopState> loops_;
-    std::deque<double> latencies_;
-    std::deque<Volume> volumes_;
-    std::map<std::array<std::string, 3>, pipeline::PairReport> sites_;  // by domain, a, b
+    StatusFacts facts_;
 };
 
 // The document and the STATUS= line of a process that keeps loops alone (daemon/loops_service.h):

@@ -29,9 +29,9 @@ Status StatusFile::write(const std::string& text) {
     return file_system_.rename(temporary_, path_);
 }
 
-void StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyTime now,
+bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyTime now,
                          bool force) {
-    if (!force && (!changed_ || now < next_)) return;
+    if (!force && (!changed_ || now < next_)) return false;
     changed_ = false;
     next_ = now + std::chrono::seconds{1};
     notifier_.send("STATUS=" + book.line(pending));
@@ -41,6 +41,7 @@ void StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyT
                       printable(written.error().message));
     }
     failing_ = !written;
+    return true;
 }
 
 std::optional<SteadyTime> StatusFile::next_time() const {

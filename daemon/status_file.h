@@ -21,7 +21,8 @@ class StatusFile {
 
     void changed() { changed_ = true; }
     // Writes when something has changed and a second has passed, or at once when forced.
-    void publish(const StatusBook& book, const Pending& pending, SteadyTime now, bool force);
+    // Gives whether it was time.
+    bool publish(const StatusBook& book, const Pending& pending, SteadyTime now, bool force);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
 
   private:

@@ -76,15 +76,16 @@ MosaicKeeper& Ingestor::mosaics() {
     return impl_->mosaics;
 }
 
-Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, std::string reason,
+Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, Error why,
                                              IngestOutcome outcome) {
     FileFacts rejected = facts;
     rejected.state = FileState::rejected;
-    rejected.reason = std::move(reason);
+    rejected.reason = std::move(why.message);
     if (const auto registered = catalog.register_file(rejected); !registered) {
         return pass_on(registered);
     }
     outcome.result = IngestResult::rejected;
+    outcome.rejected_with = why.code;
     outcome.station = facts.station;
     outcome.reason = rejected.reason;
     return outcome;
@@ -134,7 +135,8 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
                 site_grids->keep(volume, source, share_of(options.grid_threads), outcome);
             if (!gridded) {
                 if (!is_of_the_data(gridded.error())) return pass_on(gridded);
-                return reject(facts, "cannot be gridded: " + gridded.error().message, outcome);
+                const Error& why = gridded.error();
+                return reject(facts, {why.code, "cannot be gridded: " + why.message}, outcome);
             }
         }
         if (const Status kept = keep_mosaics(facts, volume, reading, outcome); !kept) {
@@ -159,8 +161,10 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         reading.troubles = level2::rda_troubles(*decoded.report.rda_status);
     }
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
-    for (const level2::Volume& volume : volumes)
+    for (const level2::Volume& volume : volumes) {
         facts.volumes.push_back(facts_of(volume));
+        outcome.newest_radial = std::max(outcome.newest_radial, facts.volumes.back().end_time);
+    }
     if (!volumes.empty()) {
         facts.station = volumes.front().station;
         outcome.volume_time = volumes.front().start_time();
@@ -229,7 +233,9 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     facts.station = station_of_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
-    if (!before.regular) return reject(facts, "is not a regular file", outcome);
+    if (!before.regular) {
+        return reject(facts, {ErrorCode::not_a_file, "is not a regular file"}, outcome);
+    }
     const auto read_start = Clock::now();
     const auto bytes = read_file(path);
     outcome.read_s = seconds_since(read_start);
@@ -239,7 +245,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
         // Ours for now, as when descriptors run out: the file is not to blame.
         if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
         if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
-        return reject(facts, without_path(bytes.error().message, path), outcome);
+        return reject(facts, {code, without_path(bytes.error().message, path)}, outcome);
     }
     if (!bytes || !after || *after != before) {
         outcome.result = IngestResult::incomplete;
@@ -261,7 +267,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
             outcome.reason = decoded.error().message;
             return outcome;
         }
-        return reject(facts, decoded.error().message, outcome);
+        return reject(facts, decoded.error(), outcome);
     }
     return take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
 }

@@ -70,12 +70,15 @@ struct IngestOutcome {
     IngestResult result = IngestResult::rejected;
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
+    std::optional<UtcTime> newest_radial;    // by the radar's clock; plausible times alone
+    std::optional<ErrorCode> rejected_with;  // of what kind the reason is; rejected files alone
     std::string reason;     // why rejected, or what is wrong or worth saying; one line
     bool followed = false;  // incomplete: what is appended will be read without the rest
     bool partial = false;   // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
+    std::vector<int> missing_chunks;              // of a volume of chunks that was finished
     std::vector<std::filesystem::path> living;    // of volumes that have not ended
     int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;

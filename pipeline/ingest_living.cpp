@@ -61,6 +61,7 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     }
     outcome.station = facts.station;
     outcome.volume_time = volume_facts.start_time;
+    outcome.newest_radial = volume_facts.end_time;
     const auto shown =
         show_living(kept, facts.path.filename().string(), facts.modified_ns, outcome);
     if (!shown) return pass_on(shown);
@@ -171,9 +172,10 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     facts.size_bytes = file.stamp.size_bytes;
     facts.modified_ns = file.stamp.modified_ns;
     facts.content_hash = file.content_hash;
+    outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
-    if (!decoded) return reject(facts, decoded.error().message, outcome);
+    if (!decoded) return reject(facts, decoded.error(), outcome);
     auto taken = take_in(std::move(facts), std::move(*decoded), true, std::move(outcome));
     if (!taken) return taken;
     if (Status settled = catalog.register_files(station, others); !settled) {

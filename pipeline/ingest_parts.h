@@ -63,8 +63,7 @@ struct Ingestor::Impl {
     Result<IngestOutcome> read_and_take_in(const std::filesystem::path& path,
                                            const FileStamp& before, bool finish_partial,
                                            IngestOutcome outcome);
-    Result<IngestOutcome> reject(const catalog::FileFacts& facts, std::string reason,
-                                 IngestOutcome outcome);
+    Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
     Result<IngestOutcome> take_in(catalog::FileFacts facts, level2::Decoded decoded,
                                   bool finish_partial, IngestOutcome outcome);
     Result<IngestOutcome> grid_all(const catalog::FileFacts& facts,

@@ -52,6 +52,8 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_EQ(shipped->refill, bare->refill);
     EXPECT_EQ(shipped->packing, bare->packing);
     EXPECT_EQ(shipped->log_level, bare->log_level);
+    EXPECT_EQ(shipped->status, bare->status);
+    EXPECT_EQ(bare->status, StatusConfig{});
     EXPECT_EQ(shipped->budgets, bare->budgets);
     EXPECT_EQ(bare->budgets, default_budgets());
     EXPECT_EQ(shipped->ingest.moment, bare->ingest.moment);
@@ -299,6 +301,34 @@ TEST_F(ConfigFile, ScenesThatAreNotThereAreRefusedWhereTheyMustBe) {
     EXPECT_EQ(must_be("none.toml"), file().native() + ":7: [loop] scene: " + directory +
                                         "none.toml: No such file or directory");
     EXPECT_EQ(must_be("."), file().native() + ":7: [loop] scene: " + directory + ": is no file");
+}
+
+TEST_F(ConfigFile, TheStatusIsAskedForWhereItIsSaid) {
+    const auto config =
+        load(std::string(paths) + "[status]\nsocket = \"run/s.sock\"\nhttp_port = 9123\n");
+    ASSERT_TRUE(config) << config.error().message;
+    EXPECT_EQ(config->status.socket,
+              std::filesystem::weakly_canonical(directory_.path()) / "run/s.sock");
+    EXPECT_EQ(config->status.http_port, 9123);
+    const auto status = [&](const std::string& line) {
+        return complaint(std::string(paths) + "[status]\n" + line + "\n");
+    };
+    EXPECT_EQ(status("socket = \"\""), "s.toml:6: [status] socket: must not be empty");
+    EXPECT_EQ(status("socket = \"/d/s\""), "s.toml:6: [status] socket: /d/s lies within /d");
+    EXPECT_EQ(status("socket = \"/c/x/s\""), "s.toml:6: [status] socket: /c/x/s lies within /c");
+    EXPECT_EQ(status("socket = \"/s/s\""), "no complaint") << "the state directory is ours";
+    EXPECT_EQ(status("socket = \"/" + std::string(107, 'x') + "\""),
+              "s.toml:6: [status] socket: is longer than 107 bytes");
+    EXPECT_EQ(status("http_port = 65536"),
+              "s.toml:6: [status] http_port: 65536 is out of range, must be 0 to 65535");
+    EXPECT_EQ(status("port = 1"), "s.toml:6: unknown key [status] port");
+}
+
+TEST(DefaultSocket, LiesInTheRuntimeDirectoryOrWithTheState) {
+    EXPECT_EQ(default_socket("/s", nullptr), "/s/status.sock");
+    EXPECT_EQ(default_socket("/s", ""), "/s/status.sock");
+    EXPECT_EQ(default_socket("/s", "/run/stormcellar"), "/run/stormcellar/status.sock");
+    EXPECT_EQ(default_socket("/s", "/run/a:/run/b"), "/run/a/status.sock");
 }
 
 TEST_F(ConfigFile, LoopsThatMakeNoSenseAreRefused) {

@@ -88,6 +88,67 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_TRUE(status["volumes"][3]["latency_s"].is_null());
 }
 
+TEST(StatusBook, SaysWhatWasWrongWithTheLastRejectedFiles) {
+    StatusBook book("/d", "/c");
+    const UtcTime at = *parse_utc("2022-03-17T00:10:00Z", UtcTime{});
+    for (int i = 0; i < 100; ++i) {
+        Finished rejected = finished("/d/r\n" + std::to_string(i), IngestResult::rejected, 1);
+        rejected.taken->ingest.reason = "bad\nmagic" + std::string(10'000, 'x');
+        rejected.taken->ingest.rejected_with = i < 70 ? ErrorCode::corrupt : ErrorCode::empty;
+        book.add(rejected, at);
+    }
+    Finished failed = finished("/d/f", IngestResult::gridded, 1);
+    failed.taken = fail(ErrorCode::no_space, "no");
+    book.add(failed, at);
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["rejected_by"], nlohmann::json({{"corrupt", 70}, {"empty", 30}}));
+    EXPECT_EQ(status["failures_by"], nlohmann::json({{"no_space", 1}}));
+    const auto files = status["rejected_files"];
+    ASSERT_EQ(files.size(), 64U);
+    EXPECT_EQ(files.back()["file"], "/d/r\\x0a99");
+    EXPECT_EQ(files.back()["station"], "KTLX");
+    EXPECT_EQ(files.back()["by"], "empty");
+    EXPECT_EQ(files.back()["at"], "2022-03-17T00:10:00Z");
+    const auto reason = files.back()["reason"].get<std::string>();
+    EXPECT_TRUE(reason.starts_with("bad\\x0amagicxx"));
+    EXPECT_LT(reason.size(), 600U);
+}
+
+TEST(StatusBook, EachStationHasAgesLatenciesAndWhatIsMissing) {
+    StatusBook book("/d", "/c");
+    const UtcTime at = *parse_utc("2022-03-17T00:15:00Z", UtcTime{});
+    Finished one = finished("/d/a", IngestResult::gridded, 250);
+    one.taken->ingest.newest_radial = at - std::chrono::seconds{40};
+    book.add(one, at);
+    book.stations().add_missing_chunks("KTLX", {at, 17, {3, 9}, 2});
+    Finished old = finished("/d/b", IngestResult::gridded, -1);
+    old.taken->ingest.station = "KOUN";
+    old.taken->ingest.newest_radial = at - std::chrono::hours{200};
+    book.add(old, at);
+    book.set_listening("/run/s", 9123);
+    const auto status = nlohmann::json::parse(book.json({}, at + std::chrono::seconds{5}));
+    EXPECT_EQ(status["listening"], nlohmann::json({{"socket", "/run/s"}, {"http_port", 9123}}));
+    EXPECT_EQ(status["antenna_to_cache_s"]["count"], 1);
+    EXPECT_EQ(status["antenna_to_cache_s"]["not_live"], 1);
+    ASSERT_EQ(status["stations"].size(), 2U);
+    const auto koun = status["stations"][0];
+    EXPECT_EQ(koun["station"], "KOUN");
+    EXPECT_EQ(koun["antenna_to_cache_s"]["last"], 720'000);
+    EXPECT_EQ(koun["antenna_to_cache_s"]["last_is_live"], false);
+    EXPECT_TRUE(koun["antenna_to_cache_s"]["median"].is_null());
+    const auto ktlx = status["stations"][1];
+    EXPECT_EQ(ktlx["volume_time"], "2022-03-17T00:08:42Z");
+    EXPECT_EQ(ktlx["volume_age_s"], 383);
+    EXPECT_EQ(ktlx["ingested_age_s"], 5);
+    EXPECT_EQ(ktlx["data_age_s"], 5);
+    EXPECT_EQ(ktlx["gridded"], 1);
+    EXPECT_EQ(ktlx["latency_s"]["p95"], 0.25);
+    EXPECT_EQ(ktlx["antenna_to_cache_s"]["max"], 40);
+    EXPECT_EQ(ktlx["missing_chunks"], 2);
+    EXPECT_EQ(ktlx["missing"][0]["volume_number"], 17);
+    EXPECT_EQ(ktlx["missing"][0]["numbers"], nlohmann::json({3, 9}));
+}
+
 TEST(StatusBook, NothingYetIsNullAndNotZero) {
     const StatusBook book("/d", "/c");
     const auto status = nlohmann::json::parse(book.json({}, now_utc()));

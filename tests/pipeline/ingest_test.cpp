@@ -64,7 +64,10 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->result, IngestResult::gridded);
     EXPECT_EQ(outcome->station, "KBGM");
+    EXPECT_FALSE(outcome->rejected_with);
     EXPECT_EQ(only_entry("KBGM").state, FileState::complete);
+    EXPECT_EQ(outcome->newest_radial, only_entry("KBGM").volume.end_time);
+    EXPECT_GT(*outcome->newest_radial, *outcome->volume_time + std::chrono::minutes{4});
     ASSERT_EQ(grids("KBGM").size(), 1U);
     const auto file = cache::GridFile::open(grids("KBGM")[0].path);
     ASSERT_TRUE(file);
@@ -152,6 +155,8 @@ TEST_F(IngestTest, GarbageIsRejectedWithAReasonAndIsNotTriedAgain) {
     const auto outcome = ingestor_.ingest(path, false);
     ASSERT_TRUE(outcome);
     EXPECT_EQ(outcome->result, IngestResult::rejected);
+    EXPECT_EQ(outcome->rejected_with, ErrorCode::not_level2);
+    EXPECT_FALSE(outcome->newest_radial);
     EXPECT_EQ(only_entry("KTLX").state, FileState::rejected);
     EXPECT_NE(only_entry("KTLX").reason, "");
     EXPECT_EQ(ingestor_.ingest(path, true)->result, IngestResult::unchanged);
@@ -171,6 +176,7 @@ TEST_F(IngestTest, OddThingsAreRejectedAndNeverFollowed) {
     const auto outcome = ingestor_.ingest(directory_ / "link", true);
     EXPECT_EQ(outcome->result, IngestResult::rejected);
     EXPECT_EQ(outcome->reason, "is not a regular file");
+    EXPECT_EQ(outcome->rejected_with, ErrorCode::not_a_file);
 }
 
 // A cut copy, or an older file of the same volume, must not take a whole grid's place.

@@ -1,0 +1,43 @@
+// cli/status_source.h -- where `stormcellar status` has it from: the running daemon, else its file.
+//
+// A daemon answers on its Unix socket (GET /status.json); where none does, state/status.json says
+// what the last one said. Thread contract: one thread.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "base/result.h"
+
+namespace stormcellar::cli {
+
+// At most one of the three is named; none: a service in its usual places.
+struct StatusOptions {
+    std::string socket, state, config;
+    bool json = false;
+};
+
+struct StatusPlaces {
+    std::vector<std::filesystem::path> sockets;  // tried in this order
+    std::filesystem::path file;                  // empty: none
+};
+// bad_argument or what reading the configuration gives.
+[[nodiscard]] Result<StatusPlaces> places_of(const StatusOptions& options);
+
+struct StatusAnswer {
+    nlohmann::json document;     // an object
+    std::filesystem::path from;  // the socket or the file
+    std::string silent;          // why no daemon answered; empty: one did
+};
+// not_found when neither answers: the message says why, place by place.
+[[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
+
+// The document of whoever listens at the path: io with the system's reason, or corrupt when it is
+// no status. Waits 5 s at most and reads 16 MiB at most.
+[[nodiscard]] Result<nlohmann::json> ask_socket(const std::filesystem::path& path);
+
+}  // namespace stormcellar::cli

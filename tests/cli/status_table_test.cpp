@@ -1,0 +1,135 @@
+#include "cli/status_table.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace stormcellar::cli {
+namespace {
+
+using nlohmann::json;
+
+const UtcTime now = *parse_utc("2022-03-17T00:20:00Z", UtcTime{});
+
+TEST(ShortDuration, IsShort) {
+    const auto text = [](double seconds) { return short_duration(seconds); };
+    EXPECT_EQ(text(0), "0 ms");
+    EXPECT_EQ(text(0.085), "85 ms");
+    EXPECT_EQ(text(0.9994), "999 ms");
+    EXPECT_EQ(text(0.9996), "1.0 s");
+    EXPECT_EQ(text(4.25), "4.2 s");
+    EXPECT_EQ(text(9.96), "10 s");
+    EXPECT_EQ(text(99), "99 s");
+    EXPECT_EQ(text(100), "1.7 min");
+    EXPECT_EQ(text(720), "12 min");
+    EXPECT_EQ(text(11'520), "3.2 h");
+    EXPECT_EQ(text(40 * 3600), "40 h");
+    EXPECT_EQ(text(5 * 86'400), "5.0 d");
+    EXPECT_EQ(text(21 * 365.25 * 86'400), "21 y");
+    EXPECT_EQ(text(-42), "-42 s");
+    EXPECT_EQ(short_duration(std::nullopt), "-");
+    EXPECT_EQ(text(std::numeric_limits<double>::infinity()), "-");
+}
+
+json station(const std::string& name) {
+    return {{"station", name},
+            {"volume_time", "2022-03-17T00:08:42Z"},
+            {"ingested_at", "2022-03-17T00:19:50Z"},
+            {"data_at", "2022-03-17T00:19:55Z"},
+            {"gridded", 12U},
+            {"partial", 1U},
+            {"rejected", 2U},
+            {"latency_s", {{"count", 9U}, {"median", 0.085}, {"p95", 0.12}, {"max", 2.5}}},
+            {"antenna_to_cache_s",
+             {{"count", 3U}, {"median", 21}, {"p95", 30}, {"max", 33}, {"last", 20}}},
+            {"missing_chunks", 70U},
+            {"missing", json::array()}};
+}
+
+TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
+    json ktlx = station("KTLX");
+    ktlx["missing"] = {
+        {{"volume_time", "2022-03-17T00:08:42Z"}, {"count", 70U}, {"numbers", {3, 9}}}};
+    json kbgm = station("KBGM");
+    kbgm["latency_s"] = {{"count", 0U}, {"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
+    kbgm["antenna_to_cache_s"] = {{"median", nullptr}, {"p95", nullptr}, {"last", 720'000}};
+    const json status = {
+        {"state", "running"},
+        {"pid", 17U},
+        {"version", "1.2"},
+        {"started", "2022-03-17T00:00:00Z"},
+        {"drop", "/d"},
+        {"cache", "/c"},
+        {"directories", 3U},
+        {"rolling",
+         {{"grids", 120U},
+          {"pinned", 2U},
+          {"bytes", 500'000'000U},
+          {"budget_bytes", 1'000'000'000U},
+          {"evicted", 7U},
+          {"evicted_bytes", 7000U}}},
+        {"pending", {{"waiting", 4U}, {"running", 2U}, {"growing", 1U}}},
+        {"overflows", 1U},
+        {"scans", 5U},
+        {"ingested", 24U},
+        {"partial", 2U},
+        {"rejected", 3U},
+        {"rejected_by", {{"corrupt", 2U}, {"empty", 1U}}},
+        {"failures", 0U},
+        {"failures_by", json::object()},
+        {"latency_s", {{"count", 9U}, {"median", 0.085}, {"p95", 0.12}, {"max", 2.5}}},
+        {"antenna_to_cache_s",
+         {{"count", 3U}, {"median", 21}, {"p95", 30}, {"max", 33}, {"not_live", 6U}}},
+        {"stations", {ktlx, kbgm}},
+        {"rejected_files",
+         {{{"file", "/d/x"},
+           {"at", "2022-03-17T00:01:00Z"},
+           {"by", "corrupt"},
+           {"reason", "why"}}}},
+        {"loops", {{"running", 1U}, {"restarts", 2U}, {"made", 30U}, {"each", {json::object()}}}}};
+    EXPECT_EQ(
+        status_table(status, now),
+        "stormcellard 1.2 (process 17): running, started 2022-03-17T00:00:00Z, 20 min ago\n"
+        "drop     /d: 3 directories\n"
+        "cache    /c: 120 grids, 500 MB of 1.00 GB (50 %), 2 pinned; 7 evicted (7.00 kB)\n"
+        "queue    4 waiting, 2 running, 1 growing; 1 overflow of the kernel's events, 5 scans\n"
+        "files    24 gridded (2 partial), 3 rejected (2 corrupt, 1 empty), 0 with nothing to "
+        "grid, 0 failures\n"
+        "close to cache    p50 85 ms, p95 120 ms, max 2.5 s (9 files)\n"
+        "antenna to cache  p50 21 s, p95 30 s, max 33 s (3 volumes; 6 more were over an hour "
+        "old)\n"
+        "loops    1 of 1 running, 30 made, 2 restarts\n"
+        "\n"
+        "station  volume  cached   data    p50     p95    max  antenna p50  antenna p95  gridded  "
+        "partial  rejected  missing\n"
+        "KBGM     11 min    10 s  5.0 s      -       -      -   old: 8.3 d            -       12  "
+        "      1         2       70\n"
+        "KTLX     11 min    10 s  5.0 s  85 ms  120 ms  2.5 s         21 s         30 s       12  "
+        "      1         2       70\n"
+        "missing chunks of KTLX, volume 2022-03-17T00:08:42Z: 3, 9, ...\n"
+        "rejected last:\n"
+        "  2022-03-17T00:01:00Z  /d/x: corrupt (why)\n");
+}
+
+TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {
+    for (const char* text :
+         {"{}", R"({"stations": 5, "rolling": [], "loops": 7, "rejected_files": {}})",
+          R"({"stations": [null, 5, {"missing": [1], "latency_s": "x"}], "pending": "x"})",
+          R"({"pid": -1, "started": "yesterday", "rejected_files": [null, {"file": 3}]})",
+          R"({"rolling": {"bytes": "many", "budget_bytes": 0}, "rejected_by": {"a": "b"}})"}) {
+        const std::string page = status_table(json::parse(text), now);
+        EXPECT_TRUE(page.starts_with("stormcellard - ")) << page;
+    }
+}
+
+// Whoever answers may send anything: it is not obeyed by the terminal.
+TEST(StatusTable, ControlCharactersAreNotPassedOn) {
+    const json status = {{"state", "\x1b[2J"}, {"stations", {{{"station", "K\n\x07"}}}}};
+    const std::string page = status_table(status, now);
+    EXPECT_EQ(page.find('\x1b'), std::string::npos);
+    EXPECT_EQ(page.find('\x07'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stormcellar::cli

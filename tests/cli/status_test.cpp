@@ -1,0 +1,181 @@
+// `stormcellar status` against the real daemon, against nobody, and against who is no daemon.
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "cli/status_source.h"
+#include "tests/daemon/running_daemon.h"
+#include "tests/daemon/write_file.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using daemon::RunningDaemon;
+using daemon::write_file;
+using nlohmann::json;
+
+testing::ProgramResult status(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "status");
+    return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+}
+
+// The daemon is there once it answers.
+bool wait_until_it_answers(const fs::path& state) {
+    for (int i = 0; i < 1000; ++i) {
+        if (status({"--state", state}).status == 0) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    }
+    return false;
+}
+
+bool is_asked_for_files(const json& document) {
+    return document["rejected"] == 1 && document["pending"]["waiting"] == 0;
+}
+
+TEST(Status, TheRunningDaemonAnswers) {
+    RunningDaemon daemon;
+    write_file(daemon.drop() / "KTLX_junk", std::string(5000, 'x'));
+    daemon.start("[ingest]\nquiet_seconds = 1\n");
+    ASSERT_TRUE(daemon.wait_for(is_asked_for_files)) << daemon.log();
+    ASSERT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
+    const auto by_state = status({"--state", daemon.root() / "state", "--json"});
+    ASSERT_EQ(by_state.status, 0) << by_state.err;
+    const json document = json::parse(by_state.out);
+    EXPECT_EQ(document["source"]["answered"], true);
+    EXPECT_EQ(document["source"]["from"], (daemon.root() / "state/status.sock").native());
+    EXPECT_EQ(document["rejected_by"], json({{"not_level2", 1}}));
+    EXPECT_EQ(document["stations"][0]["station"], "KTLX");
+    const auto table = status({"--config", daemon.root() / "stormcellard.toml"});
+    EXPECT_EQ(table.status, 0) << table.err;
+    EXPECT_NE(table.out.find(": running, started"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("\nKTLX "), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("KTLX_junk: not_level2 ("), std::string::npos) << table.out;
+    EXPECT_EQ(table.err, "");
+    EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 0);
+    EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
+}
+
+TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
+    RunningDaemon daemon;
+    daemon.start();
+    ASSERT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
+    daemon.signal(SIGKILL);
+    EXPECT_EQ(daemon.wait(), -SIGKILL);
+    const auto after = status({"--state", daemon.root() / "state", "--json"});
+    EXPECT_EQ(after.status, 1);
+    EXPECT_NE(after.err.find("stormcellar: no daemon answers ("), std::string::npos) << after.err;
+    EXPECT_NE(after.err.find("status.json is "), std::string::npos) << after.err;
+    const json document = json::parse(after.out);
+    EXPECT_EQ(document["source"]["answered"], false);
+    EXPECT_TRUE(document["source"]["age_s"].is_number());
+    EXPECT_EQ(document["state"], "running") << "as it was last said";
+    EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 1);
+    // The socket that it left is no hindrance.
+    daemon.start();
+    EXPECT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
+}
+
+TEST(Status, ASocketElsewhereIsFound) {
+    RunningDaemon daemon;
+    daemon.start("[status]\nsocket = \"elsewhere.sock\"\n");
+    ASSERT_TRUE(wait_until_it_answers(daemon.root() / "state")) << daemon.log();
+    const auto by_config = status({"--config", daemon.root() / "stormcellard.toml"});
+    EXPECT_EQ(by_config.status, 0) << by_config.err;
+    EXPECT_FALSE(fs::exists(daemon.root() / "state/status.sock"));
+    EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
+}
+
+// Whatever stands in its way, files are taken in.
+TEST(Status, TheDaemonStartsWithoutItsSocket) {
+    RunningDaemon daemon;
+    daemon.start("[status]\nsocket = \"none/status.sock\"\n");
+    EXPECT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
+    EXPECT_TRUE(daemon.wait_for_log("the status cannot be asked for: ")) << daemon.log();
+    EXPECT_EQ(status({"--config", daemon.root() / "stormcellard.toml"}).status, 1);
+    EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
+}
+
+TEST(Status, SaysWhereNobodyAnswers) {
+    const testing::TemporaryDirectory directory;
+    const auto nobody = status({"--state", directory.path()});
+    EXPECT_EQ(nobody.status, 1);
+    EXPECT_EQ(nobody.out, "");
+    EXPECT_EQ(nobody.err, "stormcellar: no daemon answers (" + directory.path().native() +
+                              "/status.sock: No such file or directory), and " +
+                              directory.path().native() + "/status.json holds no status\n");
+    write_file(directory / "status.json", "[half");
+    EXPECT_EQ(status({"--state", directory.path()}).status, 1);
+    EXPECT_EQ(status({"--config", directory / "none.toml"}).status, 1);
+    EXPECT_EQ(status({"--socket", "a", "--state", "b"}).status, 2);
+    EXPECT_EQ(status({"--socket", ""}).status, 2);
+    EXPECT_EQ(status({"something"}).status, 2);
+}
+
+TEST(StatusPlaces, AreWhereItIsSaid) {
+    const testing::TemporaryDirectory directory;
+    const fs::path file = directory / "s.toml";
+    write_file(file, "[paths]\nstate = \"st\"\n[status]\nsocket = \"run/s\"\n[unknown]\nkey = 1\n");
+    StatusOptions options;
+    options.config = file;
+    auto places = places_of(options);
+    ASSERT_TRUE(places) << places.error().message;
+    EXPECT_EQ(places->sockets, std::vector<fs::path>{directory / "run/s"});
+    EXPECT_EQ(places->file, directory / "st/status.json");
+    write_file(file, "[paths\n");
+    EXPECT_EQ(places_of(options).error().code, ErrorCode::bad_argument);
+    options = {};
+    options.state = directory.path();
+    write_file(directory / "status.json", R"({"listening": {"socket": "/run/x/s.sock"}})");
+    EXPECT_EQ(places_of(options)->sockets,
+              (std::vector<fs::path>{directory / "status.sock", "/run/x/s.sock"}));
+    options = {};
+    EXPECT_EQ(places_of(options)->sockets.at(0), "/run/stormcellar/status.sock");
+    EXPECT_EQ(places_of(options)->file, "/var/lib/stormcellar/status.json");
+}
+
+// Answers the first who asks with what it is told, and goes.
+ErrorCode code_of_answer(const std::string& answer) {
+    const testing::TemporaryDirectory directory;
+    const fs::path path = directory / "s";
+    const int listening = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.native().copy(static_cast<char*>(address.sun_path), sizeof address.sun_path - 1);
+    EXPECT_EQ(::bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::listen(listening, 1), 0);
+    std::thread server([&] {
+        const int asked = ::accept(listening, nullptr, nullptr);
+        std::string question(100, '\0');
+        (void)!::read(asked, question.data(), question.size());
+        (void)!::send(asked, answer.data(), answer.size(), MSG_NOSIGNAL);
+        ::close(asked);
+    });
+    const auto document = ask_socket(path);
+    server.join();
+    ::close(listening);
+    return document ? ErrorCode::bad_argument : document.error().code;
+}
+
+TEST(AskSocket, WhoIsNoDaemonIsSeen) {
+    EXPECT_EQ(code_of_answer(""), ErrorCode::corrupt);
+    EXPECT_EQ(code_of_answer("220 mail ready\r\n"), ErrorCode::corrupt);
+    EXPECT_EQ(code_of_answer("HTTP/1.0 200 OK\r\n\r\n<html>"), ErrorCode::corrupt);
+    EXPECT_EQ(code_of_answer("HTTP/1.0 200 OK\r\n\r\n[1]"), ErrorCode::corrupt);
+    EXPECT_EQ(code_of_answer("HTTP/1.0 503 Wait\r\n\r\nstarting"), ErrorCode::io);
+    EXPECT_EQ(code_of_answer("HTTP/1.0 200 OK\r\n\r\n{}"), ErrorCode::bad_argument) << "a status";
+    EXPECT_EQ(code_of_answer(std::string(20'000'000, 'x')), ErrorCode::corrupt);
+    EXPECT_EQ(ask_socket("/" + std::string(200, 'x')).error().code, ErrorCode::io);
+}
+
+}  // namespace
+}  // namespace stormcellar::cli

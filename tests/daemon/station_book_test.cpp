@@ -1,0 +1,135 @@
+#include "daemon/station_book.h"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/fake_sink.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using pipeline::IngestOutcome;
+using pipeline::IngestResult;
+using std::chrono::hours;
+using std::chrono::minutes;
+using std::chrono::seconds;
+
+const UtcTime t0 = *parse_utc("2022-03-17T00:08:42Z", UtcTime{});  // of outcome_of()'s volume
+
+IngestOutcome gridded(UtcTime volume, UtcTime newest_radial) {
+    IngestOutcome outcome = outcome_of(IngestResult::gridded);
+    outcome.volume_time = volume;
+    outcome.newest_radial = newest_radial;
+    return outcome;
+}
+
+TEST(Timings, CountAllAndSummariseTheLast) {
+    Timings timings(100);
+    EXPECT_EQ(timings.summary().count, 0U);
+    for (int i = 1; i <= 250; ++i)
+        timings.add(i);
+    EXPECT_EQ(timings.count(), 250U);
+    EXPECT_DOUBLE_EQ(timings.sum_s(), 250 * 251 / 2);
+    const LatencySummary last = timings.summary();  // of 151 to 250
+    EXPECT_EQ(last.count, 100U);
+    EXPECT_EQ(last.median, 200);
+    EXPECT_EQ(last.p95, 245);
+    EXPECT_EQ(last.max, 250);
+}
+
+TEST(StationBook, KeepsTheNewestVolumeWhateverComesLater) {
+    StationBook book;
+    book.add(gridded(t0, t0 + minutes{4}), 0.5, t0 + minutes{5});
+    book.add(gridded(t0 - hours{3}, t0 - hours{3}), std::nullopt, t0 + minutes{6});
+    const StationState& state = book.stations().at("KTLX");
+    EXPECT_EQ(state.volume_time, t0);
+    EXPECT_EQ(state.newest_radial, t0 + minutes{4});
+    EXPECT_EQ(state.ingested_at, t0 + minutes{6});
+    EXPECT_EQ(state.results.at(index_of(IngestResult::gridded)), 2U);
+    EXPECT_EQ(state.close_to_cache.count(), 1U);
+}
+
+TEST(StationBook, AVolumeOfTheFutureHidesNothing) {
+    StationBook book;
+    book.add(gridded(t0, t0), std::nullopt, t0 + minutes{1});
+    book.add(gridded(t0 + hours{24}, t0 + hours{24}), std::nullopt, t0 + minutes{2});
+    EXPECT_EQ(book.stations().at("KTLX").volume_time, t0);
+    EXPECT_EQ(book.stations().at("KTLX").newest_radial, t0);
+    EXPECT_EQ(book.stations().at("KTLX").not_live, 1U);
+}
+
+TEST(StationBook, ReplayedDataAreCountedApartFromTheTimings) {
+    StationBook book;
+    book.add(gridded(t0, t0), std::nullopt, t0 + seconds{42});
+    book.add(gridded(t0, t0), std::nullopt, t0 + hours{1});
+    const StationState& state = book.stations().at("KTLX");
+    EXPECT_EQ(state.antenna_to_cache.count(), 2U);
+    EXPECT_EQ(state.antenna_to_cache.summary().median, 42);
+    book.add(gridded(t0, t0), std::nullopt, t0 + hours{1} + seconds{1});
+    EXPECT_EQ(state.antenna_to_cache.count(), 2U);
+    EXPECT_EQ(state.not_live, 1U);
+    EXPECT_EQ(state.last_antenna_s, 3601) << "the number is kept";
+    EXPECT_FALSE(is_live(*state.last_antenna_s));
+    EXPECT_TRUE(is_live(-600));
+    EXPECT_FALSE(is_live(-601));
+}
+
+TEST(StationBook, EveryFileIsASignOfLifeAndOnlyGridsAreVolumes) {
+    StationBook book;
+    IngestOutcome waiting = outcome_of(IngestResult::incomplete);
+    book.add(waiting, 0.1, t0);
+    EXPECT_EQ(book.stations().at("KTLX").data_at, t0);
+    EXPECT_FALSE(book.stations().at("KTLX").volume_time);
+    EXPECT_FALSE(book.stations().at("KTLX").ingested_at);
+    EXPECT_EQ(book.stations().at("KTLX").close_to_cache.count(), 0U);
+    book.add_data("KTLX", t0 + seconds{7});
+    EXPECT_EQ(book.stations().at("KTLX").data_at, t0 + seconds{7});
+    waiting.station.clear();
+    book.add(waiting, 0.1, t0);
+    EXPECT_EQ(book.stations().size(), 1U) << "no station, no entry";
+}
+
+TEST(StationBook, AStationKnownBeforeTheStartHasAnAgeAndNothingElse) {
+    StationBook book;
+    book.add_known("KTLX", t0, t0 + hours{5});
+    book.add_known("KOUN", t0 + hours{50}, t0);
+    EXPECT_EQ(book.stations().at("KTLX").volume_time, t0);
+    EXPECT_FALSE(book.stations().at("KTLX").data_at);
+    book.add_known("KBGM", t0, t0 + hours{7 * 24 + 1});
+    book.add_known("", t0, t0);
+    EXPECT_EQ(book.stations().size(), 1U) << "of the future, too old, of no station";
+}
+
+TEST(StationBook, MissingChunksAreSummedAndTheLastVolumesListed) {
+    StationBook book;
+    book.add_missing_chunks("KTLX", {t0, 17, {}, 0});
+    EXPECT_TRUE(book.stations().at("KTLX").missing.empty());
+    for (int volume = 0; volume < 20; ++volume)
+        book.add_missing_chunks("KTLX", {t0, volume, {3, 9}, 0});
+    const StationState& state = book.stations().at("KTLX");
+    EXPECT_EQ(state.missing_chunks, 40U);
+    ASSERT_EQ(state.missing.size(), 8U);
+    EXPECT_EQ(state.missing.front().volume_number, 12);
+    EXPECT_EQ(state.missing.back().numbers, (std::vector<int>{3, 9}));
+    std::vector<int> many(1000);
+    std::iota(many.begin(), many.end(), 1);
+    book.add_missing_chunks("KTLX", {t0, 20, many, 0});
+    EXPECT_EQ(state.missing.back().count, 1000U);
+    EXPECT_EQ(state.missing.back().numbers.size(), 64U);
+    EXPECT_EQ(state.missing_chunks, 1040U);
+}
+
+TEST(StationBook, StationsBeyondTheLimitAreCountedOnly) {
+    StationBook book;
+    for (std::size_t i = 0; i < StationBook::most_stations + 100; ++i)
+        book.add_data("S" + std::to_string(i), t0);
+    EXPECT_EQ(book.stations().size(), StationBook::most_stations);
+    EXPECT_EQ(book.left_out(), 100U);
+    book.add_data("S0", t0 + seconds{1});
+    EXPECT_EQ(book.stations().at("S0").data_at, t0 + seconds{1}) << "who is known stays";
+    EXPECT_EQ(book.left_out(), 100U);
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

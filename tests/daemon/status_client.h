@@ -1,0 +1,39 @@
+// tests/daemon/status_client.h -- somebody who asks for the status, as badly as the test wants.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace stormcellar::daemon {
+
+class StatusClient {
+  public:
+    // Waits up to 20 s until somebody listens there.
+    static StatusClient at_path(const std::filesystem::path& path);
+    static StatusClient at_port(bool ipv6, int port);
+    StatusClient(StatusClient&& other) noexcept;
+    StatusClient(const StatusClient&) = delete;
+    StatusClient& operator=(const StatusClient&) = delete;
+    StatusClient& operator=(StatusClient&&) = delete;
+    ~StatusClient();
+
+    [[nodiscard]] bool is_connected() const { return descriptor_ >= 0; }
+    // False when the other side has ended it.
+    bool send(const std::string& text) const;
+    // All up to the end of the connection; none when it does not end within 20 s.
+    [[nodiscard]] std::optional<std::string> read_to_end() const;
+    // Sends and reads; "" when nothing comes.
+    [[nodiscard]] std::string ask(const std::string& request) const;
+
+  private:
+    explicit StatusClient(int descriptor) : descriptor_(descriptor) {}
+    int descriptor_ = -1;
+};
+
+// "GET PATH" as HTTP/1.0.
+[[nodiscard]] std::string get(const std::string& path);
+// What follows the headers.
+[[nodiscard]] std::string body_of(const std::string& answer);
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,265 @@
+// What is asked for is answered, and nobody who asks badly keeps others from it.
+#include "daemon/status_server.h"
+
+#include <atomic>
+#include <fstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "daemon/listening_socket.h"
+#include "tests/daemon/status_client.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+
+class StatusServerTest : public ::testing::Test {
+  protected:
+    [[nodiscard]] std::filesystem::path path() const { return directory_ / "s.sock"; }
+    [[nodiscard]] StatusServerOptions quick() const {
+        return {.socket = path(),
+                .http_port = 0,
+                .retry = milliseconds{20},
+                .longest_connection = std::chrono::minutes{1},
+                .freshness = milliseconds{0},
+                .most_connections = 8};
+    }
+    // For clients that are to be cut off soon.
+    [[nodiscard]] StatusServerOptions impatient() const {
+        StatusServerOptions options = quick();
+        options.longest_connection = milliseconds{300};
+        return options;
+    }
+    StatusServer::Render render() {
+        return [this](StatusPage which) {
+            ++rendered_;
+            return which == StatusPage::json ? std::string{"{}\n"} : metrics_;
+        };
+    }
+    [[nodiscard]] std::string ask(const std::string& request) const {
+        return StatusClient::at_path(path()).ask(request);
+    }
+    // On a busy machine one who asks well may be cut off too.
+    [[nodiscard]] bool answers() const {
+        for (int i = 0; i < 100; ++i)
+            if (body_of(ask(get("/metrics"))) == metrics_) return true;
+        return false;
+    }
+
+    testing::TemporaryDirectory directory_;
+    std::string metrics_ = "x 1\n";
+    std::atomic<int> rendered_ = 0;
+};
+
+// A port that nobody has, this moment.
+int free_port() {
+    const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size);
+    ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
+    ::close(descriptor);
+    return ntohs(address.sin_port);
+}
+
+TEST_F(StatusServerTest, AnswersWithPagesAndEndsTheConnection) {
+    const StatusServer server(quick(), render());
+    const std::string metrics = ask(get("/metrics"));
+    EXPECT_TRUE(metrics.starts_with("HTTP/1.")) << metrics;
+    EXPECT_NE(metrics.find(" 200 OK\r\n"), std::string::npos) << metrics;
+    EXPECT_NE(metrics.find("Content-Type: text/plain; version=0.0.4; charset=utf-8\r\n"),
+              std::string::npos);
+    EXPECT_EQ(body_of(metrics), "x 1\n");
+    const std::string json = ask("GET /status.json HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_NE(json.find("Content-Type: application/json\r\n"), std::string::npos) << json;
+    EXPECT_EQ(body_of(json), "{}\n");
+    const std::string head = ask("HEAD /metrics HTTP/1.0\r\n\r\n");
+    EXPECT_NE(head.find("Content-Length: 4\r\n"), std::string::npos) << head;
+    EXPECT_EQ(body_of(head), "");
+    EXPECT_EQ(body_of(ask("GET /metrics?x=y HTTP/1.0\r\n\r\n")), "x 1\n");
+}
+
+TEST_F(StatusServerTest, EverythingElseIsRefused) {
+    const StatusServer server(quick(), render());
+    const auto status_of = [&](const std::string& request) {
+        const std::string answer = ask(request);
+        return answer.size() < 12 ? "none" : answer.substr(9, 3);
+    };
+    EXPECT_EQ(status_of(get("/")), "404");
+    EXPECT_EQ(status_of(get("/metrics/../../etc/passwd")), "404");
+    EXPECT_EQ(status_of("POST /metrics HTTP/1.0\r\nContent-Length: 3\r\n\r\nabc"), "405");
+    EXPECT_EQ(status_of("DELETE /status.json HTTP/1.0\r\n\r\n"), "405");
+    EXPECT_EQ(status_of("GET /metrics HTTP/1.0\r\nContent-Length: -1\r\n\r\n"), "400");
+    EXPECT_EQ(status_of("GET /" + std::string(50'000, 'a') + " HTTP/1.0\r\n\r\n"), "414");
+    EXPECT_EQ(status_of("GET /metrics HTTP/1.0\r\nX: " + std::string(50'000, 'a') + "\r\n\r\n"),
+              "431");
+    EXPECT_TRUE(answers());
+}
+
+TEST_F(StatusServerTest, BeforeThereIsAPageItSaysSo) {
+    const StatusBoard board;
+    const StatusServer server(quick(), pages_of(board));
+    EXPECT_NE(ask(get("/metrics")).find(" 503 "), std::string::npos);
+}
+
+TEST_F(StatusServerTest, ThePagesAreThoseOfTheBoard) {
+    StatusBoard board;
+    StatusBook book("/d", "/c");
+    book.set_state("running");
+    board.post(book.facts(), {3, 2, 1});
+    const StatusServer server(quick(), pages_of(board));
+    EXPECT_NE(ask(get("/metrics")).find("stormcellar_queue_files{state=\"waiting\"} 3\n"),
+              std::string::npos);
+    EXPECT_NE(ask(get("/status.json")).find("\"state\": \"running\""), std::string::npos);
+}
+
+TEST_F(StatusServerTest, WhoSaysNothingOrDripsIsCutOff) {
+    const StatusServer server(impatient(), render());
+    const StatusClient silent = StatusClient::at_path(path());
+    const StatusClient half = StatusClient::at_path(path());
+    half.send("GET /metr");
+    EXPECT_TRUE(answers()) << "meanwhile";
+    EXPECT_TRUE(silent.read_to_end()) << "ended by the server";
+    EXPECT_TRUE(half.read_to_end());
+    // A byte now and then does not help.
+    const StatusClient dripping = StatusClient::at_path(path());
+    int sent = 0;
+    while (sent < 1000 && dripping.send("G")) {
+        ++sent;
+        std::this_thread::sleep_for(milliseconds{20});
+    }
+    EXPECT_LT(sent, 1000);
+}
+
+TEST_F(StatusServerTest, WhoNeverReadsIsCutOff) {
+    metrics_ = std::string(20'000'000, 'x');
+    const StatusServer server(impatient(), render());
+    std::vector<StatusClient> lazy;
+    for (int i = 0; i < 4; ++i) {
+        lazy.push_back(StatusClient::at_path(path()));
+        lazy.back().send(get("/metrics"));
+    }
+    std::this_thread::sleep_for(milliseconds{600});
+    for (const StatusClient& client : lazy)
+        EXPECT_LT(client.read_to_end().value_or(metrics_).size(), metrics_.size());
+}
+
+TEST_F(StatusServerTest, MoreConnectionsThanThereMayBeWaitTheirTurn) {
+    const StatusServer server(impatient(), render());
+    std::vector<StatusClient> many;
+    for (int i = 0; i < 20; ++i)
+        many.push_back(StatusClient::at_path(path()));
+    EXPECT_TRUE(answers()) << "once the silent ones were cut off";
+}
+
+TEST_F(StatusServerTest, BrokenRequestsAndHastyGoodbyesChangeNothing) {
+    const StatusServer server(impatient(), render());
+    for (const std::string& request :
+         {std::string(3000, '\0'), std::string(100'000, '\xFF'), std::string{"\r\n\r\n\r\n"},
+          std::string{"GET\r\n\r\n"}, std::string{"GET /metrics HTTP/9.9\r\n\r\n"},
+          std::string{"GET /metrics HTTP/1.0\r\nContent-Length: -1\r\n\r\n"},
+          std::string{
+              "GET /metrics HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n"}}) {
+        StatusClient::at_path(path()).send(request);  // and gone
+        EXPECT_TRUE(StatusClient::at_path(path()).is_connected());
+        (void)ask(request);
+    }
+    EXPECT_TRUE(answers());
+}
+
+TEST_F(StatusServerTest, APageIsNotMadeAgainForEachWhoAsks) {
+    StatusServerOptions options = quick();
+    options.freshness = std::chrono::hours{1};
+    const StatusServer server(options, render());
+    for (int i = 0; i < 50; ++i)
+        EXPECT_TRUE(answers());
+    EXPECT_EQ(rendered_, 1);
+}
+
+TEST_F(StatusServerTest, APageThatCannotBeMadeEndsNothing) {
+    std::atomic<bool> fails = true;
+    const StatusServer server(quick(), [&](StatusPage) -> std::string {
+        if (fails) throw std::bad_alloc();
+        return metrics_;
+    });
+    EXPECT_EQ(ask(get("/metrics")), "");
+    fails = false;
+    EXPECT_TRUE(answers());
+}
+
+TEST_F(StatusServerTest, ThePortIsOfThisMachineAlone) {
+    StatusServerOptions options = quick();
+    options.http_port = free_port();
+    const StatusServer server(options, render());
+    EXPECT_EQ(body_of(StatusClient::at_port(false, options.http_port).ask(get("/metrics"))),
+              "x 1\n");
+    std::ifstream sockets("/proc/self/net/tcp");
+    const std::string all{std::istreambuf_iterator<char>(sockets), {}};
+    const std::string port = fmt::format(":{:04X} ", options.http_port);
+    EXPECT_NE(all.find("0100007F" + port), std::string::npos);
+    EXPECT_EQ(all.find("00000000" + port), std::string::npos);
+}
+
+TEST_F(StatusServerTest, ASocketOfAKilledDaemonIsTakenOver) {
+    {
+        auto left = ListeningSocket::at_path(path());
+        ASSERT_TRUE(left) << left.error().message;
+        std::filesystem::rename(path(), directory_ / "kept");  // it is not removed at the end
+    }
+    std::filesystem::rename(directory_ / "kept", path());
+    const StatusServer server(quick(), render());
+    EXPECT_TRUE(answers());
+}
+
+TEST_F(StatusServerTest, WhatCannotBeOpenedIsTriedAgain) {
+    std::ofstream(path()) << "somebody's file";
+    const StatusServer server(quick(), render());
+    std::this_thread::sleep_for(milliseconds{100});
+    std::ifstream file(path());
+    EXPECT_EQ((std::string{std::istreambuf_iterator<char>(file), {}}), "somebody's file");
+    std::filesystem::remove(path());
+    EXPECT_TRUE(answers());
+    std::filesystem::remove(path());
+    EXPECT_TRUE(answers()) << "a socket that was removed is made again";
+}
+
+TEST_F(StatusServerTest, TheSocketIsForUserAndGroupAndGoesWithTheServer) {
+    {
+        const StatusServer server(quick(), render());
+        ASSERT_TRUE(answers());
+        struct stat found {};
+        ASSERT_EQ(::stat(path().c_str(), &found), 0);
+        EXPECT_EQ(found.st_mode & 07777, 0660U);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
+TEST(ListeningSocket, SaysWhyItCannotBe) {
+    const testing::TemporaryDirectory directory;
+    const auto reason = [](const std::filesystem::path& path) {
+        const auto socket = ListeningSocket::at_path(path);
+        return socket ? ErrorCode::internal : socket.error().code;
+    };
+    EXPECT_EQ(reason(""), ErrorCode::bad_argument);
+    EXPECT_EQ(reason("/" + std::string(107, 'x')), ErrorCode::bad_argument);
+    EXPECT_EQ(reason(directory / "none/s"), ErrorCode::not_found);
+    EXPECT_EQ(reason(directory.path()), ErrorCode::io) << "a directory";
+    const auto first = ListeningSocket::at_path(directory / "s");
+    ASSERT_TRUE(first);
+    EXPECT_EQ(reason(directory / "s"), ErrorCode::io) << "somebody answers";
+    EXPECT_TRUE(first->still_stands());
+    std::filesystem::remove(directory / "s");
+    EXPECT_FALSE(first->still_stands());
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
