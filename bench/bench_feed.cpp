@@ -37,7 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double unlimited_speed = 16;
-constexpr double default_paced_s = 90, default_fast_s = 110, full_fast_s = 600;
+constexpr double default_paced_s = 90, default_fast_s = 90, full_fast_s = 600;
 constexpr int soak_sites = 16, soak_hours = 24;
 constexpr std::uint64_t cache_budget = std::uint64_t{2} << 30U;
 constexpr std::size_t kinds = 3;
@@ -119,6 +119,12 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
         speed, stretch.feed_s, static_cast<double>(stretch.bytes) / 1e9, stretch.chunks,
         stretch.wall_s, stretch.drain_s, stretch.most_waiting, stretch.last.failures,
         stretch.last.overflows, stretch.last.latency_median_s, stretch.last.latency_p95_s);
+    if (!stretch.drained) {
+        fmt::print(stderr,
+                   "NOT ALL WAS READ: {} files wait, {} volumes have no grid; sustained_x "
+                   "and latencies say too little\n",
+                   stretch.last.waiting, stretch.ungridded);
+    }
     if (stretch.most_cache_bytes > cache_budget) fmt::print(stderr, "THE CACHE IS OVER BUDGET\n");
 }
 
@@ -128,7 +134,7 @@ Status begin(const NationalFeed& feed, DaemonProcess& daemon, FeedRun& run) {
     if (auto watched = run.watch(feed); !watched) return watched;
     if (auto started = daemon.start(daemon_configuration); !started) return started;
     bool idle = false;
-    const double warm_s = seconds_of([&] { idle = run.drain(180); });
+    const double warm_s = seconds_of([&] { idle = run.drain(120); });
     fmt::print(stderr, "the beginnings of {} volumes were read in {:.0f} s{}\n",
                feed.sites().size(), warm_s, idle ? "" : ", and not all");
     return {};

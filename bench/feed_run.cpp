@@ -137,7 +137,8 @@ Result<Stretch> FeedRun::run(const StretchOptions& options) {
         note_grids();
         look(stretch, begin);
         if (unfinished_ + stretch.last.waiting + stretch.last.running > 0) busy_until = now;
-        if (seconds_between(busy_until, now) > 1.5) break;
+        stretch.drained = seconds_between(busy_until, now) > 1.5;
+        if (stretch.drained) break;
     }
     stretch.drain_s = seconds_between(end, busy_until);
     stretch.wall_s = seconds_between(begin, busy_until);

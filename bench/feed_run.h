@@ -27,7 +27,7 @@ struct StretchOptions {
     double most_wall_s = std::numeric_limits<double>::infinity();
     double most_feed_s = std::numeric_limits<double>::infinity();
     std::size_t most_unfinished = 8;
-    double most_drain_s = 180;
+    double most_drain_s = 100;
 };
 
 struct MemorySample {
@@ -37,6 +37,7 @@ struct MemorySample {
 struct Stretch {
     double feed_s = 0, wall_s = 0;  // the second with the drain
     double drain_s = 0, held_s = 0;
+    bool drained = false;             // else the daemon had more to read: the figures flatter it
     std::vector<double> latencies_s;  // rising
     std::size_t volumes = 0;          // whose last chunk was sent
     std::size_t ungridded = 0;        // of them, when the drain was over
