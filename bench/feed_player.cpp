@@ -109,7 +109,6 @@ Status FeedPlayer::begin_volume(std::size_t site, Place& place) {
         std::error_code ignored;
         fs::create_directories(path_of(site, place.volume, false), ignored);
     }
-    if (place.volume >= 2) scour(site, place.volume - 2);
     return {};
 }
 

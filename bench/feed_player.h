@@ -2,7 +2,6 @@
 //
 // The feed has a clock of its own, in seconds: chunk j of n comes at start + (j + 1) / n * period.
 // Files are copied inside the kernel, so that the player takes little from who reads them.
-// A site's file is deleted when its second next volume begins, as scour would.
 // Threads: one.
 #pragma once
 
@@ -47,6 +46,9 @@ class FeedPlayer {
     // Writes the next chunk; `sent` hears of its volume when it was the last.
     [[nodiscard]] Status write_next(const std::function<void(SentVolume)>& sent);
 
+    // Deletes the file of a volume, as LDM's scour does when it is old.
+    void scour(std::size_t site, int volume) const;
+
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     [[nodiscard]] std::uint64_t bytes_of_kind(int kind) const;
     [[nodiscard]] std::uint64_t chunks() const { return chunks_; }
@@ -63,7 +65,6 @@ class FeedPlayer {
     [[nodiscard]] Status begin_volume(std::size_t site, Place& place);
     [[nodiscard]] Status copy(std::size_t site, Place& place, std::uint64_t from, std::uint64_t to);
     [[nodiscard]] Status end_volume(std::size_t site, Place& place);
-    void scour(std::size_t site, int volume) const;
 
     const NationalFeed& feed_;
     std::filesystem::path drop_;

@@ -47,7 +47,12 @@ void FeedRun::note_grids() {
     watch_.read([this](std::string_view name) {
         const auto sent = sent_.find(std::string(name));
         if (sent == sent_.end()) return;  // of what has not ended yet
-        if (sent->second.latency_s < 0) --unfinished_;
+        if (sent->second.latency_s < 0) {
+            --unfinished_;
+            int& before = gridded_[sent->second.site];
+            if (before >= 0) player_.scour(sent->second.site, before);
+            before = sent->second.volume;
+        }
         sent->second.latency_s = seconds_between(sent->second.closed, Clock::now());
     });
 }
@@ -86,8 +91,9 @@ Status FeedRun::play(const StretchOptions& options, Stretch& stretch) {
     const auto begin = Clock::now();
     const double begin_s = feed_s_;
     auto last = begin;
+    double held_for_s = 0;
     const auto sent = [&](const SentVolume& volume) {
-        sent_[volume.grid] = {volume.closed, -1};
+        sent_[volume.grid] = {volume.closed, -1, volume.site, volume.volume};
         ++unfinished_;
         ++stretch.volumes;
     };
@@ -101,7 +107,10 @@ Status FeedRun::play(const StretchOptions& options, Stretch& stretch) {
         const bool held = unfinished_ > options.most_unfinished;
         if (held) {
             stretch.held_s += passed_s;
+            held_for_s += passed_s;
+            if (held_for_s > options.most_drain_s) break;
         } else {
+            held_for_s = 0;
             feed_s_ = std::min(feed_s_ + passed_s * options.speed, begin_s + options.most_feed_s);
         }
         while (player_.next_s() <= feed_s_) {

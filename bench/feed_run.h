@@ -4,7 +4,8 @@
 //          grid of it in the cache, by this program's clock.
 // Sustained  the feed's time over the wall time, from the first chunk until the daemon has nothing
 //          left to read. Where more than `most_unfinished` volumes were sent and not gridded the
-//          feed stands still.
+//          feed stands still; where that lasts for most_drain_s the stretch is over.
+// Files are deleted when a later volume of their station has its grid, and they have theirs.
 // Threads: one.
 #pragma once
 
@@ -58,7 +59,9 @@ struct Stretch {
 class FeedRun {
   public:
     FeedRun(const NationalFeed& feed, DaemonProcess& daemon, Delivery delivery)
-        : daemon_(daemon), player_(feed, daemon.drop(), delivery) {}
+        : daemon_(daemon),
+          player_(feed, daemon.drop(), delivery),
+          gridded_(feed.sites().size(), -1) {}
 
     // What every site sent before the feed's clock began; before the daemon starts.
     [[nodiscard]] Status send_beginnings();
@@ -73,6 +76,8 @@ class FeedRun {
     struct Sent {
         Clock::time_point closed;
         double latency_s = -1;  // below 0: there is no grid
+        std::size_t site = 0;
+        int volume = 0;
     };
     void note_grids();
     void look(Stretch& stretch, Clock::time_point begin);
@@ -83,6 +88,7 @@ class FeedRun {
     GridWatch watch_;
     double feed_s_ = 0;                           // the feed's clock
     std::unordered_map<std::string, Sent> sent_;  // in this stretch, by grid
+    std::vector<int> gridded_;  // by site: of which the last grid came; -1: none yet
     std::size_t unfinished_ = 0;
     Clock::time_point next_look_;
 };
