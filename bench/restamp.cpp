@@ -5,6 +5,12 @@
 namespace stormcellar::bench {
 namespace {
 
+bool is_legacy(const level2::Volume& volume) {
+    return !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
+}
+
+}  // namespace
+
 // The feed horn's altitude is what both heights add up to. Equal ones would be read as a TDWR's,
 // which are not added.
 void move_to(const Station& station, level2::VolumeBlock& block) {
@@ -16,12 +22,6 @@ void move_to(const Station& station, level2::VolumeBlock& block) {
     block.tower_height_m = static_cast<std::uint16_t>(above_base_m);
     block.site_height_m = static_cast<std::int16_t>(altitude_m - above_base_m);
 }
-
-bool is_legacy(const level2::Volume& volume) {
-    return !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
-}
-
-}  // namespace
 
 void move_times(level2::Volume& volume, std::chrono::milliseconds by) {
     if (volume.header) {

@@ -19,4 +19,7 @@ void move_times(level2::Volume& volume, std::chrono::milliseconds by);
 // Message 1 holds no position: its reader takes that of the station table.
 void restamp(level2::Volume& volume, const Station& station, UtcTime start);
 
+// The position in a volume block that has that station's antenna.
+void move_to(const Station& station, level2::VolumeBlock& block);
+
 }  // namespace stormcellar::bench

@@ -1,6 +1,7 @@
 // stormcellar replay SOURCE... DROP: play files into a drop directory as LDM would.
 #include "synth/replay.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -21,31 +22,67 @@ struct ReplayCommandOptions {
     std::string delivery = "whole";
     std::optional<double> interval_s;
     double speed = 1;
+    std::string faults;
     bool json = false;
 };
 
 int report_stop(const synth::ReplayReport& report, std::size_t items, Interrupt& interrupt) {
     fmt::print(stderr, "stormcellar: interrupted after {} of {} {}\n", report.files, items,
                plural(items, "file"));
-    if (!report.unfinished.empty()) {
-        fmt::print(stderr, "stormcellar: {} stays unfinished\n",
-                   printable(report.unfinished.native()));
+    for (const auto& unfinished : report.unfinished) {
+        fmt::print(stderr, "stormcellar: {} stays unfinished\n", printable(unfinished.native()));
     }
     interrupt.end_by_signal();
     return exit_failed;
+}
+
+synth::Delivery delivery_of(const std::string& name) {
+    if (name == "growing") return synth::Delivery::growing;
+    if (name == "open") return synth::Delivery::open;
+    return name == "chunks" ? synth::Delivery::chunks : synth::Delivery::whole;
+}
+
+nlohmann::json json_of(const synth::ReplayReport& report, double total_s) {
+    nlohmann::json faults = nlohmann::json::array();
+    for (const synth::FaultMade& made : report.faults) {
+        const auto chunk = made.chunk == 0 ? nlohmann::json() : nlohmann::json(made.chunk);
+        faults.push_back({{"fault", synth::to_string(made.fault)},
+                          {"source", printable(made.source.native())},
+                          {"file", printable(made.name.native())},
+                          {"chunk", chunk},
+                          {"bytes", made.bytes},
+                          {"kept_bytes", made.kept_bytes}});
+    }
+    return {{"files", report.files},
+            {"writes", report.writes},
+            {"bytes", report.bytes},
+            {"faults", faults},
+            {"total_s", total_s}};
+}
+
+void print_faults(const std::vector<synth::FaultMade>& faults) {
+    std::map<synth::Fault, std::size_t> counts;
+    for (const synth::FaultMade& made : faults)
+        ++counts[made.fault];
+    for (const auto& [fault, count] : counts)
+        fmt::print(stderr, "{}: {}\n", synth::to_string(fault), count);
 }
 
 int run_replay(const ReplayCommandOptions& options) {
     const auto start = Clock::now();
     const std::vector<std::filesystem::path> sources(options.places.begin(),
                                                      options.places.end() - 1);
+    synth::ReplayOptions replay_options;
+    if (!options.faults.empty()) {
+        const auto faults = synth::parse_fault_rates(options.faults);
+        if (!faults) return report_error(faults.error());
+        replay_options.faults = *faults;
+    }
     const auto items = synth::find_replay_items(sources);
     if (!items) return report_error(items.error());
     Interrupt interrupt;
     Progress progress("files", items->size(), !options.json);
-    synth::ReplayOptions replay_options;
-    replay_options.delivery =
-        options.delivery == "growing" ? synth::Delivery::growing : synth::Delivery::whole;
+    replay_options.delivery = delivery_of(options.delivery);
     replay_options.interval_s = options.interval_s;
     replay_options.speed = options.speed;
     replay_options.stop = &interrupt.flag();
@@ -57,10 +94,11 @@ int run_replay(const ReplayCommandOptions& options) {
     if (report->stopped) return report_stop(*report, items->size(), interrupt);
     const double total_s = seconds_since(start);
     if (options.json) {
-        print_json({{"files", report->files}, {"bytes", report->bytes}, {"total_s", total_s}});
+        print_json(json_of(*report, total_s));
     } else {
         fmt::print(stderr, "{} {}, {} bytes, {:.1f} s\n", report->files,
                    plural(report->files, "file"), report->bytes, total_s);
+        print_faults(report->faults);
     }
     return exit_done;
 }
@@ -78,18 +116,27 @@ Command add_replay(CLI::App& app) {
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");
     replay
-        ->add_option("--as", options->delivery,
-                     "Whole: renamed when complete; growing: appended and closed again and again")
-        ->check(CLI::IsMember({"whole", "growing"}))
-        ->option_text("whole|growing");
+        ->add_option(
+            "--as", options->delivery,
+            "Whole: renamed when complete (default); growing: appended and closed for each "
+            "chunk; open: appended and kept open; chunks: a file for each chunk, "
+            "DROP/STATION/NUMBER/DATE-TIME-CHUNK-S|I|E")
+        ->check(CLI::IsMember({"whole", "growing", "open", "chunks"}))
+        ->option_text("whole|growing|open|chunks");
     auto* interval = replay->add_option("--interval", options->interval_s,
                                         "Seconds from file to file, whatever their times");
     interval->check(CLI::Range(0.0, 86400.0));
     replay
         ->add_option("--speed", options->speed,
-                     "How many times faster than the files' own times (default: 1)")
+                     "How many times faster than the files' own times (default: 1); stations mix")
         ->check(CLI::Range(0.001, 1e6))
         ->excludes(interval);
+    replay
+        ->add_option("--faults", options->faults,
+                     "What goes wrong, with which probability for each chunk (of whole files: for "
+                     "each file), as drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7; "
+                     "--json names each one")
+        ->option_text("SPEC");
     replay->add_flag("--json", options->json, "Say what was done as one JSON document");
     return {replay, [options] { return run_replay(*options); }};
 }

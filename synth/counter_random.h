@@ -17,7 +17,13 @@ using RandomWords = std::array<std::uint32_t, 4>;
 [[nodiscard]] RandomWords philox(RandomWords counter, std::array<std::uint32_t, 2> key);
 
 // What numbers are drawn for: different purposes are independent.
-enum class Draw : std::uint32_t { gate = 1, clutter = 2, jitter = 3, missing = 4 };
+enum class Draw : std::uint32_t {
+    gate = 1,
+    clutter = 2,
+    jitter = 3,
+    missing = 4,
+    replay_fault = 5
+};
 
 // Whose numbers they are.
 struct DrawPlace {

@@ -1,19 +1,20 @@
 #include "synth/replay.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <fstream>
-#include <set>
+#include <map>
+#include <queue>
+#include <span>
 #include <system_error>
 #include <thread>
+#include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include "level2/archive_header.h"
-#include "level2/gzip_stream.h"
-#include "level2/ldm_framer.h"
+#include "level2/chunk_name.h"
+#include "synth/replay_pieces.h"
+#include "synth/replay_turns.h"
+#include "synth/replay_writer.h"
 
 namespace stormcellar::synth {
 namespace {
@@ -21,207 +22,217 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t pieces_without_records = 16;
-constexpr double longest_gap_s = 1e8;            // three years: no clock overflows
-constexpr std::size_t start_bytes = 64U << 10U;  // holds the header, gzipped or not
-
-// None when it cannot be read, which is said when its turn comes.
-std::optional<UtcTime> time_in_header(const fs::path& path) {
-    std::vector<char> start(start_bytes);
-    std::ifstream file(path, std::ios::binary);
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(file.gcount()));
-    auto bytes = std::as_bytes(std::span(start));
-    level2::GzipStream gzip(bytes);
-    if (level2::is_gzip(bytes)) bytes = gzip.next();
-    const auto header = level2::read_archive_header(bytes);
-    if (!header) return std::nullopt;
-    return header->time();
-}
-
-Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
+Status make_directory(const fs::path& path) {
     std::error_code problem;
-    if (!fs::exists(source, problem)) {
-        return fail(ErrorCode::not_found, "{}: there is no such file or directory",
-                    source.native());
-    }
-    std::vector<ReplayItem> items;
-    if (fs::is_regular_file(source, problem)) {
-        items.push_back({source, source.filename(), {}});
-        return items;
-    }
-    if (!fs::is_directory(source, problem)) {
-        return fail(ErrorCode::not_a_file, "{}: neither a file nor a directory", source.native());
-    }
-    fs::recursive_directory_iterator walk(source, problem);
-    for (; !problem && walk != fs::recursive_directory_iterator(); walk.increment(problem)) {
-        const fs::path& path = walk->path();
-        const bool hidden = path.filename().native().starts_with('.');
-        if (!hidden && walk->is_regular_file(problem)) {
-            items.push_back({path, path.lexically_relative(source), {}});
-        }
-    }
-    if (problem) return fail(ErrorCode::io, "{}: {}", source.native(), problem.message());
-    return items;
-}
-
-// Known times first, then names.
-bool earlier(const ReplayItem& a, const ReplayItem& b) {
-    if (a.time.has_value() != b.time.has_value()) return a.time.has_value();
-    if (a.time && *a.time != *b.time) return *a.time < *b.time;
-    return a.name < b.name;
-}
-
-Status append(const fs::path& path, std::span<const std::byte> bytes) {
-    const auto failed = [&path] {
-        return fail(ErrorCode::io, "{}: {}", path.native(), std::system_category().message(errno));
-    };
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (file < 0) return failed();
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(file, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) {
-            Status outcome = failed();
-            ::close(file);
-            return outcome;
-        }
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-    if (::close(file) != 0) return failed();
+    fs::create_directories(path, problem);
+    if (problem) return fail(ErrorCode::io, "{}: {}", path.native(), problem.message());
     return {};
 }
 
+// "20220317-000842" of "20220317_000842".
+std::string volume_in_chunk_names(UtcTime time) {
+    std::string text = format_compact(time);
+    std::replace(text.begin(), text.end(), '_', '-');
+    return text;
+}
+
+// A file that comes piece by piece.
+struct Growing {
+    std::vector<std::byte> bytes;
+    std::vector<std::size_t> ends;  // of its pieces
+    std::vector<Arrival> arrivals;
+    std::size_t next = 0;  // arrival
+    bool ends_volume = false;
+
+    [[nodiscard]] std::span<const std::byte> piece(std::size_t number) const {
+        const std::size_t begin = number == 0 ? 0 : ends[number - 1];
+        return std::span(bytes).subspan(begin, ends[number] - begin);
+    }
+};
+
 class Player {
   public:
-    Player(const fs::path& drop, FileSystem& file_system, const ReplayOptions& options)
-        : drop_(drop), file_system_(file_system), options_(options) {}
+    Player(const std::vector<ReplayItem>& items, const fs::path& drop, FileSystem& file_system,
+           const ReplayOptions& options, std::vector<fs::path> targets)
+        : items_(items),
+          drop_(drop),
+          file_system_(file_system),
+          options_(options),
+          targets_(std::move(targets)),
+          turns_(turns_of(items, options)),
+          writer_(options.delivery == Delivery::open ? most_open_files : 0) {}
 
-    Result<ReplayReport> play(const std::vector<ReplayItem>& items) {
-        for (std::size_t i = 0; i < items.size() && !stopped(); ++i) {
-            const bool last = i + 1 == items.size();
-            if (!last) gap_s_ = gap(items[i], items[i + 1]);  // the last file takes that before it
-            const auto begin = Clock::now();
-            if (auto played = play_one(items[i]); !played) return pass_on(played);
-            if (!last) wait_until(begin, gap_s_);
-        }
-        report_.stopped = report_.files < items.size();
-        return report_;
+    Result<ReplayReport> play() {
+        const auto played = options_.delivery == Delivery::whole ? play_whole() : play_pieces();
+        if (!played) return pass_on(played);
+        const auto closed = writer_.close();
+        if (!closed) return pass_on(closed);
+        report_.stopped = report_.files < items_.size();
+        return std::move(report_);
     }
 
   private:
+    // When a file, or a piece of one, is due.
+    struct Due {
+        double seconds = 0;
+        std::size_t item = 0;
+        bool operator>(const Due& other) const {
+            return std::pair(seconds, item) > std::pair(other.seconds, other.item);
+        }
+    };
+
     [[nodiscard]] bool stopped() const { return options_.stop != nullptr && *options_.stop; }
 
-    [[nodiscard]] double gap(const ReplayItem& item, const ReplayItem& next) const {
-        if (options_.interval_s) return *options_.interval_s;
-        if (!item.time || !next.time) return 0;
-        const double gap_s = std::chrono::duration<double>(*next.time - *item.time).count();
-        return std::min(gap_s / options_.speed, longest_gap_s);
-    }
-
-    Status play_one(const ReplayItem& item) {
-        const auto bytes = read_file(item.source);
-        if (!bytes) return pass_on(bytes);
-        const fs::path target = drop_ / item.name;
-        std::error_code problem;
-        fs::create_directories(target.parent_path(), problem);
-        if (problem) {
-            return fail(ErrorCode::io, "{}: {}", target.parent_path().native(), problem.message());
+    Status play_whole() {
+        double due_s = 0;
+        for (const Arrival& arrival : arrivals_of(options_.faults, 0, items_.size())) {
+            // One that comes behind the next comes at the next one's time.
+            due_s = std::max(due_s, turns_[arrival.piece].start_s);
+            if (!wait_until(due_s)) return {};
+            const ReplayItem& item = items_[arrival.piece];
+            const auto bytes = read_file(item.source);
+            if (!bytes) return pass_on(bytes);
+            const std::size_t kept = note_arrival(item, item.name, 0, arrival, bytes->size());
+            if (arrival.fault != Fault::drop) {
+                const fs::path target = drop_ / item.name;
+                auto done = make_directory(target.parent_path());
+                if (done) {
+                    done =
+                        write_file_atomically(file_system_, target, std::span(*bytes).first(kept));
+                }
+                if (!done) return done;
+            }
+            if (!arrival.again) end_turn();
         }
-        if (options_.delivery == Delivery::whole) {
-            auto written = write_file_atomically(file_system_, target, *bytes);
-            if (!written) return written;
-        } else {
-            const auto whole = grow(target, *bytes);
-            if (!whole) return pass_on(whole);
-            if (!*whole) return {};
-        }
-        ++report_.files;
-        report_.bytes += bytes->size();
-        if (options_.replayed) options_.replayed(report_.files);
         return {};
     }
 
-    // Gives whether all of it was written before somebody asked to stop.
-    Result<bool> grow(const fs::path& target, std::span<const std::byte> bytes) {
-        const auto begin = Clock::now();
-        const std::vector<std::size_t> ends = piece_ends(bytes);
-        std::size_t at = 0;
-        for (std::size_t i = 0; i < ends.size(); ++i) {
-            wait_until(begin, gap_s_ * static_cast<double>(i) / static_cast<double>(ends.size()));
-            if (stopped()) {
-                if (at > 0) report_.unfinished = target;
-                return false;
+    Status play_pieces() {
+        std::priority_queue<Due, std::vector<Due>, std::greater<>> queue;
+        for (std::size_t i = 0; i < items_.size(); ++i)
+            queue.push({turns_[i].start_s, i});
+        while (!queue.empty()) {
+            const Due due = queue.top();
+            queue.pop();
+            if (!wait_until(due.seconds)) break;
+            auto played = play_next(due.item);
+            if (!played) {
+                return fail(played.error().code, "{}{}", played.error().message,
+                            growing_.empty() ? "" : "; files stay unfinished");
             }
-            const auto done = append(target, bytes.subspan(at, ends[i] - at));
-            if (!done) {
-                return fail(done.error().code, "{}; the file stays unfinished",
-                            done.error().message);
+            if (const auto place = growing_.find(due.item); place != growing_.end()) {
+                const double part = static_cast<double>(place->second.next) /
+                                    static_cast<double>(place->second.arrivals.size());
+                queue.push({turns_[due.item].start_s + part * turns_[due.item].span_s, due.item});
             }
-            at = ends[i];
         }
-        return true;
+        for (const auto& [item, growing] : growing_)
+            report_.unfinished.push_back(drop_ / targets_[item]);
+        return {};
     }
 
-    // Looks at the flag ten times a second.
-    void wait_until(Clock::time_point begin, double seconds) const {
-        const auto end = begin + std::chrono::duration_cast<Clock::duration>(
-                                     std::chrono::duration<double>(seconds));
+    // One piece; begins the file and forgets it behind the last.
+    Status play_next(std::size_t item) {
+        auto place = growing_.find(item);
+        if (place == growing_.end()) {
+            auto begun = begin(item);
+            if (!begun) return pass_on(begun);
+            place = growing_.emplace(item, std::move(*begun)).first;
+        }
+        Growing& growing = place->second;
+        auto written = write_piece(item, growing);
+        if (!written) return written;
+        if (++growing.next == growing.arrivals.size()) {
+            growing_.erase(place);
+            end_turn();
+        }
+        return {};
+    }
+
+    Result<Growing> begin(std::size_t item) {
+        auto bytes = read_file(items_[item].source);
+        if (!bytes) return pass_on(bytes);
+        const bool chunks = options_.delivery == Delivery::chunks;
+        const fs::path target = drop_ / targets_[item];
+        const auto made = make_directory(chunks ? target : target.parent_path());
+        if (!made) return pass_on(made);
+        Growing growing;
+        growing.bytes = chunks ? without_gzip(std::move(*bytes)) : std::move(*bytes);
+        growing.ends = piece_ends(growing.bytes);
+        growing.arrivals =
+            arrivals_of(options_.faults, static_cast<std::uint32_t>(item + 1), growing.ends.size());
+        growing.ends_volume = chunks && ends_volume(growing.bytes);
+        return growing;
+    }
+
+    Status write_piece(std::size_t item, const Growing& growing) {
+        const Arrival& arrival = growing.arrivals[growing.next];
+        const auto piece = growing.piece(arrival.piece);
+        const bool chunks = options_.delivery == Delivery::chunks;
+        const fs::path name =
+            chunks ? targets_[item] / chunk_name(item, growing, arrival.piece) : targets_[item];
+        const std::size_t kept =
+            note_arrival(items_[item], name, arrival.piece + 1, arrival, piece.size());
+        if (arrival.fault == Fault::drop) return {};
+        const auto bytes = piece.first(kept);
+        return chunks ? writer_.put(drop_ / name, bytes) : writer_.append(drop_ / name, bytes);
+    }
+
+    [[nodiscard]] std::string chunk_name(std::size_t item, const Growing& growing,
+                                         std::size_t piece) const {
+        level2::ChunkName name;
+        name.volume = volume_in_chunk_names(*items_[item].time);
+        name.number = static_cast<int>(piece) + 1;
+        if (piece == 0) {
+            name.kind = level2::ChunkKind::start;
+        } else if (piece + 1 == growing.ends.size() && growing.ends_volume) {
+            name.kind = level2::ChunkKind::end;
+        }
+        return to_string(name);
+    }
+
+    // Gives how many of its bytes are to be written.
+    std::size_t note_arrival(const ReplayItem& item, const fs::path& name, std::size_t chunk,
+                             const Arrival& arrival, std::size_t bytes) {
+        const std::size_t kept = kept_bytes(arrival, bytes);
+        const bool nothing_cut = arrival.fault == Fault::truncate && kept == bytes;
+        if (arrival.fault != Fault::none && !arrival.again && !nothing_cut) {
+            report_.faults.push_back({arrival.fault, item.source, name, chunk, bytes, kept});
+        }
+        if (arrival.fault != Fault::drop) ++report_.writes;
+        report_.bytes += kept;
+        return kept;
+    }
+
+    void end_turn() {
+        ++report_.files;
+        if (options_.replayed) options_.replayed(report_.files);
+    }
+
+    // Looks at the flag ten times a second; false when it is set.
+    [[nodiscard]] bool wait_until(double seconds) const {
+        const auto end = begin_ + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(seconds));
         while (!stopped() && Clock::now() < end) {
             std::this_thread::sleep_until(
                 std::min(end, Clock::now() + std::chrono::milliseconds(100)));
         }
+        return !stopped();
     }
 
+    const std::vector<ReplayItem>& items_;
     const fs::path& drop_;
     FileSystem& file_system_;
     const ReplayOptions& options_;
+    std::vector<fs::path> targets_;
+    std::vector<ReplayTurn> turns_;
+    PieceWriter writer_;
+    std::map<std::size_t, Growing> growing_;  // by item
     ReplayReport report_;
-    double gap_s_ = options_.interval_s.value_or(0);  // from the file being played to the next
+    Clock::time_point begin_ = Clock::now();
 };
 
 }  // namespace
-
-Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& sources) {
-    std::vector<ReplayItem> items;
-    for (const fs::path& source : sources) {
-        auto found = items_of(source);
-        if (!found) return pass_on(found);
-        std::move(found->begin(), found->end(), std::back_inserter(items));
-    }
-    if (items.empty()) return fail(ErrorCode::not_found, "there are no files to replay");
-    std::set<fs::path> names;
-    for (ReplayItem& item : items) {
-        if (!names.insert(item.name).second) {
-            return fail(ErrorCode::bad_argument, "{}: a second file of this name",
-                        item.source.native());
-        }
-        item.time = time_in_header(item.source);
-    }
-    std::sort(items.begin(), items.end(), earlier);
-    return items;
-}
-
-std::vector<std::size_t> piece_ends(std::span<const std::byte> bytes) {
-    std::vector<std::size_t> ends;
-    const bool header = level2::read_archive_header(bytes).has_value();
-    if (level2::is_ldm_record(bytes.subspan(header ? level2::archive_header_bytes : 0))) {
-        level2::LdmFramer framer(bytes);
-        bool first = true;
-        while (const auto part = framer.next()) {
-            if (part->kind != level2::LdmPart::Kind::record) continue;
-            if (!first) ends.push_back(part->position);
-            first = false;
-        }
-    } else {
-        for (std::size_t i = 1; i < pieces_without_records; ++i) {
-            const std::size_t end = bytes.size() * i / pieces_without_records;
-            if (end > 0 && (ends.empty() || end > ends.back())) ends.push_back(end);
-        }
-    }
-    if (ends.empty() || ends.back() < bytes.size()) ends.push_back(bytes.size());
-    return ends;
-}
 
 Result<ReplayReport> replay(const std::vector<ReplayItem>& items, const fs::path& drop,
                             FileSystem& file_system, const ReplayOptions& options) {
@@ -229,13 +240,15 @@ Result<ReplayReport> replay(const std::vector<ReplayItem>& items, const fs::path
     if (!fs::is_directory(drop, problem)) {
         return fail(ErrorCode::not_found, "{}: there is no such directory", drop.native());
     }
-    for (const ReplayItem& item : items) {
-        const fs::path target = drop / item.name;
+    auto targets = targets_of(items, options.delivery);
+    if (!targets) return pass_on(targets);
+    for (const fs::path& name : *targets) {
+        const fs::path target = drop / name;
         if (fs::exists(fs::symlink_status(target, problem))) {
             return fail(ErrorCode::io, "{}: exists already; nothing was replayed", target.native());
         }
     }
-    return Player(drop, file_system, options).play(items);
+    return Player(items, drop, file_system, options, std::move(*targets)).play();
 }
 
 }  // namespace stormcellar::synth

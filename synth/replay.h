@@ -2,11 +2,25 @@
 //
 //   whole     each file under a dot-name, then renamed: what a script does at a volume's last chunk
 //   growing   each file opened, one piece appended and closed, again and again: pqact's
-//             `FILE -close`. A piece is an LDM record (the first with the header before it); what
-//             has no LDM records comes in sixteenths.
-// Files come one after the other, in the order of the times in their headers; those without a
-// readable header come last, by name. Sources are only read. Nothing in the drop directory is ever
-// written over.
+//             `FILE -close`
+//   open      the same without the closing, pqact's `FILE`: each file stays open until
+//             `most_open_files` others were written later, or to the end
+//   chunks    one file a piece, DROP/KTLX/494/20220317-000842-001-S: pqact's `FILE -close` with the
+//             chunk's number in the name. Written in place and closed, as pqact does, under no
+//             other name before. By the header's station and time (the file name's where a header
+//             has no station); the number is the header's, or where that was had by an earlier
+//             volume the next free one. The first is S; the last is E where its control word is
+//             negative, as it is at a volume's end; all others are I.
+// Pieces: synth/replay_pieces.h. Files that are gzipped are unpacked for chunks, for nothing else.
+// Times: a file's first piece comes at the time in its header; the others are spread evenly until
+// the same station's next volume begins, at most `longest_volume_s`; the last of a station takes as
+// long as the one before it, an only one `usual_volume_s`. So those of several stations mix, as
+// they do in a feed. What is whole comes at the time in its header. Files without a readable
+// header come last, at once, by name.
+// Faults: synth/replay_faults.h.
+// Sources are only read. Nothing that was in the drop directory is ever written over.
+// Memory: the files that are growing at the same time.
+// Threads: one; `stop` may be set by another.
 #pragma once
 
 #include <atomic>
@@ -14,19 +28,26 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
+#include <string>
 #include <vector>
 
 #include "base/file_system.h"
 #include "base/result.h"
 #include "base/utc_time.h"
+#include "synth/replay_faults.h"
 
 namespace stormcellar::synth {
 
+inline constexpr double longest_volume_s = 600, usual_volume_s = 300;
+inline constexpr std::size_t most_open_files = 32;
+
 struct ReplayItem {
     std::filesystem::path source;
-    std::filesystem::path name;   // below the drop directory
-    std::optional<UtcTime> time;  // from the header of the volume
+    std::filesystem::path name;      // below the drop directory
+    std::optional<UtcTime> time;     // from the header of the volume
+    std::string station;             // from there or the file's name; empty: unknown
+    std::optional<int> number = {};  // of the volume, from its header
+    bool has_records = false;        // LDM records, maybe in gzip
 };
 
 // Files are taken under their own names, directories with all regular files in them under their
@@ -35,32 +56,43 @@ struct ReplayItem {
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 
-enum class Delivery : std::uint8_t { whole, growing };
+enum class Delivery : std::uint8_t { whole, growing, open, chunks };
 
 struct ReplayOptions {
     Delivery delivery = Delivery::whole;
-    // Seconds from one file to the next; without it the difference of their times, divided by
-    // `speed` (none where a time is unknown). A growing file's pieces are spread over it.
+    // Seconds from one file to the next, one after the other; without it by the times above,
+    // divided by `speed`.
     std::optional<double> interval_s;
     double speed = 1;
+    FaultRates faults;
     const std::atomic<bool>* stop = nullptr;  // when set, the replay ends, between two pieces
     std::function<void(std::size_t done)> replayed;  // after each file
 };
 
-struct ReplayReport {
-    std::size_t files = 0;  // that are whole in the drop directory
-    std::uint64_t bytes = 0;
-    bool stopped = false;
-    std::filesystem::path unfinished;  // the file that was growing when it was stopped, if any
+// What was done wrong on purpose.
+struct FaultMade {
+    Fault fault = Fault::none;
+    std::filesystem::path source;
+    std::filesystem::path name;    // below the drop directory: of the file, or of the chunk's own
+    std::size_t chunk = 0;         // from 1 within the source; 0: the whole file
+    std::uint64_t bytes = 0;       // that it has
+    std::uint64_t kept_bytes = 0;  // that were written of it: fewer when truncated, none if dropped
 };
 
-// Errors: io, before anything is written, when a file of that name is there; later what reading or
-// writing gives, after which the files before it stay.
+struct ReplayReport {
+    std::size_t files = 0;    // whose turn is over
+    std::size_t writes = 0;   // of pieces, or of whole files
+    std::uint64_t bytes = 0;  // written
+    bool stopped = false;
+    std::vector<std::filesystem::path> unfinished;  // that were growing when it was stopped
+    std::vector<FaultMade> faults;                  // in the order in which they were made
+};
+
+// Errors, before anything is written: io when a file of that name is there; bad_argument for chunks
+// of a file that holds no LDM records, or of which time or station are unknown. Later what reading
+// or writing gives, after which what was written before it stays.
 [[nodiscard]] Result<ReplayReport> replay(const std::vector<ReplayItem>& items,
                                           const std::filesystem::path& drop,
                                           FileSystem& file_system, const ReplayOptions& options);
-
-// Where the pieces of a growing file end, rising; the last is its size.
-[[nodiscard]] std::vector<std::size_t> piece_ends(std::span<const std::byte> bytes);
 
 }  // namespace stormcellar::synth

@@ -121,6 +121,41 @@ TEST_F(Synth, ReplayDeliversTheVolumes) {
     EXPECT_THAT(again.err, HasSubstr("exists already; nothing was replayed"));
 }
 
+TEST_F(Synth, ReplayMakesChunksWithFaultsAndNamesEachOne) {
+    synthesise();
+    const auto play = [this](const std::string& drop) {
+        fs::create_directory(at(drop));
+        return run({"replay", at("volumes"), at(drop), "--as", "chunks", "--speed", "1000000",
+                    "--faults", "drop=0.3,truncate=0.3,seed=3", "--json"});
+    };
+    const auto result = play("drop");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto report = nlohmann::json::parse(result.out);
+    ASSERT_FALSE(report["faults"].empty());
+    std::size_t dropped = 0;
+    for (const auto& made : report["faults"]) {
+        const fs::path chunk = at("drop/") + made["file"].get<std::string>();
+        if (made["fault"] == "drop") {
+            EXPECT_FALSE(fs::exists(chunk));
+            ++dropped;
+        } else {
+            EXPECT_EQ(made["fault"], "truncate");
+            EXPECT_EQ(fs::file_size(chunk), made["kept_bytes"].get<std::uint64_t>());
+            EXPECT_LT(made["kept_bytes"], made["bytes"]);
+        }
+        EXPECT_GE(made["chunk"], 1);
+        EXPECT_TRUE(fs::exists(made["source"].get<std::string>()));
+    }
+    EXPECT_GT(dropped, 0U);
+    const auto again = nlohmann::json::parse(play("second").out);
+    EXPECT_EQ(again["faults"], report["faults"]) << "the same seed";
+    fs::create_directory(at("text"));
+    const auto text = run({"replay", at("volumes"), at("text"), "--interval", "0", "--as",
+                           "growing", "--faults", "repeat=1"});
+    EXPECT_EQ(text.status, 0);
+    EXPECT_THAT(text.err, HasSubstr("\nrepeat: "));
+}
+
 TEST_F(Synth, ReplayNamesMistakes) {
     synthesise();
     const auto missing = run({"replay", at("volumes"), at("none")});
@@ -131,6 +166,9 @@ TEST_F(Synth, ReplayNamesMistakes) {
     EXPECT_EQ(run({"replay", at("volumes"), drop, "--as", "torn"}).status, 2);
     EXPECT_EQ(run({"replay", at("volumes"), drop, "--interval", "-1"}).status, 2);
     EXPECT_EQ(run({"replay", at("volumes"), drop, "--interval", "1", "--speed", "2"}).status, 2);
+    const auto faults = run({"replay", at("volumes"), drop, "--faults", "lose=1"});
+    EXPECT_EQ(faults.status, 2);
+    EXPECT_THAT(faults.err, HasSubstr("faults: there is no 'lose'"));
 }
 
 TEST_F(Synth, AnInterruptedReplayNamesTheUnfinishedFile) {

@@ -1,0 +1,58 @@
+// bench/daemon_process.h -- the stormcellard built beside the benchmarks, as a child, and what it
+// takes.
+//
+// Threads: one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <sys/types.h>
+
+#include "base/result.h"
+
+namespace stormcellar::bench {
+
+struct DaemonStatus {
+    std::string state;
+    std::size_t waiting = 0, running = 0, growing = 0;
+    std::uint64_t cache_bytes = 0, grids = 0, failures = 0, overflows = 0;
+    double latency_median_s = 0, latency_p95_s = 0;  // its own
+};
+
+struct DaemonMemory {
+    double peak_mib = 0;  // resident, since the last reset
+    double anonymous_mib = 0, file_mib = 0;
+};
+
+class DaemonProcess {
+  public:
+    // ROOT/drop, ROOT/state, ROOT/cache, ROOT/stormcellard.toml and ROOT/log.
+    explicit DaemonProcess(std::filesystem::path root) : root_(std::move(root)) {}
+    DaemonProcess(const DaemonProcess&) = delete;
+    DaemonProcess& operator=(const DaemonProcess&) = delete;
+    ~DaemonProcess();  // kills it where it still runs
+
+    [[nodiscard]] std::filesystem::path drop() const { return root_ / "drop"; }
+    [[nodiscard]] std::filesystem::path cache() const { return root_ / "cache"; }
+    [[nodiscard]] std::filesystem::path catalog() const { return root_ / "state/catalog"; }
+
+    // With this behind the paths in its configuration. Back when it is running.
+    [[nodiscard]] Status start(const std::string& configuration);
+    // Asks it to end and waits: whether it ended well.
+    [[nodiscard]] bool stop();
+    [[nodiscard]] bool is_running();
+
+    [[nodiscard]] DaemonStatus status() const;  // as it stands in status.json
+    [[nodiscard]] double cpu_s() const;
+    [[nodiscard]] DaemonMemory memory() const;
+    void reset_peak() const;
+
+  private:
+    std::filesystem::path root_;
+    pid_t child_ = 0;
+};
+
+}  // namespace stormcellar::bench

@@ -1,0 +1,173 @@
+#include "bench/national_feed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/file_system.h"
+#include "base/parallel.h"
+#include "bench/stamped_records.h"
+#include "synth/replay_pieces.h"
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double hour_s = 3600;
+
+constexpr std::array<const char*, 3> kind_paths = {
+    "chunks/L2D_230", "volumes/KLBB20160601_150025_V06", "chunks/OPENRADAR_KLOT"};
+constexpr std::array<int, 8> kind_of_site = {0, 0, 1, 0, 0, 0, 2, 0};
+
+// A file, or the chunks of a directory in their order.
+Result<Bytes> read_joined(const fs::path& path) {
+    std::error_code problem;
+    if (!fs::is_directory(path, problem)) return read_file(path);
+    std::set<fs::path> chunks;
+    for (const auto& entry : fs::directory_iterator(path, problem))
+        chunks.insert(entry.path());
+    Bytes joined;
+    for (const fs::path& chunk : chunks) {
+        const auto bytes = read_file(chunk);
+        if (!bytes) return bytes;
+        joined.insert(joined.end(), bytes->begin(), bytes->end());
+    }
+    return joined;
+}
+
+// In the midst of the hour: headers of its volumes lie at most so far from it that the decoder
+// believes them (an hour).
+UtcTime stamp_of(int hour) {
+    return national_start() + std::chrono::minutes{60 * hour + 28};
+}
+
+struct ToMake {
+    Station station;
+    int hour = 0;
+    fs::path path;
+};
+
+Status make_files(const StampedRecords& records, const std::vector<ToMake>& files, int threads) {
+    std::vector<Status> made(files.size());
+    for_each_piece(static_cast<int>(files.size()), threads, [&](int piece) {
+        const auto at = static_cast<std::size_t>(piece);
+        const ToMake& file = files[at];
+        made[at] = write_file_atomically(real_file_system(), file.path,
+                                         records.stamped(file.station, stamp_of(file.hour)));
+    });
+    for (Status& status : made) {
+        if (!status) return std::move(status);
+    }
+    return {};
+}
+
+Result<NationalFile> look_at(const fs::path& path) {
+    const auto bytes = read_file(path);
+    if (!bytes) return pass_on(bytes);
+    NationalFile file{path, bytes->size(), {}};
+    for (const std::size_t end : synth::piece_ends(*bytes))
+        file.ends.push_back(end);
+    return file;
+}
+
+std::vector<NationalSite> first_sites(int count) {
+    std::vector<NationalSite> sites;
+    for (const Station& station : all_stations()) {
+        if (station.kind != RadarKind::nexrad || static_cast<int>(sites.size()) == count) continue;
+        NationalSite site;
+        site.station = station;
+        site.kind = kind_of_site[sites.size() % kind_of_site.size()];
+        sites.push_back(std::move(site));
+    }
+    return sites;
+}
+
+}  // namespace
+
+UtcTime national_start() {
+    return std::chrono::sys_days{std::chrono::year{2024} / 6 / 1} + std::chrono::minutes{30};
+}
+
+Result<NationalFeed> NationalFeed::make(int sites, int hours, const fs::path& data,
+                                        const fs::path& directory, int threads) {
+    std::error_code failed;
+    fs::create_directories(directory, failed);
+    if (failed) return fail(ErrorCode::io, "{}: {}", directory.native(), failed.message());
+    NationalFeed feed;
+    feed.sites_ = first_sites(sites);
+    double messages = 0, bytes = 0;
+    for (int kind = 0; kind < static_cast<int>(kind_paths.size()); ++kind) {
+        const auto joined = read_joined(data / kind_paths[static_cast<std::size_t>(kind)]);
+        if (!joined) return pass_on(joined);
+        std::vector<ToMake> missing;
+        int senders = 0;
+        for (NationalSite& site : feed.sites_) {
+            if (site.kind != kind) continue;
+            ++senders;
+            for (int hour = 0; hour < hours; ++hour) {
+                const fs::path path =
+                    directory / fmt::format("{}-{}-{:02}.ar2v", site.station.icao, kind, hour);
+                if (!fs::exists(path, failed)) missing.push_back({site.station, hour, path});
+                site.hours.push_back({path, 0, {}});
+            }
+        }
+        const auto records = StampedRecords::read(*joined);
+        if (!records) return pass_on(records);
+        if (auto made = make_files(*records, missing, threads); !made) return pass_on(made);
+        messages += senders * static_cast<double>(records->message_bytes());
+        bytes += senders * static_cast<double>(joined->size());
+    }
+    feed.expansion_ = messages / bytes;
+    double volume_bytes = 0;
+    for (NationalSite& site : feed.sites_) {
+        for (NationalFile& file : site.hours) {
+            auto known = look_at(file.path);
+            if (!known) return pass_on(known);
+            file = std::move(*known);
+        }
+        volume_bytes += static_cast<double>(site.hours.front().bytes);
+    }
+    feed.period_s_ =
+        volume_bytes * hour_s /
+        (heaviest_hour_bytes * static_cast<double>(feed.sites_.size()) / national_sites);
+    for (std::size_t i = 0; i < feed.sites_.size(); ++i) {
+        feed.sites_[i].first_start_s =
+            -feed.period_s_ * static_cast<double>(i) / static_cast<double>(feed.sites_.size());
+    }
+    return feed;
+}
+
+std::uint64_t NationalFeed::bytes_on_disk() const {
+    std::uint64_t bytes = 0;
+    for (const NationalSite& site : sites_) {
+        for (const NationalFile& file : site.hours)
+            bytes += file.bytes;
+    }
+    return bytes;
+}
+
+double NationalFeed::chunks_a_second() const {
+    double chunks = 0;
+    for (const NationalSite& site : sites_)
+        chunks += static_cast<double>(site.hours.front().ends.size());
+    return chunks / period_s_;
+}
+
+UtcTime NationalFeed::start_of(const NationalSite& site, int volume) const {
+    const double seconds = site.first_start_s + volume * period_s_;
+    return national_start() + std::chrono::milliseconds{std::llround(1000 * seconds)};
+}
+
+const NationalFile& NationalFeed::file_of(const NationalSite& site, int volume) const {
+    const double seconds = site.first_start_s + volume * period_s_;
+    const auto hour = static_cast<std::size_t>(std::max(0.0, seconds) / hour_s);
+    return site.hours[std::min(hour, site.hours.size() - 1)];
+}
+
+}  // namespace stormcellar::bench

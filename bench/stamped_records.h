@@ -1,0 +1,45 @@
+// bench/stamped_records.h -- a file of LDM records as another radar would have sent it, record for
+// record.
+//
+// What restamp.h does to a decoded volume, done to the messages themselves: the records stay as the
+// RDA cut them, with all that a Volume does not hold, and are compressed again. Of messages 31 the
+// station, both times and the position are changed; all other messages stay as they are.
+// Threads: const functions may be used by many.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "base/station_table.h"
+#include "base/utc_time.h"
+#include "bench/measure.h"
+#include "level2/volume.h"
+
+namespace stormcellar::bench {
+
+class StampedRecords {
+  public:
+    // Errors: not_level2 for anything but a header and whole LDM records behind it, corrupt for a
+    // record that is no bzip2 stream.
+    [[nodiscard]] static Result<StampedRecords> read(std::span<const std::byte> file);
+
+    // Starts at `start` (whole milliseconds).
+    [[nodiscard]] Bytes stamped(const Station& station, UtcTime start) const;
+    [[nodiscard]] std::uint64_t message_bytes() const;
+
+  private:
+    struct Record {
+        Bytes messages;
+        bool negative = false;  // control word
+    };
+    Bytes header_;
+    UtcTime start_;
+    std::vector<Record> records_;
+};
+
+// The header's 24 bytes with another time.
+void stamp_header_time(std::span<std::byte> header, UtcTime start);
+
+}  // namespace stormcellar::bench

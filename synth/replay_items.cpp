@@ -1,0 +1,103 @@
+// find_replay_items(): what there is to play, and in which order.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "base/station_table.h"
+#include "level2/archive_header.h"
+#include "level2/gzip_stream.h"
+#include "synth/replay.h"
+#include "synth/replay_pieces.h"
+
+namespace stormcellar::synth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t start_bytes = 64U << 10U;  // holds the header, gzipped or not
+
+// What cannot be read says so when its turn comes.
+void read_start(ReplayItem& item) {
+    std::vector<char> start(start_bytes);
+    std::ifstream file(item.source, std::ios::binary);
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    auto bytes = std::as_bytes(std::span(start));
+    level2::GzipStream gzip(bytes);
+    if (level2::is_gzip(bytes)) bytes = gzip.next();
+    item.has_records = has_ldm_records(bytes);
+    if (const auto header = level2::read_archive_header(bytes)) {
+        item.time = header->time();
+        item.station = header->icao;
+        item.number = header->volume_number();
+    }
+    const std::string in_name = item.name.filename().string().substr(0, 4);
+    if (item.station.empty() && find_station(in_name)) item.station = in_name;
+}
+
+Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
+    std::error_code problem;
+    if (!fs::exists(source, problem)) {
+        return fail(ErrorCode::not_found, "{}: there is no such file or directory",
+                    source.native());
+    }
+    std::vector<ReplayItem> items;
+    const auto add = [&items](const fs::path& path, fs::path name) {
+        ReplayItem item;
+        item.source = path;
+        item.name = std::move(name);
+        items.push_back(std::move(item));
+    };
+    if (fs::is_regular_file(source, problem)) {
+        add(source, source.filename());
+        return items;
+    }
+    if (!fs::is_directory(source, problem)) {
+        return fail(ErrorCode::not_a_file, "{}: neither a file nor a directory", source.native());
+    }
+    fs::recursive_directory_iterator walk(source, problem);
+    for (; !problem && walk != fs::recursive_directory_iterator(); walk.increment(problem)) {
+        const fs::path& path = walk->path();
+        const bool hidden = path.filename().native().starts_with('.');
+        if (!hidden && walk->is_regular_file(problem)) {
+            add(path, path.lexically_relative(source));
+        }
+    }
+    if (problem) return fail(ErrorCode::io, "{}: {}", source.native(), problem.message());
+    return items;
+}
+
+// Known times first, then names.
+bool earlier(const ReplayItem& a, const ReplayItem& b) {
+    if (a.time.has_value() != b.time.has_value()) return a.time.has_value();
+    if (a.time && *a.time != *b.time) return *a.time < *b.time;
+    return a.name < b.name;
+}
+
+}  // namespace
+
+Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& sources) {
+    std::vector<ReplayItem> items;
+    for (const fs::path& source : sources) {
+        auto found = items_of(source);
+        if (!found) return pass_on(found);
+        std::move(found->begin(), found->end(), std::back_inserter(items));
+    }
+    if (items.empty()) return fail(ErrorCode::not_found, "there are no files to replay");
+    std::set<fs::path> names;
+    for (ReplayItem& item : items) {
+        if (!names.insert(item.name).second) {
+            return fail(ErrorCode::bad_argument, "{}: a second file of this name",
+                        item.source.native());
+        }
+        read_start(item);
+    }
+    std::sort(items.begin(), items.end(), earlier);
+    return items;
+}
+
+}  // namespace stormcellar::synth

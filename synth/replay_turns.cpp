@@ -1,0 +1,85 @@
+#include "synth/replay_turns.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace stormcellar::synth {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double longest_replay_s = 1e8;  // three years: no clock overflows
+constexpr int most_numbers = 1000;        // of volumes: 0 to 999
+
+std::vector<ReplayTurn> one_by_one(std::size_t files, double interval_s) {
+    std::vector<ReplayTurn> turns(files);
+    for (std::size_t i = 0; i < files; ++i)
+        turns[i] = {interval_s * static_cast<double>(i), interval_s};
+    return turns;
+}
+
+}  // namespace
+
+std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
+                                 const ReplayOptions& options) {
+    if (options.interval_s) return one_by_one(items.size(), *options.interval_s);
+    struct Newest {
+        std::size_t item = 0;
+        double span_s = 0;  // of the volume before
+    };
+    std::map<std::string, Newest> newest;  // by station
+    std::vector<ReplayTurn> turns(items.size());
+    double start_s = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const ReplayItem& item = items[i];
+        if (!item.time) {  // behind all that have one
+            turns[i].start_s = start_s;
+            continue;
+        }
+        const std::chrono::duration<double> since = *item.time - *items.front().time;
+        start_s = std::min(since.count() / options.speed, longest_replay_s);
+        turns[i].start_s = start_s;
+        const auto [place, first] =
+            newest.try_emplace(item.station, Newest{i, usual_volume_s / options.speed});
+        Newest& before = place->second;
+        if (!first) {
+            before.span_s =
+                std::min(start_s - turns[before.item].start_s, longest_volume_s / options.speed);
+            turns[before.item].span_s = before.span_s;
+            before.item = i;
+        }
+        turns[i].span_s = before.span_s;
+    }
+    return turns;
+}
+
+Result<std::vector<fs::path>> targets_of(const std::vector<ReplayItem>& items, Delivery delivery) {
+    std::vector<fs::path> targets;
+    std::map<std::string, std::set<int>> numbers;  // that are taken, by station
+    for (const ReplayItem& item : items) {
+        if (delivery != Delivery::chunks) {
+            targets.push_back(item.name);
+            continue;
+        }
+        const auto refuse = [&item](std::string_view why) {
+            return fail(ErrorCode::bad_argument, "{}: {}: it cannot come in chunks",
+                        item.source.native(), why);
+        };
+        if (!item.has_records) return refuse("holds no LDM records");
+        if (!item.time) return refuse("has no header with a time");
+        if (item.station.empty()) return refuse("neither its header nor its name has a station");
+        std::set<int>& taken = numbers[item.station];
+        if (taken.size() == most_numbers) return refuse("the station has 1000 volumes already");
+        int number = item.number.value_or(1);
+        while (!taken.insert(number).second)
+            number = (number + 1) % most_numbers;
+        targets.push_back(fs::path(item.station) / std::to_string(number));
+    }
+    return targets;
+}
+
+}  // namespace stormcellar::synth

@@ -1,0 +1,158 @@
+// The national feed of bench_feed: re-stamped records, what the player writes, memory's slope.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/file_system.h"
+#include "bench/feed_player.h"
+#include "bench/feed_run.h"
+#include "bench/feed_soak.h"
+#include "bench/grid_watch.h"
+#include "bench/national_feed.h"
+#include "bench/restamp.h"
+#include "bench/stamped_records.h"
+#include "level2/chunk_directory.h"
+#include "level2/decode.h"
+#include "level2/volume_difference.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+Bytes real_file(const char* name) {
+    return read_file(*testing::data_directory() / name).value();
+}
+
+// The oracle is restamp(), which changes what was decoded.
+TEST(StampedRecords, AreWhatRestampMakesOfTheVolume) {
+    STORMCELLAR_NEED_DATA();
+    const Station station = *find_station("KMAF");
+    const UtcTime start = national_start() + 3h + 345ms;
+    for (const char* name :
+         {"volumes/KLBB20160601_150025_V06", "volumes/KLOT20220317_000842_V06"}) {
+        const Bytes file = real_file(name);
+        const auto records = StampedRecords::read(file);
+        ASSERT_TRUE(records) << records.error().message;
+        auto expected = level2::decode(file).value().volume;
+        restamp(expected, station, start);
+        const Bytes stamped = records->stamped(station, start);
+        const auto decoded = level2::decode(stamped);
+        ASSERT_TRUE(decoded) << decoded.error().message;
+        EXPECT_EQ(level2::difference(decoded->volume, expected), "") << name;
+        EXPECT_TRUE(decoded->report.complete);
+        EXPECT_NEAR(static_cast<double>(stamped.size()), static_cast<double>(file.size()),
+                    0.01 * static_cast<double>(file.size()));
+        EXPECT_GT(records->message_bytes(), 5 * file.size());
+    }
+}
+
+TEST(StampedRecords, WhatIsNoneIsRefused) {
+    EXPECT_FALSE(StampedRecords::read({}));
+    EXPECT_FALSE(StampedRecords::read(Bytes(1000, std::byte{1})));
+    STORMCELLAR_NEED_DATA();
+    Bytes cut = real_file("volumes/KTLX20170101_030027_V06");
+    EXPECT_TRUE(StampedRecords::read(cut));
+    cut.resize(cut.size() - 100);
+    EXPECT_FALSE(StampedRecords::read(cut));
+}
+
+// Eight sites hold all three kinds.
+const NationalFeed& feed() {
+    static const testing::TemporaryDirectory directory;
+    static const NationalFeed made =
+        NationalFeed::make(8, 1, *testing::data_directory(), directory.path(), 2).value();
+    return made;
+}
+
+class PlayedFeed : public ::testing::TestWithParam<Delivery> {
+  protected:
+    testing::TemporaryDirectory drop_;
+};
+
+TEST_P(PlayedFeed, GivesEachVolumeAtItsTimeAsTheSiteWouldSendIt) {
+    STORMCELLAR_NEED_DATA();
+    FeedPlayer player(feed(), drop_.path(), GetParam());
+    std::map<std::string, double> sent;  // when, by grid
+    double at_s = 0;
+    while (player.next_s() <= 0.6 * feed().period_s()) {
+        at_s = player.next_s();
+        ASSERT_TRUE(player.write_next([&](const SentVolume& volume) { sent[volume.grid] = at_s; }));
+    }
+    ASSERT_EQ(sent.size(), 4U);  // sites that began more than 0.4 periods ago
+    for (std::size_t i = 0; i < feed().sites().size(); ++i) {
+        const NationalSite& site = feed().sites()[i];
+        if (player.volumes_sent()[i] == 0) continue;
+        const UtcTime start = feed().start_of(site, 0);
+        const std::string icao(site.station.icao);
+        const fs::path path = GetParam() == Delivery::chunks
+                                  ? drop_ / icao / "0"
+                                  : drop_ / icao / (icao + format_compact(start) + "_V06");
+        const auto decoded = level2::decode_path(path);
+        ASSERT_TRUE(decoded) << decoded.error().message;
+        EXPECT_TRUE(decoded->report.complete);
+        EXPECT_EQ(decoded->volume.station, icao);
+        EXPECT_EQ(decoded->volume.start_time(), start) << "believed, though radials say another";
+        std::string time = format_compact(start);
+        const auto grid = std::find_if(sent.begin(), sent.end(), [&](const auto& one) {
+            return one.first.starts_with(icao + "_REF_" + time);
+        });
+        ASSERT_NE(grid, sent.end());
+        EXPECT_NEAR(grid->second, site.first_start_s + feed().period_s(), 1e-6);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, PlayedFeed,
+                         ::testing::Values(Delivery::growing, Delivery::open, Delivery::whole,
+                                           Delivery::chunks));
+
+TEST(NationalFeed, HasTheRateOfTheHeaviestHour) {
+    STORMCELLAR_NEED_DATA();
+    double bytes_a_second = 0;
+    for (const NationalSite& site : feed().sites())
+        bytes_a_second += static_cast<double>(site.hours.front().bytes) / feed().period_s();
+    EXPECT_NEAR(bytes_a_second * national_sites / 8 * 3600 / heaviest_hour_bytes, 1, 1e-9);
+    EXPECT_NEAR(feed().chunks_a_second() * national_sites / 8, 33, 1);
+    EXPECT_NEAR(feed().message_bytes_per_byte(), 7.1, 0.1);
+}
+
+TEST(FeedSoak, SlopeIsThatOfALineBehindTheFirstTenth) {
+    std::vector<MemorySample> samples;
+    for (int i = 0; i < 100; ++i) {
+        const double seconds = 10.0 * i;
+        samples.push_back({seconds, i < 10 ? 5000.0 * i : 100 + 2 * seconds / 3600});
+    }
+    EXPECT_NEAR(memory_slope_mib_h(samples), 2, 1e-9);
+    EXPECT_TRUE(std::isnan(memory_slope_mib_h({})));
+}
+
+TEST(Stretch, QuantilesAreByNearestRank) {
+    Stretch stretch;
+    EXPECT_TRUE(std::isnan(stretch.latency_s(0.5)));
+    for (int i = 1; i <= 40; ++i)
+        stretch.latencies_s.push_back(i);
+    EXPECT_EQ(stretch.latency_s(0.5), 20);
+    EXPECT_EQ(stretch.latency_s(0.95), 38);
+    EXPECT_EQ(stretch.latency_s(1), 40);
+}
+
+TEST(GridWatch, HearsOfFilesThatAreRenamedIntoPlace) {
+    const testing::TemporaryDirectory cache;
+    GridWatch watch;
+    const std::vector<std::string> stations = {"KTLX"}, days = {"20240601"};
+    ASSERT_TRUE(watch.watch(cache.path(), stations, days));
+    const fs::path grid = cache / "KTLX/REF/20240601/KTLX_REF_20240601_000000_000.scg";
+    ASSERT_TRUE(write_file_atomically(real_file_system(), grid, Bytes(3)));
+    std::vector<std::string> heard;
+    watch.read([&](std::string_view name) { heard.emplace_back(name); });
+    EXPECT_THAT(heard, ::testing::ElementsAre(grid.filename().string()));
+}
+
+}  // namespace
+}  // namespace stormcellar::bench
