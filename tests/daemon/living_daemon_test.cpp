@@ -10,7 +10,7 @@
 #include "base/file_system.h"
 #include "cache/grid_file.h"
 #include "cache/store.h"
-#include "synth/replay.h"
+#include "synth/replay_pieces.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/testing/data.h"
 

@@ -20,7 +20,7 @@
 #include "pipeline/ingest.h"
 #include "pipeline/living_files.h"
 #include "pipeline/sweep_shelf.h"
-#include "synth/replay.h"
+#include "synth/replay_pieces.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
