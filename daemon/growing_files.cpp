@@ -14,17 +14,21 @@ bool GrowingFiles::add_new(const std::filesystem::path& path, const FileStamp& s
 }
 
 bool GrowingFiles::add_incomplete(const std::filesystem::path& path, const FileStamp& stamp,
-                                  SteadyTime now) {
+                                  SteadyTime now, bool followed) {
     if (!files_.contains(path) && files_.size() >= limit_) return false;
     if (files_.empty()) next_poll_ = now + settle;
-    files_[path] = {
-        .looked_at = stamp, .last = stamp, .since = now, .changed_at = now, .incomplete = true};
+    files_[path] = {.looked_at = stamp,
+                    .last = stamp,
+                    .since = now,
+                    .changed_at = now,
+                    .incomplete = true,
+                    .followed = followed};
     return true;
 }
 
 std::optional<GrowingFiles::Due> GrowingFiles::decide(const std::filesystem::path& path,
                                                       const File& file, SteadyTime now) const {
-    const bool quiet = now - file.changed_at >= quiet_;
+    const bool quiet = now - file.changed_at >= (file.followed ? patience * quiet_ : quiet_);
     if (file.incomplete && file.last == file.looked_at) {
         if (quiet) return Due{path, file.last, true};
         return std::nullopt;

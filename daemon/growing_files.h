@@ -28,6 +28,9 @@ class GrowingFiles {
   public:
     using Duration = SteadyTime::duration;
     static constexpr Duration settle = std::chrono::seconds{1};  // also how often stamps are read
+    // A file that is followed shows its sweeps anyway, and to finish it is to begin it anew when
+    // more comes after all: it is given so many times `quiet`.
+    static constexpr int patience = 10;
 
     GrowingFiles(Duration quiet, std::size_t limit) : quiet_(quiet), limit_(limit) {}
 
@@ -35,7 +38,8 @@ class GrowingFiles {
     // False when there is no room left. A file that is known keeps its times.
     bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now);
     // `stamp` as it was before the file was read. Replaces what was known of the path.
-    bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now);
+    bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
+                        bool followed = false);
     void forget(const std::filesystem::path& path) { files_.erase(path); }
 
     struct Due {
@@ -64,6 +68,7 @@ class GrowingFiles {
         SteadyTime since;       // when it was added
         SteadyTime changed_at;  // when `last` was first seen
         bool incomplete = false;
+        bool followed = false;
     };
     [[nodiscard]] std::optional<Due> decide(const std::filesystem::path& path, const File& file,
                                             SteadyTime now) const;

@@ -127,7 +127,8 @@ void Intake::job_ended(const Finished& finished) {
     switch (finished.taken->ingest.result) {
         case pipeline::IngestResult::incomplete:
             if (!finished.taken->ingest.followed) again = finished.ended + reread_;
-            if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended)) {
+            if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
+                                         finished.taken->ingest.followed)) {
                 refused_ = true;
                 seen_.forget(path);
             } else if (finished.taken->ingest.followed) {

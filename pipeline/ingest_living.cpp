@@ -147,7 +147,6 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
     }
     // One of a volume is waited for in the name of all.
     if (!volume->is_newest(chunk)) outcome.result = IngestResult::registered;
-    outcome.followed = true;
     return outcome;
 }
 

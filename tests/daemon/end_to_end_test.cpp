@@ -4,6 +4,7 @@
 #include <csignal>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -313,7 +314,9 @@ TEST(EndToEnd, SpeaksToTheJournalWithLevelsAndWithoutTimes) {
     daemon.start({}, {{"JOURNAL_STREAM", fmt::format("{}:{}", facts.st_dev, facts.st_ino)}});
     EXPECT_TRUE(daemon.wait_for_log("<6>ready: watching"));
     EXPECT_EQ(daemon.terminate(), 0);
-    EXPECT_TRUE(daemon.log().starts_with("<6>ready")) << daemon.log();
+    std::istringstream lines(daemon.log());
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_TRUE(line.starts_with("<6>")) << line;
 }
 
 TEST(EndToEnd, OneDaemonAStateDirectory) {

@@ -44,6 +44,14 @@ TEST_F(Growing, AnIncompleteFileIsFinishedWhenItWasQuietLongEnough) {
     EXPECT_EQ(files_.count(), 0U);
 }
 
+TEST_F(Growing, AFollowedFileIsGivenTenTimesAsLong) {
+    disk_["a"] = small;
+    files_.add_incomplete("a", small, t0, true);
+    for (int second = 1; second < 300; ++second)
+        ASSERT_EQ(due_at(second), "") << second;
+    EXPECT_EQ(due_at(300), "a!");
+}
+
 TEST_F(Growing, AnIncompleteFileThatGrowsIsReadAgainWhenItRests) {
     disk_["a"] = small;
     files_.add_incomplete("a", small, t0);
