@@ -23,6 +23,7 @@ constexpr std::size_t rows_of_a_stretch = 128;
 constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
 // What is appended is read so many bytes at a time, so that little of it is held.
 constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
+constexpr std::size_t kept_bytes = std::size_t{16} << 10;
 
 }  // namespace
 
@@ -60,7 +61,6 @@ class GrowingVolume::Reader {
     std::vector<std::byte> held_;  // what is not yet done with
     VolumeBuilder volume_{options_.output_limit_bytes};
     LdmStreamFramer framer_;
-    PartDecoder parts_{options_.output_limit_bytes, options_.selection};
     bool last_is_negative_ = false;
     ArrayRoom room_{options_.output_limit_bytes};
     FragmentBuilder fragment_{room_, rows_of_a_stretch, options_.selection};
@@ -92,14 +92,17 @@ void GrowingVolume::Reader::decide() {
 }
 
 Status GrowingVolume::Reader::read_records(bool last) {
+    PartDecoder parts{options_.output_limit_bytes, options_.selection};  // with a buffer of its own
     std::size_t done = 0;
     while (const auto part = framer_.next(std::span{held_}.subspan(done), last)) {
         done += framer_.position() - part->position;
         if (part->kind == LdmPart::Kind::record) last_is_negative_ = part->negative;
-        Fragment fragment = parts_.decode(*part, ArrayRoom{volume_.arrays_left()});
+        Fragment fragment = parts.decode(*part, ArrayRoom{volume_.arrays_left()});
         if (Status taken = volume_.append(std::move(fragment)); !taken) return taken;
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
+    // Many volumes grow at once, and each has a record of half a megabyte once a sweep.
+    if (held_.capacity() > kept_bytes + held_.size()) held_.shrink_to_fit();
     return {};
 }
 

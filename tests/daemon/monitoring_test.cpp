@@ -69,7 +69,7 @@ std::map<std::string, std::set<std::string>> exported() {
 
 // Every metric of ours that a text names, with the labels by which it chooses, checked.
 void check_names(const std::string& text, const std::string& what) {
-    static const std::regex use(R"re((stormcellar_[a-z0-9_]+)(?:\{([^}]*)\})?)re");
+    static const std::regex use(R"re((stormcellar_[a-z][a-z0-9_]*)(?:\{([^}]*)\})?)re");
     static const std::regex label(R"re((?:^|,)([a-z_]+)(?:=~?|!=)\\?")re");
     const auto known = exported();
     std::size_t uses = 0;
