@@ -16,6 +16,7 @@ struct ChunkName {
     std::string volume;  // "20220317-000842": the same for all chunks of a volume
     int number = 0;      // from 1
     ChunkKind kind = ChunkKind::intermediate;
+    bool operator==(const ChunkName&) const = default;
 };
 
 // The parts of a file name, which may have something before them ("KLOT-") or a directory, and an

@@ -22,14 +22,24 @@ constexpr std::size_t most_siblings = 2000;
 
 }  // namespace
 
+// The key has all of the name but the chunk's number and kind.
 std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
     const std::string file = path.filename().string();
     auto name = level2::parse_chunk_name(file);
     if (!name) return std::nullopt;
-    const std::size_t at = file.find(name->volume);
-    const std::string before = at == std::string::npos ? std::string{} : file.substr(0, at);
-    return ChunkPath{path, (path.parent_path() / (before + name->volume)).native(),
-                     std::move(*name)};
+    for (std::size_t at = file.find(name->volume); at != std::string::npos;
+         at = file.find(name->volume, at + 1)) {
+        const std::size_t number = at + name->volume.size() + 1;
+        const std::size_t kind = file.find('-', number);
+        const bool is_it = kind != std::string::npos && kind + 1 < file.size() &&
+                           file[number - 1] == '-' &&
+                           level2::parse_chunk_name(file.substr(at, kind + 2 - at)) == name;
+        if (!is_it) continue;
+        std::string prefix = file.substr(0, number);
+        std::string key = (path.parent_path() / (prefix + file.substr(kind + 2))).native();
+        return ChunkPath{path, std::move(prefix), std::move(key), std::move(*name)};
+    }
+    return std::nullopt;
 }
 
 ChunkVolume::ChunkVolume(const LivingFile::Options& options, level2::LiveOptions live)
@@ -59,6 +69,7 @@ ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& sta
     }
     if (*added == level2::LiveVolume::Added::another_volume) return Added::not_ours;
     files_.insert_or_assign(chunk.path, file);
+    waiter_ = chunk.path;
     shelve_new_sweeps();
     return Added::added;
 }
@@ -68,7 +79,8 @@ void ChunkVolume::add_siblings(const ChunkPath& of) {
     std::vector<ChunkPath> found;
     for (fs::directory_iterator at(of.path.parent_path(), error), end; !error && at != end;
          at.increment(error)) {
-        if (is_temporary_name(at->path().filename().string())) continue;
+        const std::string name = at->path().filename().string();
+        if (!name.starts_with(of.prefix) || is_temporary_name(name)) continue;
         auto chunk = ChunkPath::of(at->path());
         if (chunk && chunk->key == of.key && chunk->path != of.path &&
             found.size() < most_siblings) {
@@ -82,11 +94,7 @@ void ChunkVolume::add_siblings(const ChunkPath& of) {
         const auto stamp = stamp_of(chunk.path);
         if (stamp && stamp->regular) (void)add(chunk, *stamp);
     }
-}
-
-bool ChunkVolume::is_newest(const ChunkPath& chunk) const {
-    return std::none_of(files_.begin(), files_.end(),
-                        [&](const auto& entry) { return entry.second.number > chunk.name.number; });
+    waiter_ = of.path;
 }
 
 fs::path ChunkVolume::first_file() const {
@@ -143,20 +151,26 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         live.decode.fallback_station = station_of_chunk(chunk.path);
         followed.volume = std::make_shared<ChunkVolume>(options_, std::move(live));
     }
-    return followed.volume;
+    const std::shared_ptr<ChunkVolume> found = followed.volume;
+    give_up_beyond_limits(chunk.key);
+    return found;
 }
 
 void ChunkVolumes::grew(const ChunkPath& chunk, std::uint64_t held_bytes) {
     const std::scoped_lock lock(mutex_);
     const auto own = volumes_.find(chunk.key);
     if (own != volumes_.end()) own->second.held_bytes = held_bytes;
+    give_up_beyond_limits(chunk.key);
+}
+
+void ChunkVolumes::give_up_beyond_limits(const std::string& but) {
     std::uint64_t held = 0;
     for (const auto& [key, followed] : volumes_)
         held += followed.held_bytes;
     while (volumes_.size() > 1 && (held > most_held_bytes_ || volumes_.size() > most_volumes)) {
         auto oldest = volumes_.end();
         for (auto at = volumes_.begin(); at != volumes_.end(); ++at) {
-            if (at == own) continue;
+            if (at->first == but) continue;
             if (oldest == volumes_.end() || at->second.turn < oldest->second.turn) oldest = at;
         }
         held -= oldest->second.held_bytes;
@@ -167,6 +181,12 @@ void ChunkVolumes::grew(const ChunkPath& chunk, std::uint64_t held_bytes) {
 void ChunkVolumes::forget(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
     volumes_.erase(chunk.key);
+}
+
+void ChunkVolumes::forget(const ChunkPath& chunk, const ChunkVolume* volume) {
+    const std::scoped_lock lock(mutex_);
+    const auto at = volumes_.find(chunk.key);
+    if (at != volumes_.end() && at->second.volume.get() == volume) volumes_.erase(at);
 }
 
 std::size_t ChunkVolumes::count() const {

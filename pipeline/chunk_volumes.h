@@ -4,10 +4,9 @@
 // kind alone (level2/chunk_name.h). Whichever of them is met first, all that lie there are read, so
 // that nothing depends on what was seen before: after a restart, and when a late chunk comes, the
 // volume is put together again from the files.
-// Bounded: beyond so many bytes the volume to which nothing has come for longest is forgotten, and
-// put together again with its next chunk.
-// Inside the pipeline room only. Thread contract: find() by many threads; a volume by whoever holds
-// its mutex.
+// Bounded: beyond so many bytes (a national feed holds some 0.8 GiB) or volumes the volume to which
+// nothing has come for longest is forgotten, and put together again with its next chunk. Inside the
+// pipeline room only. Thread contract: find() by many threads; a volume by whoever holds its mutex.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,8 @@ namespace stormcellar::pipeline {
 // A path that is named as a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string key;  // the same for all chunks of a volume
+    std::string prefix;  // of the names of all chunks of its volume
+    std::string key;     // the same for all chunks of its volume, and for no others
     level2::ChunkName name;
 
     [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);
@@ -46,10 +46,11 @@ class ChunkVolume {
     };
     // Reads the file unless it is known with this stamp.
     [[nodiscard]] Added add(const ChunkPath& chunk, const FileStamp& stamp);
-    // All others that lie beside this one.
+    // All others that lie beside this one, which waits in their names.
     void add_siblings(const ChunkPath& of);
 
-    [[nodiscard]] bool is_newest(const ChunkPath& chunk) const;
+    // Whether it is the one that came last, which is asked again when nothing has come for a while.
+    [[nodiscard]] bool waits(const ChunkPath& chunk) const { return chunk.path == waiter_; }
     [[nodiscard]] bool is_whole() const { return live_.is_whole(); }
     [[nodiscard]] bool is_due() const { return live_.is_due(level2::LiveVolume::Clock::now()); }
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
@@ -75,7 +76,8 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const KeptVolume> take_kept() { return std::move(kept_); }
 
     std::mutex mutex;
-    bool is_loaded = false;  // what lies beside the first chunk was added
+    bool is_loaded = false;    // what lies beside the first chunk was added
+    bool is_finished = false;  // nothing more can be added: to be found anew
 
   private:
     void shelve(const level2::Sweep& sweep);
@@ -85,19 +87,21 @@ class ChunkVolume {
     level2::LiveVolume live_;
     std::unique_ptr<KeptVolume> kept_;
     std::map<std::filesystem::path, File> files_;
+    std::filesystem::path waiter_;
     bool has_news_ = false;
 };
 
 class ChunkVolumes {
   public:
     explicit ChunkVolumes(LivingFile::Options options,
-                          std::uint64_t most_held_bytes = std::uint64_t{192} << 20)
+                          std::uint64_t most_held_bytes = std::uint64_t{1} << 30)
         : options_(std::move(options)), most_held_bytes_(most_held_bytes) {}
 
     // Made where it is not known.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk);
     void grew(const ChunkPath& chunk, std::uint64_t held_bytes);
     void forget(const ChunkPath& chunk);
+    void forget(const ChunkPath& chunk, const ChunkVolume* volume);  // if it is still this one
     [[nodiscard]] std::size_t count() const;
 
   private:
@@ -105,6 +109,8 @@ class ChunkVolumes {
         std::shared_ptr<ChunkVolume> volume;
         std::uint64_t turn = 0, held_bytes = 0;
     };
+    void give_up_beyond_limits(const std::string& but);
+
     LivingFile::Options options_;
     std::uint64_t most_held_bytes_;
     mutable std::mutex mutex_;  // guards what follows

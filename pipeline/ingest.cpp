@@ -204,7 +204,9 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     }
     const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
     if (chunk) {
-        if (auto taken = impl_->take_chunk(*chunk, *before, finish_partial, outcome)) {
+        if (auto taken = impl_->take_chunk(
+                *chunk, *before, finish_partial ? Finish::when_quiet : Finish::when_it_ends,
+                outcome)) {
             return std::move(*taken);
         }
     }
@@ -220,7 +222,8 @@ Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {
     if (!before) return pass_on(before);
     if (const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt) {
         impl_->chunks->forget(*chunk);
-        if (auto taken = impl_->take_chunk(*chunk, *before, true, {})) return std::move(*taken);
+        if (auto taken = impl_->take_chunk(*chunk, *before, Finish::as_it_is, {}))
+            return std::move(*taken);
     }
     return impl_->read_and_take_in(path, *before, true, {});
 }

@@ -1,10 +1,12 @@
 // Volumes that are taken in while they grow: appended to one file, or one file a chunk.
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "pipeline/ingest_parts.h"
+#include "pipeline/keep_rule.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -30,10 +32,11 @@ Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, const std::stri
     const auto last = living->last_of(kept.facts.station);
     std::size_t standing = 0;
     const auto volume = living_volume(kept, last.get(), &standing);
-    if (!volume) return true;
+    // Its grid would be named by another time than the whole volume's, and stay beside it.
+    if (!volume || volume->start_time() != kept.facts.header->time()) return true;
     GridSource source{source_file, modified_ns, true};
-    source.notes.push_back(fmt::format("living: {} sweeps have come, {} of the last volume stand",
-                                       volume->sweeps.size() - standing, standing));
+    source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",
+                                       living_note, volume->sweeps.size() - standing, standing));
     const Status shown =
         site_grids->keep_living(*volume, source, share_of(options.grid_threads), outcome);
     if (!shown && !is_of_the_data(shown.error())) return pass_on(shown);
@@ -105,20 +108,35 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
 
 std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath& chunk,
                                                                 const FileStamp& before,
-                                                                bool finish_partial,
+                                                                Finish finish,
                                                                 IngestOutcome outcome) {
     if (!before.regular) return std::nullopt;
-    const std::shared_ptr<ChunkVolume> volume = chunks->find(chunk);
-    const std::scoped_lock lock(volume->mutex);
+    std::shared_ptr<ChunkVolume> volume = chunks->find(chunk);
+    std::unique_lock lock(volume->mutex);
+    while (volume->is_finished) {  // by another worker, while we waited for it
+        const auto settled = catalog.is_settled(chunk.path, before.size_bytes, before.modified_ns);
+        if (!settled) return pass_on(settled);
+        if (*settled) {
+            outcome.result = IngestResult::unchanged;
+            return outcome;
+        }
+        lock.unlock();
+        chunks->forget(chunk, volume.get());
+        volume = chunks->find(chunk);
+        lock = std::unique_lock(volume->mutex);
+    }
     const auto start = Clock::now();
     const ChunkVolume::Added added = volume->add(chunk, before);
-    if (added == ChunkVolume::Added::not_ours) return std::nullopt;
+    if (added == ChunkVolume::Added::not_ours) {
+        if (volume->files().empty()) chunks->forget(chunk, volume.get());
+        return std::nullopt;
+    }
     if (!volume->is_loaded) volume->add_siblings(chunk);
     volume->is_loaded = true;
     outcome.decode_s = seconds_since(start);
     outcome.result = IngestResult::incomplete;
     if (added == ChunkVolume::Added::unfinished) {
-        if (finish_partial) return std::nullopt;
+        if (finish != Finish::when_it_ends) return std::nullopt;
         return outcome;
     }
     FileFacts facts;
@@ -130,13 +148,15 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
     if (facts.station.empty()) facts.station = station_of_chunk(chunk.path);
     facts.state = FileState::seen;
     outcome.station = facts.station;
+    if (volume->is_whole() || finish == Finish::as_it_is ||
+        (finish == Finish::when_quiet && volume->is_due())) {
+        // A volume that could not be stored is put together again.
+        volume->is_finished = true;
+        chunks->forget(chunk, volume.get());
+        return finish_chunks(*volume, facts.station, std::move(outcome));
+    }
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
-    }
-    if (volume->is_whole() || (finish_partial && volume->is_due())) {
-        // A volume that could not be stored is put together again.
-        chunks->forget(chunk);
-        return finish_chunks(*volume, facts.station, std::move(outcome));
     }
     chunks->grew(chunk, volume->held_bytes());
     if (volume->has_news() && volume->kept() != nullptr) {
@@ -146,7 +166,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         if (*shown) volume->set_shown();
     }
     // One of a volume is waited for in the name of all.
-    if (!volume->is_newest(chunk)) outcome.result = IngestResult::registered;
+    if (!volume->waits(chunk)) outcome.result = IngestResult::registered;
     return outcome;
 }
 

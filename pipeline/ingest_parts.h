@@ -35,6 +35,10 @@ class Running {
     std::atomic<int>& count_;
 };
 
+// When a volume of chunks is gridded: when all of it is there, also when nothing more is to be
+// waited for, or now.
+enum class Finish { when_it_ends, when_quiet, as_it_is };
+
 // What was met in reading a file, in any of its volumes.
 struct Reading {
     bool damaged = false;                    // bytes are lost
@@ -77,7 +81,7 @@ struct Ingestor::Impl {
                                                 IngestOutcome outcome);
     // None: the file is to be taken by itself.
     std::optional<Result<IngestOutcome>> take_chunk(const ChunkPath& chunk, const FileStamp& before,
-                                                    bool finish_partial, IngestOutcome outcome);
+                                                    Finish finish, IngestOutcome outcome);
     Result<IngestOutcome> finish_chunks(ChunkVolume& volume, const std::string& station,
                                         IngestOutcome outcome);
     Result<IngestOutcome> show_file(const catalog::FileFacts& file, LivingFile& living_file,

@@ -2,8 +2,10 @@
 // left in the end.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -17,6 +19,7 @@
 #include "level2/decode.h"
 #include "level2/encode.h"
 #include "level2/volume_difference.h"
+#include "pipeline/chunk_volumes.h"
 #include "pipeline/ingest.h"
 #include "pipeline/living_files.h"
 #include "pipeline/sweep_shelf.h"
@@ -273,8 +276,13 @@ class LivingChunks : public Living {
     }
     IngestOutcome take(House& house, std::size_t i, bool finish_partial = false) {
         const fs::path path = drop_ / names_[i];
-        if (!fs::exists(path)) append_to(path, parts_[i]);
-        date(path);
+        if (!fs::exists(path)) {
+            append_to(path, parts_[i]);
+            const std::array<timespec, 2> times = {timespec{file_time_s + came_, 0},
+                                                   timespec{file_time_s + came_, 0}};
+            EXPECT_EQ(::utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
+            ++came_;
+        }
         auto outcome = house.ingestor->ingest(path, finish_partial);
         EXPECT_TRUE(outcome) << outcome.error().message;
         return outcome ? *outcome : IngestOutcome{};
@@ -300,6 +308,7 @@ class LivingChunks : public Living {
         EXPECT_EQ(rows->size(), names_.size());
     }
     fs::path drop_ = directory_ / "drop/KLOT/494";
+    std::int64_t came_ = 0;  // each a second after the one before
     House whole_{directory_ / "whole", false};
     std::vector<std::byte> bytes_;
     std::vector<std::string> names_;
@@ -315,6 +324,7 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
     }
     EXPECT_GT(shown, 5U);
     EXPECT_EQ(take(house_, 0, true).result, IngestResult::registered) << "not in the name of all";
+    EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
     const IngestOutcome last = take(house_, names_.size() - 1);
     EXPECT_EQ(last.result, IngestResult::gridded);
     EXPECT_EQ(last.station, "KLOT");
@@ -362,6 +372,84 @@ TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
     EXPECT_EQ(take(house_, 20).result, IngestResult::gridded);
     expect_same_cells(house_);
     expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
+    const auto notes = [&] {
+        return cache::GridFile::open(house_.grids("KLOT").at(0).path)
+            ->description()
+            .provenance.notes;
+    };
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i != 20 && i != 30) take(house_, i);
+    }
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    EXPECT_TRUE(notes().empty()) << "the end of it, not a living grid";
+    EXPECT_EQ(take(house_, 20).result, IngestResult::incomplete) << "it waits in the name of all";
+    EXPECT_TRUE(notes().empty()) << "a living grid is no better than an ended one";
+    const IngestOutcome again = take(house_, 20, true);
+    EXPECT_EQ(again.result, IngestResult::gridded);
+    EXPECT_NE(again.reason.find("missing chunks: 31"), std::string::npos) << again.reason;
+    const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+    for (const auto& row : *rows)
+        EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
+}
+
+TEST_F(LivingChunks, AnEndThatIsCutDoesNotKeepTheVolumeWaiting) {
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i)
+        take(house_, i);
+    const fs::path cut = drop_ / names_.back();
+    append_to(cut, parts_.back().first(100));
+    EXPECT_EQ(house_.ingestor->ingest(cut, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(house_.ingestor->ingest(cut, true)->result, IngestResult::rejected);
+    EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
+}
+
+TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i != 20) take(house_, i);
+    }
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    fs::remove(house_.grids("KLOT").at(0).path);
+    EXPECT_EQ(house_.ingestor->ingest_again(drop_ / names_[0])->result, IngestResult::gridded);
+    EXPECT_EQ(house_.grids("KLOT").size(), 1U);
+    EXPECT_EQ(house_.catalog->list("KLOT", {})->size(), 1U);
+}
+
+TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        append_to(drop_ / names_[i], parts_[i]);
+    std::vector<std::thread> workers;
+    std::atomic<std::size_t> next = 0;
+    std::atomic<int> gridded = 0;
+    for (int i = 0; i < 4; ++i) {
+        workers.emplace_back([&] {
+            for (std::size_t at = next++; at < names_.size(); at = next++) {
+                const auto outcome = house_.ingestor->ingest(drop_ / names_[at], false);
+                gridded += outcome && outcome->result == IngestResult::gridded ? 1 : 0;
+            }
+        });
+    }
+    for (std::thread& worker : workers)
+        worker.join();
+    EXPECT_EQ(gridded, 1);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+    for (const std::string& name : names_) {
+        EXPECT_EQ(house_.ingestor->ingest(drop_ / name, true)->result, IngestResult::unchanged);
+    }
+}
+
+TEST_F(Living, ChunksBelongTogetherByAllOfTheirNamesButTheirNumbers) {
+    const auto key = [](const char* name) { return ChunkPath::of(name)->key; };
+    const std::string one = key("/d/20220317-000842-012-I-KTLX");
+    EXPECT_EQ(one, key("/d/20220317-000842-1-S-KTLX"));
+    EXPECT_NE(one, key("/d/20220317-000842-012-I-KOUN"));
+    EXPECT_NE(one, key("/e/20220317-000842-012-I-KTLX"));
+    EXPECT_NE(one, key("/d/KTLX-20220317-000842-012-I"));
+    EXPECT_EQ(key("/d/20220317-000842_20220317-000842-012-I"),
+              key("/d/20220317-000842_20220317-000842-13-E"));
+    EXPECT_FALSE(ChunkPath::of("/d/KTLX20220317_000842_V06"));
 }
 
 TEST_F(LivingChunks, OneThatIsNoneIsRejectedByItself) {
