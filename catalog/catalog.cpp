@@ -289,25 +289,38 @@ Result<int> Catalog::mark_missing(const fs::path& directory) {
     return marked;
 }
 
-Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
-                                 std::int64_t modified_ns) {
+Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uint64_t size_bytes,
+                                                  std::int64_t modified_ns) {
     const auto ask = [&](StationDatabase& database) {
         return database.is_settled(path, size_bytes, modified_ns);
     };
     const std::string guess = guessed_station(path);
-    const auto guessed = impl_->with(guess, false, ask);
-    if (guessed && guessed->has_value()) return **guessed;
-    if (!guessed && guessed.error().code != ErrorCode::not_found) return pass_on(guessed);
+    auto guessed = impl_->with(guess, false, ask);
+    if (guessed && guessed->has_value()) return guessed;
+    if (!guessed && guessed.error().code != ErrorCode::not_found) return guessed;
 
     const auto names = impl_->names();
     if (!names) return pass_on(names);
     for (const std::string& name : *names) {
         if (name == guess) continue;
-        const auto here = impl_->with(name, false, ask);
-        if (!here && is_ours_to_solve(here.error())) return pass_on(here);
-        if (here && here->has_value()) return **here;
+        auto here = impl_->with(name, false, ask);
+        if (!here && is_ours_to_solve(here.error())) return here;
+        if (here && here->has_value()) return here;
     }
-    return false;
+    return std::optional<bool>{};
+}
+
+Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
+                                 std::int64_t modified_ns) {
+    const auto found = find_settled(path, size_bytes, modified_ns);
+    if (!found) return pass_on(found);
+    return found->value_or(false);
+}
+
+Result<bool> Catalog::is_known(const fs::path& path) {
+    const auto found = find_settled(path, 0, 0);
+    if (!found) return pass_on(found);
+    return found->has_value();
 }
 
 Result<std::vector<std::string>> Catalog::station_names() const {

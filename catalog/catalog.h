@@ -123,6 +123,9 @@ class Catalog {
     Result<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                             std::int64_t modified_ns);
 
+    // True when the path stands in the catalog, in any state.
+    Result<bool> is_known(const std::filesystem::path& path);
+
     // The stations that have a database, sorted; "" for files without one comes first.
     [[nodiscard]] Result<std::vector<std::string>> station_names() const;
     // Reads the whole database of a station, or of all where none is named, and mends it where it
@@ -141,6 +144,9 @@ class Catalog {
 
   private:
     struct Impl;
+    // Whether the row of the path is settled; none where it has no row.
+    Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
+                                             std::uint64_t size_bytes, std::int64_t modified_ns);
     explicit Catalog(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };

@@ -115,7 +115,9 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     const bool has_moment = sweep.find(moment_) != nullptr;
     kept_->places.insert_or_assign(cut, *place);
     kept_->sweeps.insert_or_assign(cut, KeptVolume::Kept{has_moment, sweep.mean_elevation_deg()});
-    has_news_ = has_news_ || has_moment;
+    if (!has_moment) return;
+    news_.any = true;
+    news_.low = news_.low || kept_->is_lowest(sweep.mean_elevation_deg());
 }
 
 void ChunkVolume::shelve_new_sweeps() {
@@ -148,7 +150,7 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         live.grace = options_.chunk_grace;
         live.decode.output_limit_bytes = most_output_bytes;
         live.decode.selection = options_.selection;
-        live.decode.fallback_station = station_of_chunk(chunk.path);
+        live.decode.fallback_station = station_by_name(chunk.path);
         followed.volume = std::make_shared<ChunkVolume>(options_, std::move(live));
     }
     const std::shared_ptr<ChunkVolume> found = followed.volume;

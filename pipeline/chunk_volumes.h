@@ -54,9 +54,8 @@ class ChunkVolume {
     [[nodiscard]] bool is_whole() const { return live_.is_whole(); }
     [[nodiscard]] bool is_due() const { return live_.is_due(level2::LiveVolume::Clock::now()); }
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
-    // Sweeps have come that no living grid shows yet.
-    [[nodiscard]] bool has_news() const { return has_news_; }
-    void set_shown() { has_news_ = false; }
+    [[nodiscard]] LivingNews news() const { return news_; }
+    void set_shown() { news_ = {}; }
     // Null where there is no room on the shelf.
     [[nodiscard]] const KeptVolume* kept() const { return kept_.get(); }
     [[nodiscard]] std::uint64_t held_bytes() const { return live_.held_bytes(); }
@@ -88,7 +87,7 @@ class ChunkVolume {
     std::unique_ptr<KeptVolume> kept_;
     std::map<std::filesystem::path, File> files_;
     std::filesystem::path waiter_;
-    bool has_news_ = false;
+    LivingNews news_;
 };
 
 class ChunkVolumes {
