@@ -200,6 +200,8 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
+    // What was put aside cannot be read back: the files are not to blame, and are read again.
+    if (!decoded && decoded.error().code == ErrorCode::io) return pass_on(decoded);
     if (!decoded) return reject(facts, decoded.error(), outcome);
     auto taken = take_in(std::move(facts), std::move(*decoded), true, std::move(outcome));
     if (!taken) return taken;
