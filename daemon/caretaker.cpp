@@ -5,9 +5,10 @@
 #include <utility>
 
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
+#include "daemon/log.h"
+#include "daemon/status_names.h"
 
 namespace stormcellar::daemon {
 
@@ -19,7 +20,8 @@ namespace {
 constexpr std::chrono::milliseconds look_again{100};
 
 void log_problem(std::string_view what, const Error& error) {
-    spdlog::warn("{}: {}", what, printable(error.message));
+    log_warning({.event = Event::care_failed, .reason = name_of(error.code)}, "{}: {}", what,
+                printable(error.message));
 }
 
 }  // namespace
@@ -82,7 +84,7 @@ void Caretaker::run() {
             if (!check_grids(MendDepth::all, times_.between_grids)) return;
         } while (rest(times_.between_rounds));
     } catch (const std::exception& error) {
-        spdlog::error("grids are not looked after any more: {}", error.what());
+        log_error({Event::care_failed}, "grids are not looked after any more: {}", error.what());
     }
 }
 
@@ -125,19 +127,25 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto mended = of_.mender.mend(entry, depth);
     if (!mended) return log_problem("cannot mend a damaged grid", mended.error());
     const std::string reason = printable(mended->reason);
+    const About about{.event = Event::grid_damaged,
+                      .volume = entry.time,
+                      .file = entry.path,
+                      .domain = entry.domain};
+    About unchecked = about;
+    unchecked.event = Event::grid_unchecked;
     switch (mended->condition) {
         case GridCondition::sound:
             break;
         case GridCondition::made_again:
-            spdlog::warn("damaged grid {}: dropped, and made again from {}", reason,
-                         printable(mended->from));
+            log_warning(about, "damaged grid {}: dropped, and made again from {}", reason,
+                        printable(mended->from));
             break;
         case GridCondition::dropped:
-            spdlog::warn("damaged grid {}: dropped; it cannot be made again: {}", reason,
-                         printable(mended->why_not));
+            log_warning(about, "damaged grid {}: dropped; it cannot be made again: {}", reason,
+                        printable(mended->why_not));
             break;
         case GridCondition::left_alone:
-            spdlog::warn("grid {}: cannot be checked", reason);
+            log_warning(unchecked, "grid {}: cannot be checked", reason);
             break;
     }
 }
@@ -151,8 +159,12 @@ void Caretaker::refill() {
         const auto made = of_.mender.make(grid);
         if (!made) return log_problem("cannot make a missing grid", made.error());
         if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
-        spdlog::info("missing grid {} {}: made again from {}", grid.names.front().domain,
-                     format_utc(grid.time), printable(grid.raw.native()));
+        log_info({.event = Event::grid_made_again,
+                  .volume = grid.time,
+                  .file = grid.raw,
+                  .domain = grid.names.front().domain},
+                 "missing grid {} {}: made again from {}", grid.names.front().domain,
+                 format_utc(grid.time), printable(grid.raw.native()));
     }
     refill_frames();
 }
@@ -166,8 +178,9 @@ void Caretaker::refill_frames() {
         const auto made = of_.mender.make(frame);
         if (!made) return log_problem("cannot make a missing frame", made.error());
         if (!*made) continue;
-        spdlog::info("missing frame {} {}: made again from {}", frame.domain,
-                     format_utc(frame.time), **made);
+        log_info({.event = Event::frame_made_again, .volume = frame.time, .domain = frame.domain},
+                 "missing frame {} {}: made again from {}", frame.domain, format_utc(frame.time),
+                 **made);
     }
 }
 

@@ -19,8 +19,8 @@
 
 #include "daemon/child.h"
 #include "daemon/file_stamp.h"
-#include "daemon/log.h"
 #include "daemon/loop_config.h"
+#include "daemon/schedule.h"
 #include "daemon/wake_up.h"
 
 namespace stormcellar::daemon {
@@ -68,7 +68,7 @@ class LoopKeeper {
     void start(Slot& slot, SteadyTime now);
     void listen(Slot& slot, SteadyTime now);
     void note_made(Slot& slot, const std::string& line);
-    void note_line(Slot& slot, const std::string& line, SteadyTime now);
+    static void note_line(Slot& slot, const std::string& line);
     void note_end(Slot& slot, const std::string& how, SteadyTime now);
     void delay(Slot& slot, SteadyTime now);
     void sleep(SteadyTime now);
@@ -81,7 +81,6 @@ class LoopKeeper {
     std::atomic<bool> stopping_ = false;
     std::atomic<SteadyTime> turned_{SteadyTime::max()};  // max: it has not begun
     std::list<Slot> slots_;                              // of the thread
-    RateLimit lines_{20, std::chrono::seconds{60}};
     std::mutex mutex_;
     std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, as the next two
     std::vector<LoopState> states_;

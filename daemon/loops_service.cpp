@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
 #include "daemon/log.h"
@@ -39,8 +38,8 @@ void LoopsService::request_stop() {
 void LoopsService::run() {
     publish("running");
     parts_.notifier.send("READY=1");
-    spdlog::info("ready: keeping {} loops of {}", config_.loops.size(),
-                 printable(config_.cache.native()));
+    log_info({Event::ready}, "ready: keeping {} loops of {}", config_.loops.size(),
+             printable(config_.cache.native()));
     keeper_.set(config_.loops);
     while (true) {
         handle_signals();
@@ -52,6 +51,7 @@ void LoopsService::run() {
             has_news_ = true;
         }
         if (has_news_ && now >= next_publish_) publish("running");
+        log_held_back();
         if (watchdog_.is_due(now, keeper_.turns_until())) parts_.notifier.send("WATCHDOG=1");
         wait(now);
     }
@@ -60,7 +60,7 @@ void LoopsService::run() {
     keeper_.wait();
     if (auto loops = keeper_.news()) loops_ = std::move(*loops);
     publish("stopped");
-    spdlog::info("stopped");
+    log_info({Event::stopped}, "stopped");
 }
 
 void LoopsService::wait(SteadyTime now) {
@@ -81,7 +81,8 @@ void LoopsService::handle_signals() {
         if (*signal == SIGHUP) {
             reload();
         } else {
-            spdlog::info("stopping: asked to by {}", *signal == SIGTERM ? "SIGTERM" : "SIGINT");
+            log_info({Event::stopping}, "stopping: asked to by {}",
+                     *signal == SIGTERM ? "SIGTERM" : "SIGINT");
             stop_requested_ = true;
         }
     }
@@ -91,16 +92,17 @@ void LoopsService::reload() {
     parts_.notifier.send(reloading_state());
     if (const Result<Config> fresh = load_config(config_file_)) {
         if (fresh->state != config_.state || fresh->cache != config_.cache) {
-            spdlog::warn("reload: [paths] cannot change while the service runs: restart it");
+            log_warning({Event::reload_ignored},
+                        "reload: [paths] cannot change while the service runs: restart it");
         }
         config_.loops = fresh->loops;
         config_.log_level = fresh->log_level;
         keeper_.set(config_.loops);
         set_log_level(config_.log_level);
-        spdlog::info("reloaded: {} loops", config_.loops.size());
+        log_info({Event::reloaded}, "reloaded: {} loops", config_.loops.size());
     } else {
-        spdlog::error("reload: {}; the configuration stays as it was",
-                      printable(fresh.error().message));
+        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+                  printable(fresh.error().message));
     }
     parts_.notifier.send("READY=1");
 }
@@ -114,8 +116,9 @@ void LoopsService::publish(const char* state) {
     const Status written =
         write_file_atomically(parts_.file_system, path, std::as_bytes(std::span{text}));
     if (!written && !failing_) {
-        spdlog::error("{}: cannot write the status: {}", printable(path.native()),
-                      printable(written.error().message));
+        log_error({.event = Event::status_unwritten, .file = path},
+                  "cannot write the status: {}: {}", printable(path.native()),
+                  printable(written.error().message));
     }
     failing_ = !written;
 }

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
+#include "daemon/log.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -70,9 +70,9 @@ bool Service::start() {
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    spdlog::info("ready: watching {} ({} directories), {} files to look at, {} workers",
-                 printable(config_.drop.native()), watcher_.directory_count(),
-                 pending.waiting + pending.growing, config_.worker_count());
+    log_info({Event::ready}, "ready: watching {} ({} directories), {} files to look at, {} workers",
+             printable(config_.drop.native()), watcher_.directory_count(),
+             pending.waiting + pending.growing, config_.worker_count());
     if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
     return true;
 }
@@ -121,7 +121,8 @@ void Service::handle_signals() {
         if (*signal == SIGHUP) {
             reload();
         } else {
-            spdlog::info("stopping: asked to by {}", *signal == SIGTERM ? "SIGTERM" : "SIGINT");
+            log_info({Event::stopping}, "stopping: asked to by {}",
+                     *signal == SIGTERM ? "SIGTERM" : "SIGINT");
             stop_requested_ = true;
         }
     }
@@ -132,8 +133,8 @@ void Service::reload() {
     if (const Result<Config> fresh = load_config(config_file_)) {
         apply(*fresh);
     } else {
-        spdlog::error("reload: {}; the configuration stays as it was",
-                      printable(fresh.error().message));
+        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+                  printable(fresh.error().message));
     }
     parts_.notifier.send("READY=1");
 }
@@ -141,12 +142,15 @@ void Service::reload() {
 void Service::apply(const Config& fresh) {
     if (fresh.drop != config_.drop || fresh.state != config_.state ||
         fresh.cache != config_.cache) {
-        spdlog::warn("reload: [paths] cannot change while the service runs: restart it");
+        log_warning({Event::reload_ignored},
+                    "reload: [paths] cannot change while the service runs: restart it");
     }
     if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
-        spdlog::warn("reload: the grid, threads and queue_limit change at a restart only");
+        log_warning({Event::reload_ignored},
+                    "reload: the grid, threads and queue_limit change at a restart only");
     }
-    if (!same_listening(fresh, config_)) spdlog::warn("reload: [status] changes at a restart only");
+    if (!same_listening(fresh, config_))
+        log_warning({Event::reload_ignored}, "reload: [status] changes at a restart only");
     config_.workers = fresh.workers;
     config_.quiet = fresh.quiet;
     config_.reread = fresh.reread;
@@ -160,14 +164,14 @@ void Service::apply(const Config& fresh) {
     intake_.set_times(config_);
     next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
     set_log_level(config_.log_level);
-    spdlog::info("reloaded: {} workers, quiet after {} s, log level {}", config_.worker_count(),
-                 std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
+    log_info({Event::reloaded}, "reloaded: {} workers, quiet after {} s, log level {}",
+             config_.worker_count(), std::chrono::duration<double>(config_.quiet).count(),
+             config_.log_level);
 }
 
 void Service::collect() {
-    const SteadyTime now = parts_.clock.steady();
     for (const Finished& finished : pool_.collect()) {
-        reporter_.report(finished, now);
+        Reporter::report(finished);
         status_.add(finished);
         intake_.job_ended(finished);
         status_file_.changed();
@@ -185,11 +189,11 @@ bool Service::scan() {
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
     if (!scanned && !drop_missing_) {
-        spdlog::error("drop directory {}; looking again every {} s",
-                      printable(scanned.error().message),
-                      std::chrono::duration<double>(config_.rescan).count());
+        log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
+                  printable(scanned.error().message),
+                  std::chrono::duration<double>(config_.rescan).count());
     } else if (scanned && drop_missing_) {
-        spdlog::info("drop directory {} is back", printable(config_.drop.native()));
+        log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
     if (scanned) mark_missing();
@@ -209,15 +213,17 @@ void Service::mark_missing() {
     const auto look = [this] {
         const Result<int> marked = parts_.sink.mark_missing();
         if (!marked) {
-            spdlog::warn("cannot look for files that went: {}", printable(marked.error().message));
+            log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                        printable(marked.error().message));
         } else if (*marked > 0) {
-            spdlog::info("{} files went while nobody watched", *marked);
+            log_info({Event::files_gone}, "{} files went while nobody watched", *marked);
         }
     };
     try {
         missing_ = std::async(std::launch::async, look);
     } catch (const std::system_error& error) {  // no thread to be had
-        spdlog::warn("cannot look for files that went: {}", error.what());
+        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                    error.what());
     }
 }
 
@@ -235,13 +241,14 @@ void Service::keep_house() {
     if (const std::uint64_t overflows = intake_.take_overflows(); overflows > 0) {
         for (std::uint64_t i = 0; i < overflows; ++i)
             status_.count_overflow();
-        spdlog::warn("the kernel dropped events (fs.inotify.max_queued_events): scanning");
+        log_warning({Event::overflow},
+                    "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
     report_repairs();
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
-        reporter_.report_directory(problem, now);
-    reporter_.report_held_back(now);
+        Reporter::report_directory(problem);
+    log_held_back();
     if (const auto usage = cache_keeper_.poll(now, config_.budgets)) {
         status_.set_usage(*usage);
         status_file_.changed();
@@ -265,7 +272,7 @@ void Service::publish(bool at_once) {
 void Service::report_repairs() {
     const std::vector<std::string> repairs = parts_.sink.take_repairs();
     for (const std::string& line : repairs)
-        spdlog::error("{}", printable(line));
+        log_error({Event::database_mended}, "{}", printable(line));
     if (!repairs.empty()) intake_.forget_seen();
 }
 
@@ -302,13 +309,14 @@ Stopped Service::stop() {
     collect();
     const std::size_t left = intake_.pending().waiting;
     if (!drained) {
-        spdlog::error("stopped with files still being read after {} s", time_to_drain.count());
+        log_error({Event::stopped_with_jobs}, "stopped with files still being read after {} s",
+                  time_to_drain.count());
         return Stopped::with_jobs;
     }
     status_.set_state("stopped");
     publish(true);
-    spdlog::info("stopped: {} files ingested, {} left for the next start", status_.ingested(),
-                 left);
+    log_info({Event::stopped}, "stopped: {} files ingested, {} left for the next start",
+             status_.ingested(), left);
     return Stopped::cleanly;
 }
 

@@ -93,7 +93,6 @@ class Service {
     ServiceParts parts_;
     Intake intake_;
     Watcher watcher_;
-    Reporter reporter_;
     StatusBook status_;
     StatusFile status_file_;
     Pending published_;  // as it was last looked at
