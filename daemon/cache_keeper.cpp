@@ -34,7 +34,8 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
 CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
     CacheRolled rolled;
     try {
-        rolled = sink_.roll_cache(budgets);
+        const AtWork at_work(pulse_);
+        rolled = sink_.roll_cache(budgets, [this] { pulse_.beat(); });
     } catch (const std::exception& error) {  // no memory
         rolled.report.problems.emplace_back(error.what());
     }

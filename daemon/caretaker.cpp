@@ -39,12 +39,14 @@ Caretaker::~Caretaker() {
 }
 
 bool Caretaker::pause(std::chrono::milliseconds least) {
+    pulse_.rest();
     std::unique_lock lock(mutex_);
     const auto stopped = [this] { return stopping_; };
     if (changed_.wait_for(lock, least, stopped)) return false;
     while (!links_.is_idle()) {
         if (changed_.wait_for(lock, look_again, stopped)) return false;
     }
+    pulse_.beat();
     return true;
 }
 
@@ -86,6 +88,7 @@ void Caretaker::run() {
     } catch (const std::exception& error) {
         log_error({Event::care_failed}, "grids are not looked after any more: {}", error.what());
     }
+    pulse_.rest();
 }
 
 // What was mended is logged by the service, which then scans for the files.
@@ -109,6 +112,7 @@ bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) 
     }
     for (const std::string& domain : *domains) {
         for (const level2::Moment moment : level2::all_moments) {
+            pulse_.beat();
             const auto entries = of_.store.list(domain, moment, std::nullopt, std::nullopt);
             if (!entries) {
                 log_problem("cannot look into the cache", entries.error());
@@ -152,7 +156,7 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
 
 void Caretaker::refill() {
     if (times_.refill <= std::chrono::milliseconds{0}) return;
-    const auto missing = of_.mender.missing(times_.refill);
+    const auto missing = of_.mender.missing(times_.refill, [this] { pulse_.beat(); });
     if (!missing) return log_problem("cannot look for missing grids", missing.error());
     for (const pipeline::MissingGrid& grid : *missing) {
         if (!pause({})) return;

@@ -68,16 +68,10 @@ std::optional<std::vector<LoopState>> LoopKeeper::news() {
     return states_;
 }
 
-std::optional<SteadyTime> LoopKeeper::turns_until() const {
-    const SteadyTime turned = turned_;
-    if (turned == SteadyTime::max()) return std::nullopt;
-    return turned + longest_sleep;
-}
-
 void LoopKeeper::run() {
     while (true) {
         const SteadyTime now = std::chrono::steady_clock::now();
-        turned_ = now;
+        pulse_.beat(now);
         wake_up_.clear();
         for (Slot& slot : slots_)
             listen(slot, now);
@@ -90,9 +84,11 @@ void LoopKeeper::run() {
         if (stopping_ && slots_.empty()) break;
         start_due(now);
         publish();
+        pulse_.rest();
         sleep(now);
     }
     publish();
+    pulse_.rest();
 }
 
 void LoopKeeper::take_wanted() {

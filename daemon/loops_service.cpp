@@ -24,7 +24,9 @@ LoopsService::LoopsService(Config config, std::filesystem::path config_file, Par
       config_file_(std::move(config_file)),
       parts_(parts),
       watchdog_(parts_.notifier.watchdog()),
-      keeper_(config_.cache, [this] { wake_up_.set(); }) {}
+      keeper_(config_.cache, [this] { wake_up_.set(); }) {
+    pulses_.watch("loops", keeper_.pulse());
+}
 
 std::filesystem::path LoopsService::directory(const Config& config) {
     return config.state / "loops";
@@ -52,7 +54,7 @@ void LoopsService::run() {
         }
         if (has_news_ && now >= next_publish_) publish("running");
         log_held_back();
-        if (watchdog_.is_due(now, keeper_.turns_until())) parts_.notifier.send("WATCHDOG=1");
+        feed(watchdog_, parts_.notifier, now, pulses_.oldest());
         wait(now);
     }
     parts_.notifier.send("STOPPING=1");

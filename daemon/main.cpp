@@ -163,6 +163,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
         {.refill = config.refill},
         {[&] { return service.is_idle(); },
          [&](pipeline::PairReport report) { service.sites_compared(std::move(report)); }});
+    service.watch("status", status_server.pulse());
+    service.watch("caretaker", keeper.pulse());
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;

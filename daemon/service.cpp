@@ -42,6 +42,9 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
     status_.set_listening(config_.status.socket, config_.status.http_port);
+    watch("missing", missing_pulse_);
+    watch("cache", cache_keeper_.pulse());
+    watch("loops", loop_keeper_.pulse());
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), {});
 }
 
@@ -211,7 +214,8 @@ void Service::mark_missing() {
         missing_.valid() && missing_.wait_for(std::chrono::seconds{0}) != std::future_status::ready;
     if (busy) return;
     const auto look = [this] {
-        const Result<int> marked = parts_.sink.mark_missing();
+        const AtWork at_work(missing_pulse_);
+        const Result<int> marked = parts_.sink.mark_missing([this] { missing_pulse_.beat(); });
         if (!marked) {
             log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
                         printable(marked.error().message));
@@ -258,7 +262,15 @@ void Service::keep_house() {
         status_file_.changed();
     }
     publish(false);
-    if (watchdog_.is_due(now, pool_.oldest_start())) parts_.notifier.send("WATCHDOG=1");
+    feed(watchdog_, parts_.notifier, now, oldest_step());
+}
+
+std::optional<Step> Service::oldest_step() const {
+    std::optional<Step> oldest = pulses_.oldest();
+    const auto job = pool_.oldest();
+    if (job && (!oldest || job->since < oldest->since))
+        oldest = Step{"ingest of " + job->path.native(), job->since};
+    return oldest;
 }
 
 void Service::publish(bool at_once) {

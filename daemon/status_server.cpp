@@ -190,9 +190,12 @@ void StatusServer::run() {
     // Of this thread alone, on Linux; where it may not, it goes on as it is.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
     while (!stopping_) {
-        worker_->open(std::chrono::steady_clock::now());
+        {
+            const AtWork at_work(pulse_);
+            worker_->turn(std::chrono::steady_clock::now());
+            worker_->open(std::chrono::steady_clock::now());
+        }
         worker_->wait(std::chrono::steady_clock::now(), wake_up_);
-        worker_->turn(std::chrono::steady_clock::now());
     }
 }
 
