@@ -35,6 +35,11 @@ std::string describe_gridded(const Finished& finished) {
                        outcome.commit_s * 1000, because(outcome));
 }
 
+// Sweeps have entered the grid of a volume that goes on growing.
+bool shows_living(const IngestOutcome& outcome) {
+    return outcome.result != IngestResult::gridded && !outcome.living.empty();
+}
+
 std::string describe_living(const Finished& finished) {
     const std::optional<double> latency = latency_of(finished);
     return fmt::format("sweep of {}: {}", subject(finished),
@@ -52,6 +57,7 @@ std::string describe(const Finished& finished) {
                            Schedule::retry_delay(finished.job.failures + 1).count());
     }
     const IngestOutcome& outcome = finished.taken->ingest;
+    if (shows_living(outcome)) return describe_living(finished);
     switch (outcome.result) {
         case IngestResult::gridded:
             return describe_gridded(finished);
@@ -60,7 +66,6 @@ std::string describe(const Finished& finished) {
         case IngestResult::no_position:
             return fmt::format("no position for {}{}", subject(finished), because(outcome));
         case IngestResult::incomplete:
-            if (!outcome.living.empty()) return describe_living(finished);
             return fmt::format("waiting for the rest of {}{}", subject(finished), because(outcome));
         case IngestResult::rejected:
             return fmt::format("rejected {}{}", subject(finished), because(outcome));
@@ -86,8 +91,7 @@ About about(const Finished& finished) {
                   .volume = outcome.volume_time,
                   .file = finished.job.path};
     if (outcome.rejected_with) subject.reason = name_of(*outcome.rejected_with);
-    if (outcome.result == IngestResult::incomplete && !outcome.living.empty())
-        subject.event = Event::living;
+    if (shows_living(outcome)) subject.event = Event::living;
     if (!outcome.grids.empty() || !outcome.living.empty()) subject.latency_s = latency_of(finished);
     subject.took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
     return subject;
