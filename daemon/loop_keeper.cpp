@@ -188,9 +188,9 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
     ++slot.state.made;
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(number("frames"));
-    log_info({.event = Event::loop_made, .took_s = number("total_s"), .loop = slot.state.name},
-             "loop {}: made of {} frames in {:.1f} s", slot.state.name, slot.state.frames,
-             number("total_s"));
+    const double took_s = number("total_s");
+    log_info({.event = Event::loop_made, .took_s = took_s, .loop = slot.state.name},
+             "loop {}: made of {} frames in {:.1f} s", slot.state.name, slot.state.frames, took_s);
 }
 
 void LoopKeeper::note_line(Slot& slot, const std::string& line) {

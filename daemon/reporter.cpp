@@ -11,6 +11,8 @@ namespace {
 using pipeline::IngestOutcome;
 using pipeline::IngestResult;
 
+constexpr std::size_t longest_reason = 512;
+
 // "KTLX 2022-03-17T00:08:42Z NAME": what the event is about.
 std::string subject(const Finished& finished) {
     const IngestOutcome& outcome = finished.taken->ingest;
@@ -20,7 +22,8 @@ std::string subject(const Finished& finished) {
 }
 
 std::string because(const IngestOutcome& outcome) {
-    return outcome.reason.empty() ? "" : fmt::format(" ({})", printable(outcome.reason));
+    if (outcome.reason.empty()) return "";
+    return fmt::format(" ({})", printable(outcome.reason.substr(0, longest_reason)));
 }
 
 std::string describe_gridded(const Finished& finished) {

@@ -46,6 +46,8 @@ TEST(LogLine, OfARejectedFileSaysWhy) {
     made.taken->ingest.volume_time.reset();
     made.taken->ingest.reason = "is empty";
     EXPECT_EQ(describe(made), "rejected ???? - /d/a\\x0ab (is empty)");
+    made.taken->ingest.reason = std::string(100'000, 'x');
+    EXPECT_LT(describe(made).size(), 600U) << "a line is not as long as a file likes";
 }
 
 TEST(LogLine, OfAFailureSaysWhenItIsTriedAgain) {
