@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <span>
 #include <utility>
 
@@ -78,16 +77,7 @@ void LoopsService::wait(SteadyTime now) {
 }
 
 void LoopsService::handle_signals() {
-    if (parts_.signals == nullptr) return;
-    while (const std::optional<int> signal = parts_.signals->next()) {
-        if (*signal == SIGHUP) {
-            reload();
-        } else {
-            log_info({Event::stopping}, "stopping: asked to by {}",
-                     *signal == SIGTERM ? "SIGTERM" : "SIGINT");
-            stop_requested_ = true;
-        }
-    }
+    if (take_signals(parts_.signals, [this] { reload(); })) stop_requested_ = true;
 }
 
 void LoopsService::reload() {

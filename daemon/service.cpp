@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <system_error>
 #include <utility>
 
@@ -119,16 +118,7 @@ void Service::wait() {
 }
 
 void Service::handle_signals() {
-    if (parts_.signals == nullptr) return;
-    while (const std::optional<int> signal = parts_.signals->next()) {
-        if (*signal == SIGHUP) {
-            reload();
-        } else {
-            log_info({Event::stopping}, "stopping: asked to by {}",
-                     *signal == SIGTERM ? "SIGTERM" : "SIGINT");
-            stop_requested_ = true;
-        }
-    }
+    if (take_signals(parts_.signals, [this] { reload(); })) stop_requested_ = true;
 }
 
 void Service::reload() {
