@@ -162,11 +162,13 @@ void log_line(Severity severity, const About& about, std::string_view message) {
     write(severity, about, message, 0);
 }
 
-void log_held_back() {
+namespace {
+
+void log_held_back_until(SteadyTime::duration ahead) {
     std::vector<LineLimiter::HeldBack> all;
     {
         const std::scoped_lock lock(outlet().mutex);
-        all = outlet().limiter.take_held_back(outlet().clock());
+        all = outlet().limiter.take_held_back(outlet().clock() + ahead);
     }
     for (const LineLimiter::HeldBack& held : all) {
         if (!spdlog::should_log(level_of(held.severity))) continue;
@@ -175,6 +177,16 @@ void log_held_back() {
                           held.subject.empty() ? "" : " ", held.subject, held.lines),
               held.lines);
     }
+}
+
+}  // namespace
+
+void log_held_back() {
+    log_held_back_until({});
+}
+
+void log_all_held_back() {
+    log_held_back_until(LineLimiter::period);
 }
 
 }  // namespace stormcellar::daemon

@@ -75,7 +75,8 @@ void log_error(const About& about, fmt::format_string<Arguments...> text, Argume
 }
 
 // One line for each kind of which lines were held back in a minute that is over; call it every few
-// seconds.
+// seconds. At the end, in one that is not over either.
 void log_held_back();
+void log_all_held_back();
 
 }  // namespace stormcellar::daemon

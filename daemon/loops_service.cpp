@@ -61,6 +61,7 @@ void LoopsService::run() {
     keeper_.wait();
     if (auto loops = keeper_.news()) loops_ = std::move(*loops);
     publish("stopped");
+    log_all_held_back();
     log_info({Event::stopped}, "stopped");
 }
 

@@ -310,6 +310,7 @@ Stopped Service::stop() {
     if (auto loops = loop_keeper_.news()) status_.set_loops(std::move(*loops));
     collect();
     const std::size_t left = intake_.pending().waiting;
+    log_all_held_back();
     if (!drained) {
         log_error({Event::stopped_with_jobs}, "stopped with files still being read after {} s",
                   time_to_drain.count());

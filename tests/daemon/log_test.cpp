@@ -120,6 +120,19 @@ TEST_F(LogTest, AFloodIsSummedUpOnceAMinute) {
     EXPECT_EQ(count(), 0);
 }
 
+TEST_F(LogTest, AtTheEndNothingHeldBackIsForgotten) {
+    begin("info");
+    for (int i = 0; i < 25; ++i)
+        log_warning({.event = Event::rejected, .station = "KTLX"}, "rejected {}", i);
+    EXPECT_EQ(count(), 20);
+    log_held_back();
+    EXPECT_EQ(count(), 0) << "the minute is not over";
+    log_all_held_back();
+    const auto fields = socket_->receive_fields();
+    ASSERT_TRUE(fields);
+    EXPECT_EQ(fields->at("STORMCELLAR_HELD_BACK"), "5");
+}
+
 TEST_F(LogTest, OfALoopTheLoopIsNamed) {
     begin("info");
     for (int i = 0; i < 21; ++i)
