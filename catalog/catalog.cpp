@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view unknown_station = "_unknown";
 constexpr std::string_view database_ending = ".sqlite";
+constexpr std::size_t files_a_step = 1000;
 
 // The database that a station's rows stand in. Nothing unchecked becomes a file name.
 std::string database_name(std::string_view station) {
@@ -292,7 +293,7 @@ Result<int> Catalog::mark_gone(const fs::path& path) {
     return marked;
 }
 
-Result<int> Catalog::mark_missing(const fs::path& directory) {
+Result<int> Catalog::mark_missing(const fs::path& directory, const std::function<void()>& step) {
     const auto names = impl_->names();
     if (!names) return pass_on(names);
     int marked = 0;
@@ -302,8 +303,11 @@ Result<int> Catalog::mark_missing(const fs::path& directory) {
         });
         if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
         if (!paths) continue;
+        if (step) step();
         std::vector<fs::path> gone;
+        std::size_t looked_at = 0;
         for (const fs::path& path : *paths) {
+            if (step && ++looked_at % files_a_step == 0) step();
             std::error_code error;
             const fs::file_status status = fs::symlink_status(path, error);
             if (status.type() == fs::file_type::not_found) gone.push_back(path);

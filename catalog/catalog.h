@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -114,8 +115,10 @@ class Catalog {
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
-    // The same for every row below the directory: what went while nobody watched.
-    Result<int> mark_missing(const std::filesystem::path& directory);
+    // The same for every row below the directory: what went while nobody watched. `step` is called
+    // after each station and every 1,000 files, for whoever watches that it moves on.
+    Result<int> mark_missing(const std::filesystem::path& directory,
+                             const std::function<void()>& step = {});
 
     // True when the path stands in the catalog with this size and modification time and was decoded
     // to its end (complete, partial or rejected): nothing to do again.

@@ -62,6 +62,8 @@ struct StatusFacts {
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};
+    std::uint64_t living = 0;          // grids of volumes that had not ended, each time
+    Timings close_to_living{4096};     // of the chunk with which a sweep was complete
     Timings antenna_to_cache{4096};    // of data that can have come live
     std::uint64_t not_live = 0;        // volumes that it leaves out
     std::deque<RecentVolume> volumes;  // the last 64, oldest first, as the next
@@ -96,6 +98,7 @@ class StatusBook {
   private:
     void add_ingested(const Finished& finished, UtcTime at);
     void add_rejected(const Finished& finished, UtcTime at);
+    void add_living(const Finished& finished);
 
     StatusFacts facts_;
 };

@@ -9,9 +9,9 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <vector>
 
@@ -43,15 +43,19 @@ class WorkerPool {
     void submit(Job job);  // only when a worker is free
     // What has ended since the last call.
     std::vector<Finished> collect();
-    // When the longest running job began; none when all are idle.
-    [[nodiscard]] std::optional<SteadyTime> oldest_start() const;
+    // The longest running job, by its file; none when all are idle.
+    struct Oldest {
+        std::filesystem::path path;
+        SteadyTime since;
+    };
+    [[nodiscard]] std::optional<Oldest> oldest() const;
     // No job begins any more; true when the running ones ended within the time.
     bool drain(std::chrono::milliseconds within);
 
   private:
     struct Begun {
         Job job;
-        SteadyTime at;
+        std::multimap<SteadyTime, std::filesystem::path>::iterator entry;  // of running_
     };
     void work();
     std::optional<Begun> wait_for_job();
@@ -64,7 +68,7 @@ class WorkerPool {
     std::condition_variable changed_;
     std::deque<Job> inbox_;
     std::vector<Finished> outbox_;
-    std::multiset<SteadyTime> running_;  // when each running job began
+    std::multimap<SteadyTime, std::filesystem::path> running_;  // by when each began
     int wanted_ = 0;
     int alive_ = 0;
     bool stopping_ = false;

@@ -54,6 +54,8 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     outcome.result = IngestResult::incomplete;
     outcome.followed = true;
     const KeptVolume& kept = living_file.kept();
+    // Also where no sweep is complete yet: something has come of the station.
+    outcome.station = kept.facts.station.empty() ? file.station : kept.facts.station;
     if (!living_file.news().any || living_file.holds_several()) return outcome;
     FileFacts facts = file;
     facts.station = kept.facts.station;

@@ -353,6 +353,24 @@ TEST_F(CatalogTest, WhatCouldNotBeReadIsNeverSettled) {
     EXPECT_FALSE(*catalog_.is_settled("/d/KTLX_a", 1000, 42));
 }
 
+// A watchdog goes by the steps: one a station at least, and no more than 1,000 files between two.
+TEST_F(CatalogTest, LookingForFilesThatWentSaysThatItMovesOn) {
+    const std::filesystem::path drop = directory_ / "drop";
+    ASSERT_TRUE(catalog_.register_file(file(drop / "a", {volume("2022-03-17T00:00")})));
+    int steps = 0;
+    EXPECT_EQ(*catalog_.mark_missing(drop, [&] { ++steps; }), 1);
+    const int of_one_file = steps;
+    EXPECT_GE(of_one_file, 1);
+    for (int i = 0; i < 2500; ++i) {
+        FileFacts unread = file(drop / fmt::format("KTLX_{}", i), {});
+        unread.state = FileState::rejected;
+        ASSERT_TRUE(catalog_.register_file(unread));
+    }
+    steps = 0;
+    EXPECT_EQ(*catalog_.mark_missing(drop, [&] { ++steps; }), 2500);
+    EXPECT_GE(steps, of_one_file + 2);
+}
+
 TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
     const std::filesystem::path drop = directory_ / "drop";
     std::filesystem::create_directory(drop);

@@ -41,7 +41,16 @@ class FakeSink final : public Sink {
         called_.notify_all();
         return {};
     }
-    Result<int> mark_missing() override { return 0; }
+    Result<int> mark_missing(const OnStep& step) override {
+        if (looks) looks(step);
+        return 0;
+    }
+    CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& step) override {
+        if (rolls) rolls(step);
+        return {};
+    }
+    // What else they do; set before the sink is used.
+    std::function<void(const OnStep&)> looks, rolls;
 
     // False when it takes too long.
     bool wait_for_calls(std::size_t count) {

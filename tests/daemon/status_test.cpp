@@ -156,6 +156,23 @@ TEST(StatusBook, EachStationHasAgesLatenciesAndWhatIsMissing) {
     EXPECT_EQ(ktlx["missing"][0]["numbers"], nlohmann::json({3, 9}));
 }
 
+TEST(StatusBook, SweepsOfGrowingVolumesAreCountedApart) {
+    StatusBook book("/d", "/c");
+    for (const int latency_ms : {100, 300}) {
+        Finished one = finished("/d/a", IngestResult::incomplete, latency_ms);
+        one.taken->ingest.living = {"/c/living.scg"};
+        book.add(one, now_utc());
+    }
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["ingested"], 0);
+    EXPECT_EQ(status["latency_s"]["count"], 0);
+    EXPECT_EQ(status["living_grids"], 2);
+    EXPECT_EQ(status["sweep_latency_s"]["count"], 2);
+    EXPECT_NEAR(status["sweep_latency_s"]["max"], 0.3, 1e-9);
+    EXPECT_EQ(status["stations"][0]["living_grids"], 2);
+    EXPECT_NEAR(status["stations"][0]["sweep_latency_s"]["median"], 0.1, 1e-9);
+}
+
 TEST(StatusBook, NothingYetIsNullAndNotZero) {
     const StatusBook book("/d", "/c");
     const auto status = nlohmann::json::parse(book.json({}, now_utc()));

@@ -87,23 +87,24 @@ TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {
     EXPECT_TRUE(pool.has_free_worker());
 }
 
-TEST(WorkerPool, SaysSinceWhenItsOldestJobRuns) {
+TEST(WorkerPool, SaysWhichJobRunsLongestAndSinceWhen) {
     std::latch release(1);
     FakeSink sink([&](const auto&, bool) {
         release.wait();
         return outcome_of(IngestResult::gridded);
     });
     WorkerPool pool(work_of(sink), "ingest", 1, [] {});
-    EXPECT_FALSE(pool.oldest_start());
+    EXPECT_FALSE(pool.oldest());
     const SteadyTime before = std::chrono::steady_clock::now();
     pool.submit(job("a"));
     EXPECT_FALSE(pool.has_free_worker());
-    while (!pool.oldest_start())
+    while (!pool.oldest())
         std::this_thread::yield();
-    EXPECT_GE(*pool.oldest_start(), before);
+    EXPECT_GE(pool.oldest()->since, before);
+    EXPECT_EQ(pool.oldest()->path, job("a").path);
     release.count_down();
     EXPECT_EQ(collect(pool, 1).size(), 1U);
-    EXPECT_FALSE(pool.oldest_start());
+    EXPECT_FALSE(pool.oldest());
 }
 
 TEST(WorkerPool, CanGrowAndShrink) {
