@@ -7,7 +7,8 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::size_t most_growing = 16'384;
-constexpr std::size_t most_problems = 16;
+constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
+constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
 
 }  // namespace
@@ -42,8 +43,14 @@ void Intake::offer(Job job, const FileStamp& stamp) {
     }
 }
 
+// The order of what is closed stays as it came when the clock on the wall is set back.
+std::int64_t Intake::closed_now_ns() {
+    newest_closed_ns_ = std::max(newest_closed_ns_ + 1, clock_.wall_ns());
+    return newest_closed_ns_;
+}
+
 void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
-    Job job{.path = path, .closed_at = clock_.steady(), .newest_ns = clock_.wall_ns()};
+    Job job{.path = path, .closed_at = clock_.steady(), .newest_ns = closed_now_ns()};
     const auto incomplete_at = growing_.found_incomplete_at(path);
     if (incomplete_at && !followed_.contains(path)) {
         const SteadyTime earliest = *incomplete_at + reread_;
@@ -71,7 +78,9 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
     } else {
-        offer({.path = path, .closed_at = std::nullopt, .newest_ns = stamp.modified_ns}, stamp);
+        // A time in the future puts nothing before what is closed now.
+        const std::int64_t newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
+        offer({.path = path, .closed_at = std::nullopt, .newest_ns = newest_ns}, stamp);
     }
 }
 
@@ -84,6 +93,33 @@ void Intake::file_gone(const std::filesystem::path& path) {
     schedule_.offer({.path = path, .closed_at = std::nullopt, .newest_ns = 0});
 }
 
+// The kernel tells of the directory alone. One that was moved away takes files along of which
+// nothing is known here but hashes: a scan marks their rows.
+void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
+    std::vector<std::filesystem::path> gone;
+    const auto is_below = [&](const std::filesystem::path& file) {
+        return std::mismatch(path.begin(), path.end(), file.begin(), file.end()).first ==
+               path.end();
+    };
+    for (auto at = followed_.lower_bound(path); at != followed_.end() && is_below(*at); ++at)
+        gone.push_back(*at);
+    for (const std::filesystem::path& file : gone)
+        file_gone(file);
+    if (!deleted) lost_ = true;
+}
+
+void Intake::entry_left_out(const std::filesystem::path& path, std::string_view kind) {
+    tell({ErrorCode::not_a_file, fmt::format("{}: is {}: left out", path.native(), kind)});
+}
+
+void Intake::tell(Error problem) {
+    const std::filesystem::path key = problem.message;
+    if (told_.contains(key, {})) return told_.found_again(key);
+    if (problems_.size() >= most_problems) return;
+    if (told_.count() < most_told) told_.add(key, {});
+    problems_.push_back(std::move(problem));
+}
+
 void Intake::events_lost() {
     ++overflows_;
     lost_ = true;
@@ -94,7 +130,7 @@ void Intake::drop_vanished() {
 }
 
 void Intake::directory_problem(const Error& error) {
-    if (problems_.size() < most_problems) problems_.push_back(error);
+    tell(error);
 }
 
 void Intake::forget_seen() {
@@ -107,7 +143,7 @@ void Intake::poll_growing() {
         offer({.path = std::move(due.path),
                .finish_partial = due.finish_partial,
                .closed_at = std::nullopt,
-               .newest_ns = due.stamp.modified_ns},
+               .newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns())},
               due.stamp);
     }
 }
@@ -148,10 +184,18 @@ void Intake::begin_scan() {
     lost_ = false;
     refused_ = false;
     seen_.begin_scan();
+    told_.begin_scan();
 }
 
 void Intake::end_scan(bool whole) {
-    if (whole) seen_.end_scan();
+    if (!whole) return;
+    seen_.end_scan();
+    told_.end_scan();
+    // Those of which no event came: lost, or never sent.
+    const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
+    for (const std::filesystem::path& path : followed) {
+        if (look_at(path).standing != Standing::regular) file_gone(path);
+    }
 }
 
 bool Intake::needs_scan() const {

@@ -100,9 +100,9 @@ void Reporter::report(const Finished& finished, SteadyTime now) {
 
 void Reporter::report_directory(const Error& error, SteadyTime now) {
     if (!directories_.allow(now)) return;
-    spdlog::warn(
-        "{}{}", printable(error.message),
-        error.code == ErrorCode::no_space ? "; until then files there are found by rescans" : "");
+    const bool is_blind = error.code == ErrorCode::no_space || error.code == ErrorCode::unsupported;
+    spdlog::warn("{}{}", printable(error.message),
+                 is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
 }
 
 // Where the air is clear nothing can be told: that is no news, hour by hour.
@@ -122,7 +122,8 @@ void Reporter::report_sites(const pipeline::PairReport& report) {
 void Reporter::report_held_back(SteadyTime now) {
     log_held_back(rejected_, now, "files rejected or with nothing to grid");
     log_held_back(failures_, now, "failures to store a file");
-    log_held_back(directories_, now, "directories that cannot be watched or read");
+    log_held_back(directories_, now,
+                  "entries of the drop directory that were left out, or cannot be watched or read");
 }
 
 }  // namespace stormcellar::daemon

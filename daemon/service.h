@@ -104,8 +104,10 @@ class Service {
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     bool drop_missing_ = false;
-    SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
-    WorkerPool pool_;                    // last: its threads use what stands above
+    // The earliest next scan, the regular one, and the next that looks for rows of missing files
+    // when the regular ones are polls.
+    SteadyTime rested_{}, next_scan_{}, next_rescan_{};
+    WorkerPool pool_;  // last: its threads use what stands above
     // The last members: their threads are waited for before the rest goes.
     std::future<void> missing_;
     CacheKeeper cache_keeper_;

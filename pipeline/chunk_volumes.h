@@ -84,6 +84,7 @@ class ChunkVolume {
     void shelve_new_sweeps();
 
     level2::Moment moment_;
+    std::filesystem::path beneath_;
     level2::LiveVolume live_;
     std::unique_ptr<KeptVolume> kept_;
     std::map<std::filesystem::path, File> files_;
