@@ -27,7 +27,7 @@ class Reporter {
   private:
     RateLimit rejected_{20, std::chrono::seconds{10}};
     RateLimit failures_{3, std::chrono::seconds{10}};
-    RateLimit directories_{3, std::chrono::seconds{60}};
+    RateLimit directories_{20, std::chrono::seconds{10}};
 };
 
 }  // namespace stormcellar::daemon
