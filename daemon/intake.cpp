@@ -45,7 +45,8 @@ void Intake::offer(Job job, const FileStamp& stamp) {
 
 // The order of what is closed stays as it came when the clock on the wall is set back.
 std::int64_t Intake::closed_now_ns() {
-    newest_closed_ns_ = std::max(newest_closed_ns_ + 1, clock_.wall_ns());
+    const std::int64_t now_ns = clock_.wall_ns();
+    newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
     return newest_closed_ns_;
 }
 

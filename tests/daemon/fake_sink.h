@@ -1,6 +1,7 @@
 // tests/daemon/fake_sink.h -- a sink that does what the test says, and remembers what it was given.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -33,7 +34,11 @@ class FakeSink final : public Sink {
         return taken;
     }
 
-    Result<int> mark_missing() override { return 0; }
+    Result<int> mark_missing() override {
+        ++missing_looks_;
+        return 0;
+    }
+    [[nodiscard]] int missing_looks() const { return missing_looks_; }
 
     // False when it takes too long.
     bool wait_for_calls(std::size_t count) {
@@ -49,6 +54,7 @@ class FakeSink final : public Sink {
 
   private:
     Answer answer_;
+    std::atomic<int> missing_looks_ = 0;
     std::mutex mutex_;
     std::condition_variable called_;
     std::vector<std::string> calls_;
