@@ -18,8 +18,9 @@ FileStamp stamp_of(const struct stat& facts) {
 FileFound look_at(const std::filesystem::path& path) {
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) return {};
-    if (S_ISREG(facts.st_mode)) return {Standing::regular, stamp_of(facts)};
-    return {S_ISDIR(facts.st_mode) ? Standing::directory : Standing::other, stamp_of(facts)};
+    if (S_ISREG(facts.st_mode)) return {Standing::regular, stamp_of(facts), facts.st_mode};
+    return {S_ISDIR(facts.st_mode) ? Standing::directory : Standing::other, stamp_of(facts),
+            facts.st_mode};
 }
 
 }  // namespace stormcellar::daemon

@@ -25,6 +25,7 @@ enum class Standing { regular, directory, other, missing };
 struct FileFound {
     Standing standing = Standing::missing;
     FileStamp stamp;
+    mode_t mode = 0;
 };
 // A path that may not be looked at counts as missing.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);

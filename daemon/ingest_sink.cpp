@@ -15,6 +15,7 @@ IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Confi
 pipeline::IngestOptions IngestSink::options_of(const Config& config,
                                                std::shared_ptr<const std::atomic<bool>> pressed) {
     pipeline::IngestOptions options = config.ingest;
+    options.beneath = config.drop;
     if (config.living) {
         options.living.scratch = config.state;
         options.living.has_time = [pressed = std::move(pressed)] { return !*pressed; };
