@@ -23,7 +23,8 @@ Clock real_clock() {
 }
 
 Intake::Intake(const Config& config, Clock clock)
-    : clock_(std::move(clock)),
+    : drop_(config.drop),
+      clock_(std::move(clock)),
       reread_(config.reread),
       schedule_(config.queue_limit),
       growing_(config.quiet, most_growing) {}
@@ -140,7 +141,8 @@ void Intake::forget_seen() {
 }
 
 void Intake::poll_growing() {
-    for (GrowingFiles::Due& due : growing_.poll(clock_.steady())) {
+    for (GrowingFiles::Due& due : growing_.poll(
+             clock_.steady(), [this](const std::filesystem::path& path) { return look(path); })) {
         offer({.path = std::move(due.path),
                .finish_partial = due.finish_partial,
                .closed_at = std::nullopt,
@@ -195,7 +197,7 @@ void Intake::end_scan(bool whole) {
     // Those of which no event came: lost, or never sent.
     const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
     for (const std::filesystem::path& path : followed) {
-        if (look_at(path).standing != Standing::regular) file_gone(path);
+        if (look(path).standing != Standing::regular) file_gone(path);
     }
 }
 
