@@ -29,5 +29,8 @@ struct FileFound {
 };
 // A path that may not be looked at counts as missing.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
+// The same below a directory: what lies behind links is missing too (base/beneath.h).
+[[nodiscard]] FileFound look_at(const std::filesystem::path& path,
+                                const std::filesystem::path& beneath);
 
 }  // namespace stormcellar::daemon

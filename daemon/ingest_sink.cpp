@@ -49,7 +49,7 @@ std::vector<std::string> IngestSink::take_repairs() {
 
 Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_partial) {
     Taken taken;
-    const FileFound found = look_at(path);
+    const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
         taken.ingest.result = pipeline::IngestResult::vanished;  // something else took its name

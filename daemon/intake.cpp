@@ -26,7 +26,8 @@ Clock real_clock() {
 }
 
 Intake::Intake(const Config& config, Clock clock)
-    : clock_(std::move(clock)),
+    : drop_(config.drop),
+      clock_(std::move(clock)),
       reread_(config.reread),
       schedule_(config.queue_limit),
       growing_(config.quiet, most_growing) {}
@@ -163,7 +164,8 @@ void Intake::forget_seen() {
 }
 
 void Intake::poll_growing() {
-    for (GrowingFiles::Due& due : growing_.poll(clock_.steady())) {
+    for (GrowingFiles::Due& due : growing_.poll(
+             clock_.steady(), [this](const std::filesystem::path& path) { return look(path); })) {
         Job job = job_for(due.path, Urgency::live);
         job.finish_partial = due.finish_partial;
         job.newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns());
@@ -217,7 +219,7 @@ void Intake::end_scan(bool whole) {
     // Those of which no event came: lost, or never sent.
     const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
     for (const std::filesystem::path& path : followed) {
-        if (look_at(path).standing != Standing::regular) file_gone(path);
+        if (look(path).standing != Standing::regular) file_gone(path);
     }
 }
 

@@ -89,6 +89,11 @@ class Intake final : public WatchListener {
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();
 
+    [[nodiscard]] FileFound look(const std::filesystem::path& path) const {
+        return look_at(path, drop_);
+    }
+
+    std::filesystem::path drop_;
     Clock clock_;
     std::chrono::milliseconds reread_;
     Schedule schedule_;

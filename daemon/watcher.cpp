@@ -154,7 +154,7 @@ void Watcher::handle_file(const DirectoryEvent& event, const std::filesystem::pa
     }
     const bool closed_or_made = (event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE)) != 0;
     if (!closed_or_made && !listener_.follows(path)) return;
-    const FileFound found = look_at(path);
+    const FileFound found = look_at(path, drop_);
     if (found.standing == Standing::other) listener_.entry_left_out(path, kind_of_file(found.mode));
     if (found.standing != Standing::regular) return;
     if (!closed_or_made) {
