@@ -100,12 +100,19 @@ std::string with_kinds(const json& status, const char* key, const char* by) {
     return line + fmt::format(" ({})", fmt::join(each, ", "));
 }
 
+// How long the first of them has, where it is long.
+std::string wait_of(const json& pending) {
+    const double wait_s = number(pending, "longest_wait_s").value_or(0);
+    return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);
+}
+
 std::string counts_lines(const json& status) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
-        "queue    {} waiting, {} running, {} growing; {} of the kernel's events, {}\n",
-        count(pending, "waiting"), count(pending, "running"), count(pending, "growing"),
-        counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
+        "queue    {} waiting{}, {} running, {} growing; {} of the kernel's events, {}\n",
+        count(pending, "waiting"), wait_of(pending), count(pending, "running"),
+        count(pending, "growing"), counted(count(status, "overflows"), "overflow"),
+        counted(count(status, "scans"), "scan"));
     lines += fmt::format("files    {} gridded ({} partial), {}, {} with nothing to grid, {}\n",
                          count(status, "ingested"), count(status, "partial"),
                          with_kinds(status, "rejected", "rejected_by"),

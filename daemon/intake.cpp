@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/drop_names.h"
+
 namespace stormcellar::daemon {
 namespace {
 
 constexpr std::size_t most_growing = 16'384;
 constexpr std::size_t most_problems = 16;
 constexpr std::int64_t recent_ns = 1'000'000'000;
+constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
 
 }  // namespace
 
@@ -32,9 +35,22 @@ void Intake::set_times(const Config& config) {
     growing_.set_quiet(config.quiet);
 }
 
+// A followed file has its row since it began.
+Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
+    Job job;
+    job.path = path;
+    const bool is_followed = followed_.contains(path);
+    job.urgency = urgency;
+    job.is_begun = is_followed || pipeline::is_chunk_name(path);
+    job.is_registered = is_followed;
+    job.station = pipeline::station_by_name(path);
+    if (job.station.empty()) job.station = path.parent_path().native();
+    return job;
+}
+
 void Intake::offer(Job job, const FileStamp& stamp) {
     const std::filesystem::path path = job.path;
-    if (schedule_.offer(std::move(job)) == Offered::refused) {
+    if (schedule_.offer(std::move(job), clock_.steady()) == Offered::refused) {
         refused_ = true;
         seen_.forget(path);
     } else {
@@ -43,7 +59,9 @@ void Intake::offer(Job job, const FileStamp& stamp) {
 }
 
 void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
-    Job job{.path = path, .closed_at = clock_.steady(), .newest_ns = clock_.wall_ns()};
+    Job job = job_for(path, Urgency::live);
+    job.closed_at = clock_.steady();
+    job.newest_ns = clock_.wall_ns();
     const auto incomplete_at = growing_.found_incomplete_at(path);
     if (incomplete_at && !followed_.contains(path)) {
         const SteadyTime earliest = *incomplete_at + reread_;
@@ -71,7 +89,10 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
     } else {
-        offer({.path = path, .closed_at = std::nullopt, .newest_ns = stamp.modified_ns}, stamp);
+        const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
+        Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
+        job.newest_ns = stamp.modified_ns;
+        offer(std::move(job), stamp);
     }
 }
 
@@ -81,7 +102,10 @@ void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
     followed_.erase(path);
     seen_.forget(path);
-    schedule_.offer({.path = path, .closed_at = std::nullopt, .newest_ns = 0});
+    Job job;
+    job.path = path;
+    job.is_registered = true;
+    schedule_.offer(std::move(job), clock_.steady());
 }
 
 void Intake::events_lost() {
@@ -104,11 +128,10 @@ void Intake::forget_seen() {
 
 void Intake::poll_growing() {
     for (GrowingFiles::Due& due : growing_.poll(clock_.steady())) {
-        offer({.path = std::move(due.path),
-               .finish_partial = due.finish_partial,
-               .closed_at = std::nullopt,
-               .newest_ns = due.stamp.modified_ns},
-              due.stamp);
+        Job job = job_for(due.path, Urgency::live);
+        job.finish_partial = due.finish_partial;
+        job.newest_ns = due.stamp.modified_ns;
+        offer(std::move(job), due.stamp);
     }
 }
 
@@ -163,6 +186,11 @@ std::optional<SteadyTime> Intake::next_time(bool can_start) const {
     const auto poll = growing_.next_time();
     if (!job || !poll) return job ? job : poll;
     return std::min(*job, *poll);
+}
+
+SteadyTime::duration Intake::longest_wait() const {
+    const auto oldest = schedule_.oldest_offer();
+    return oldest ? clock_.steady() - *oldest : SteadyTime::duration{};
 }
 
 Pending Intake::pending() const {

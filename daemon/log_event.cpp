@@ -23,6 +23,8 @@ constexpr std::array<std::string_view, event_count> names = {
     "vanished",
     "registered",
     "store_failed",
+    "behind",
+    "behind_no_more",
     "watch_failed",
     "directory_problem",
     "overflow",

@@ -33,6 +33,8 @@ enum class Event {
     vanished,
     registered,
     store_failed,
+    behind,
+    behind_no_more,
     // of the drop directory
     watch_failed,
     directory_problem,

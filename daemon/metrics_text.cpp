@@ -33,6 +33,12 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.sample(std::uint64_t{pending.waiting}, {{"state", "waiting"}});
     out.sample(std::uint64_t{pending.running}, {{"state", "running"}});
     out.sample(std::uint64_t{pending.growing}, {{"state", "growing"}});
+    out.family("stormcellar_longest_wait_seconds", Type::gauge,
+               "How long the file that has waited for longest has been able to run.");
+    out.sample(facts.longest_wait_s);
+    out.family("stormcellar_living_left_out_total", Type::counter,
+               "Living grids that were left out because whole volumes waited.");
+    out.sample(facts.living_left_out);
     out.family("stormcellar_event_overflows_total", Type::counter,
                "How often the kernel dropped directory events.");
     out.sample(facts.overflows);

@@ -18,12 +18,18 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
+constexpr std::chrono::seconds between_backlog_looks{1}, behind_after{20};
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
     const bool same_socket =
         fresh.status.socket.empty() || fresh.status.socket == running.status.socket;
     return same_socket && fresh.status.http_port == running.status.http_port;
+}
+
+Result<Taken> note(Sink& sink, const Job& job) {
+    if (Status noted = sink.note(job.path); !noted) return pass_on(noted);
+    return Taken{};
 }
 
 }  // namespace
@@ -37,7 +43,10 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       status_(config_.drop, config_.cache),
       status_file_(parts_.file_system, config_.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
-      pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }),
+      pool_([this](const Job& job) { return parts_.sink.take(job.path, job.finish_partial); },
+            "ingest", config_.worker_count(), [this] { wake_up_.set(); }),
+      registrar_([this](const Job& job) { return note(parts_.sink, job); }, "register", 1,
+                 [this] { wake_up_.set(); }),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
     status_.set_listening(config_.status.socket, config_.status.http_port);
@@ -169,6 +178,9 @@ void Service::collect() {
         intake_.job_ended(finished);
         status_file_.changed();
     }
+    // What could not be written will be when the file is taken in.
+    for (const Finished& noted : registrar_.collect())
+        intake_.registered(noted.job);
 }
 
 void Service::scan_if_due() {
@@ -222,6 +234,11 @@ void Service::mark_missing() {
 }
 
 void Service::start_jobs() {
+    if (registrar_.has_free_worker()) {
+        if (std::optional<Job> job = intake_.next_unregistered()) {
+            registrar_.submit(std::move(*job));
+        }
+    }
     while (pool_.has_free_worker()) {
         std::optional<Job> job = intake_.next_job();
         if (!job) return;
@@ -239,6 +256,7 @@ void Service::keep_house() {
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
     report_repairs();
+    report_backlog(now);
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         Reporter::report_directory(problem);
@@ -257,9 +275,13 @@ void Service::keep_house() {
 
 std::optional<Step> Service::oldest_step() const {
     std::optional<Step> oldest = pulses_.oldest();
-    const auto job = pool_.oldest();
-    if (job && (!oldest || job->since < oldest->since))
-        oldest = Step{"ingest of " + job->path.native(), job->since};
+    const auto look_at = [&](const char* what, const WorkerPool& pool) {
+        const auto job = pool.oldest();
+        if (job && (!oldest || job->since < oldest->since))
+            oldest = Step{what + job->path.native(), job->since};
+    };
+    look_at("ingest of ", pool_);
+    look_at("registration of ", registrar_);
     return oldest;
 }
 
@@ -269,6 +291,28 @@ void Service::publish(bool at_once) {
     published_ = pending;
     if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
+}
+
+// Once when it begins, each minute while it lasts, and once when it is over.
+void Service::report_backlog(SteadyTime now) {
+    if (now < next_backlog_) return;
+    next_backlog_ = now + between_backlog_looks;
+    const auto wait = intake_.longest_wait();
+    status_.set_longest_wait(std::chrono::duration<double>(wait).count());
+    const std::size_t waiting = intake_.pending().waiting;
+    if (wait >= behind_after) {
+        if (!is_behind_ || now >= next_behind_line_) {
+            log_warning({Event::behind},
+                        "behind: {} files wait, one of them for {} s; of growing volumes only the "
+                        "low sweeps are gridded, whole volumes all",
+                        waiting, std::chrono::duration_cast<std::chrono::seconds>(wait).count());
+            next_behind_line_ = now + std::chrono::minutes{1};
+        }
+        is_behind_ = true;
+    } else if (is_behind_ && wait < behind_after / 2) {
+        log_info({Event::behind_no_more}, "no longer behind: {} files wait", waiting);
+        is_behind_ = false;
+    }
 }
 
 void Service::report_repairs() {
@@ -305,7 +349,7 @@ Stopped Service::stop() {
     status_.set_state("stopping");
     publish(true);
     loop_keeper_.stop();
-    const bool drained = pool_.drain(time_to_drain);
+    const bool drained = pool_.drain(time_to_drain) && registrar_.drain(time_to_drain);
     loop_keeper_.wait();
     if (auto loops = loop_keeper_.news()) status_.set_loops(std::move(*loops));
     collect();

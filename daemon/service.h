@@ -86,6 +86,7 @@ class Service {
     bool scan();
     void mark_missing();
     void start_jobs();
+    void report_backlog(SteadyTime now);
     void keep_house();
     void report_repairs();
     void report_sites();
@@ -111,7 +112,10 @@ class Service {
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     bool drop_missing_ = false;
     SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
-    WorkerPool pool_;                    // last: its threads use what stands above
+    bool is_behind_ = false;             // and it stands in the log
+    SteadyTime next_backlog_{}, next_behind_line_{};
+    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
+    WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.
     std::future<void> missing_;
     CacheKeeper cache_keeper_;

@@ -36,6 +36,9 @@ class Sink {
 
     // An error is ours alone (catalog or cache cannot be written): the file is tried again later.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial) = 0;
+    // Writes the file into the catalog as it is there, unread; for one that has to wait. May run
+    // beside take() of other paths.
+    virtual Status note(const std::filesystem::path& /*path*/) { return {}; }
     // Whether more waits than workers can soon take: what may be left out is left out.
     virtual void set_pressed(bool /*pressed*/) {}
     // Called now and then by what may last long, from its own thread: it moves on.

@@ -57,6 +57,8 @@ struct StatusFacts {
     PerErrorCode<std::uint64_t> failed{};    // of failures: by what hindered
     std::uint64_t overflows = 0, scans = 0;
     std::size_t directories = 0;
+    double longest_wait_s = 0;          // of the files that wait
+    std::uint64_t living_left_out = 0;  // living grids, for want of time
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};
@@ -77,6 +79,7 @@ class StatusBook {
     // `at`: when it ended, by the clock on the wall.
     void add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
+    void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
     void count_scan(std::size_t directories);
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);

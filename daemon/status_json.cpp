@@ -202,8 +202,10 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"pending",
              {{"waiting", pending.waiting},
               {"running", pending.running},
-              {"growing", pending.growing}}},
+              {"growing", pending.growing},
+              {"longest_wait_s", facts.longest_wait_s}}},
             {"overflows", facts.overflows},
+            {"living_left_out", facts.living_left_out},
             {"scans", facts.scans},
             {"directories", facts.directories},
             {"rolling", json_of(facts.usage)}};

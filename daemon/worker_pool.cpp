@@ -8,8 +8,8 @@
 
 namespace stormcellar::daemon {
 
-WorkerPool::WorkerPool(Sink& sink, int workers, std::function<void()> wake)
-    : sink_(sink), wake_(std::move(wake)) {
+WorkerPool::WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake)
+    : work_(std::move(work)), thread_name_(thread_name), wake_(std::move(wake)) {
     resize(workers);
 }
 
@@ -83,14 +83,14 @@ std::optional<WorkerPool::Begun> WorkerPool::wait_for_job() {
 
 Result<Taken> WorkerPool::take(const Job& job) {
     try {
-        return sink_.take(job.path, job.finish_partial);
+        return work_(job);
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, "{}: {}", job.path.native(), error.what());
     }
 }
 
 void WorkerPool::work() {
-    ::pthread_setname_np(::pthread_self(), "ingest");
+    ::pthread_setname_np(::pthread_self(), thread_name_);
     while (std::optional<Begun> begun = wait_for_job()) {
         Result<Taken> taken = take(begun->job);
         const SteadyTime ended = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// daemon/worker_pool.h -- the threads that take files in.
+// daemon/worker_pool.h -- threads that take files in, or write them into the catalog.
 //
 // A job is handed over only when a worker is free, so nothing queues here. A worker outlives every
 // file: what is thrown becomes an error of the job.
@@ -29,7 +29,10 @@ struct Finished {
 
 class WorkerPool {
   public:
-    WorkerPool(Sink& sink, int workers, std::function<void()> wake);
+    // What a worker does with a job; called by all of them.
+    using Work = std::function<Result<Taken>(const Job&)>;
+
+    WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
     ~WorkerPool();  // waits for the running jobs
@@ -58,7 +61,8 @@ class WorkerPool {
     std::optional<Begun> wait_for_job();
     Result<Taken> take(const Job& job);
 
-    Sink& sink_;
+    Work work_;
+    const char* thread_name_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;  // all below but threads_
     std::condition_variable changed_;

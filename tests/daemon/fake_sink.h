@@ -33,6 +33,14 @@ class FakeSink final : public Sink {
         return taken;
     }
 
+    Status note(const std::filesystem::path& path) override {
+        {
+            const std::lock_guard lock(mutex_);
+            noted_.push_back(path.filename().native());
+        }
+        called_.notify_all();
+        return {};
+    }
     Result<int> mark_missing(const OnStep& step) override {
         if (looks) looks(step);
         return 0;
@@ -50,6 +58,12 @@ class FakeSink final : public Sink {
         return called_.wait_for(lock, std::chrono::seconds{20},
                                 [&] { return calls_.size() >= count; });
     }
+    // In their order; what there is after a while, where it is less.
+    std::vector<std::string> wait_for_noted(std::size_t count) {
+        std::unique_lock lock(mutex_);
+        called_.wait_for(lock, std::chrono::seconds{20}, [&] { return noted_.size() >= count; });
+        return noted_;
+    }
     // "NAME", with "!" when it was to be finished; in the order in which they ended.
     std::vector<std::string> calls() {
         const std::lock_guard lock(mutex_);
@@ -60,7 +74,7 @@ class FakeSink final : public Sink {
     Answer answer_;
     std::mutex mutex_;
     std::condition_variable called_;
-    std::vector<std::string> calls_;
+    std::vector<std::string> calls_, noted_;
 };
 
 inline pipeline::IngestOutcome outcome_of(pipeline::IngestResult result) {

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <csignal>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <memory>
 #include <thread>
 
@@ -63,6 +65,11 @@ class ServiceTest : public ::testing::Test {
         }
         return false;
     }
+    static bool wait_for(const std::function<bool()>& condition) {
+        for (int i = 0; i < 2000 && !condition(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        return condition();
+    }
     [[nodiscard]] nlohmann::json status() const {
         std::ifstream file(root_ / "state/status.json");
         return nlohmann::json::parse(file);
@@ -96,6 +103,32 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
     EXPECT_EQ(status()["ingested"], 2);
     EXPECT_EQ(status()["latency_s"]["count"], 1) << "nobody saw the first one's close";
     EXPECT_TRUE(wait_for_message("STOPPING=1"));
+}
+
+// Both workers are held up by files that take long.
+TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
+    std::atomic<int> held = 0;
+    std::promise<void> go_on;
+    const std::shared_future<void> released = go_on.get_future().share();
+    start([&](const auto& path, bool) {
+        if (path.filename().native().starts_with("slow")) {
+            ++held;
+            released.wait();
+        }
+        return outcome_of(IngestResult::gridded);
+    });
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    write_file(config_.drop / "slow1", "1");
+    write_file(config_.drop / "slow2", "1");
+    ASSERT_TRUE(wait_for([&] { return held == 2; }));
+    write_file(config_.drop / "waits1", "1");
+    write_file(config_.drop / "waits2", "1");
+    EXPECT_EQ(sink_->wait_for_noted(2), (std::vector<std::string>{"waits1", "waits2"}));
+    EXPECT_TRUE(sink_->calls().empty());
+    go_on.set_value();
+    EXPECT_TRUE(sink_->wait_for_calls(4));
+    EXPECT_EQ(stop(), Stopped::cleanly);
+    EXPECT_EQ(sink_->wait_for_noted(2).size(), 2U) << "each once, the slow ones not at all";
 }
 
 TEST_F(ServiceTest, FinishesAnIncompleteFileThatStaysQuiet) {
