@@ -2,7 +2,7 @@
 //
 // A thread that works says so at each step; one that waits for something to do rests. What counts
 // is how long the step lasts that a thread is at, so long work is no hang as long as it has steps:
-//   ingest        one file (worker_pool.h)
+//   ingest, registration   one file (worker_pool.h)
 //   missing       the looking for files that went: the names of one station, or 1,000 of them
 //   cache         the keeping of the budgets: one directory, or 2,048 files that go
 //   caretaker     one database, one station's missing grids, one grid, one pair of sites

@@ -279,9 +279,13 @@ void Service::keep_house() {
 
 std::optional<Step> Service::oldest_step() const {
     std::optional<Step> oldest = pulses_.oldest();
-    const auto job = pool_.oldest();
-    if (job && (!oldest || job->since < oldest->since))
-        oldest = Step{"ingest of " + job->path.native(), job->since};
+    const auto look_at = [&](const char* what, const WorkerPool& pool) {
+        const auto job = pool.oldest();
+        if (job && (!oldest || job->since < oldest->since))
+            oldest = Step{what + job->path.native(), job->since};
+    };
+    look_at("ingest of ", pool_);
+    look_at("registration of ", registrar_);
     return oldest;
 }
 
