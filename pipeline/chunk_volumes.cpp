@@ -84,13 +84,17 @@ level2::LiveOptions ChunkVolume::with_depot(level2::LiveOptions live) const {
     return live;
 }
 
-ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
+Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
     const auto known = files_.find(chunk.path);
     if (known != files_.end() && known->second.stamp == stamp) {
         return known->second.is_whole ? Added::added : Added::unfinished;
     }
     const auto bytes = read_file(chunk.path, most_chunk_bytes);
-    if (!bytes) return Added::not_ours;
+    if (!bytes) {
+        const ErrorCode code = bytes.error().code;
+        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
+        return Added::not_ours;
+    }
     File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
     const auto added =
         live_.add(chunk.name.number, chunk.name.kind, *bytes, level2::LiveVolume::Clock::now());
@@ -108,7 +112,7 @@ ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& sta
     return Added::added;
 }
 
-void ChunkVolume::add_siblings(const ChunkPath& of) {
+Status ChunkVolume::add_siblings(const ChunkPath& of) {
     std::error_code error;
     std::vector<ChunkPath> found;
     for (fs::directory_iterator at(of.path.parent_path(), error), end; !error && at != end;
@@ -121,14 +125,19 @@ void ChunkVolume::add_siblings(const ChunkPath& of) {
             found.push_back(std::move(*chunk));
         }
     }
+    if (error && error != std::errc::permission_denied) {
+        return fail(ErrorCode::io, "{}: {}", of.path.parent_path().native(), error.message());
+    }
     std::sort(found.begin(), found.end(), [](const ChunkPath& a, const ChunkPath& b) {
         return std::tie(a.name.number, a.path) < std::tie(b.name.number, b.path);
     });
     for (const ChunkPath& chunk : found) {
         const auto stamp = stamp_of(chunk.path);
-        if (stamp && stamp->regular) (void)add(chunk, *stamp);
+        if (!stamp || !stamp->regular) continue;
+        if (const auto added = add(chunk, *stamp); !added) return pass_on(added);
     }
     waiter_ = of.path;
+    return {};
 }
 
 fs::path ChunkVolume::first_file() const {
