@@ -21,6 +21,29 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// The chunk, and with the first one all that lie beside it.
+Result<ChunkVolume::Added> add_to(ChunkVolume& volume, const ChunkPath& chunk,
+                                  const FileStamp& stamp) {
+    auto added = volume.add(chunk, stamp);
+    if (!added || *added == ChunkVolume::Added::not_ours || volume.is_loaded) return added;
+    if (const Status all = volume.add_siblings(chunk); !all) return pass_on(all);
+    volume.is_loaded = true;
+    return added;
+}
+
+// Of a chunk that was added.
+FileFacts facts_of(const ChunkVolume& volume, const ChunkPath& chunk, const FileStamp& stamp) {
+    FileFacts facts;
+    facts.path = chunk.path;
+    facts.size_bytes = stamp.size_bytes;
+    facts.modified_ns = stamp.modified_ns;
+    facts.content_hash = volume.files().at(chunk.path).content_hash;
+    facts.station = volume.station();
+    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
+    facts.state = FileState::seen;
+    return facts;
+}
+
 }  // namespace
 
 Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news,
@@ -133,34 +156,28 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         lock = std::unique_lock(volume->mutex);
     }
     const auto start = Clock::now();
-    const ChunkVolume::Added added = volume->add(chunk, before);
-    if (added == ChunkVolume::Added::not_ours) {
+    const auto added = add_to(*volume, chunk, before);
+    if (!added) return pass_on(added);
+    if (*added == ChunkVolume::Added::not_ours) {
         if (volume->files().empty()) chunks->forget(chunk, volume.get());
         return std::nullopt;
     }
-    if (!volume->is_loaded) volume->add_siblings(chunk);
-    volume->is_loaded = true;
     outcome.decode_s = seconds_since(start);
     outcome.result = IngestResult::incomplete;
-    if (added == ChunkVolume::Added::unfinished) {
+    if (*added == ChunkVolume::Added::unfinished) {
         if (finish != Finish::when_it_ends) return std::nullopt;
         return outcome;
     }
-    FileFacts facts;
-    facts.path = chunk.path;
-    facts.size_bytes = before.size_bytes;
-    facts.modified_ns = before.modified_ns;
-    facts.content_hash = volume->files().at(chunk.path).content_hash;
-    facts.station = volume->station();
-    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
-    facts.state = FileState::seen;
+    const FileFacts facts = facts_of(*volume, chunk, before);
     outcome.station = facts.station;
     if (volume->is_whole() || finish == Finish::as_it_is ||
         (finish == Finish::when_quiet && volume->is_due())) {
-        // A volume that could not be stored is put together again.
+        // A volume that could not be stored is put together again. Until then it is found, and
+        // waited for: two of one volume would overwrite each other's rows.
         volume->is_finished = true;
+        auto finished = finish_chunks(*volume, facts.station, std::move(outcome));
         chunks->forget(chunk, volume.get());
-        return finish_chunks(*volume, facts.station, std::move(outcome));
+        return finished;
     }
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
