@@ -252,8 +252,13 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
     // O_NONBLOCK so that a FIFO in the place of a file cannot hold us up.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.number() < 0) return system_failure(path.native(), errno);
+    return read_open_file(file.number(), path, limit);
+}
+
+Result<std::vector<std::byte>> read_open_file(int descriptor, const std::filesystem::path& path,
+                                              std::uint64_t limit) {
     struct stat facts {};
-    if (::fstat(file.number(), &facts) != 0) return system_failure(path.native(), errno);
+    if (::fstat(descriptor, &facts) != 0) return system_failure(path.native(), errno);
     if (S_ISDIR(facts.st_mode)) {
         return fail(ErrorCode::not_a_file, "{}: is a directory", path.native());
     }
@@ -265,7 +270,7 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
         return fail(ErrorCode::unsupported, "{}: {} bytes, larger than the limit of {}",
                     path.native(), size, limit);
     }
-    return read_to_end(file.number(), path, size, limit);
+    return read_to_end(descriptor, path, size, limit);
 }
 
 Status write_file_atomically(FileSystem& file_system, const std::filesystem::path& path,

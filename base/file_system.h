@@ -86,6 +86,10 @@ class AtomicFile {
 inline constexpr std::uint64_t default_read_limit = std::uint64_t{1} << 30;
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                                        std::uint64_t limit = default_read_limit);
+// The same of a file that is open; its path is for messages.
+[[nodiscard]] Result<std::vector<std::byte>> read_open_file(int descriptor,
+                                                            const std::filesystem::path& path,
+                                                            std::uint64_t limit);
 [[nodiscard]] Status write_file_atomically(FileSystem& file_system,
                                            const std::filesystem::path& path,
                                            std::span<const std::byte> bytes);

@@ -164,6 +164,7 @@ void read_storage(TomlTable& table, Config& config) {
 
 void read_rest(TomlTable watch, TomlTable log, Config& config) {
     read_seconds(watch, "rescan_seconds", {1, 86400}, config.rescan);
+    read_seconds(watch, "poll_seconds", {1, 86400}, config.poll);
     if (const auto limit = watch.whole_number("queue_limit", {16, 10'000'000})) {
         config.queue_limit = static_cast<std::size_t>(*limit);
     }

@@ -45,7 +45,8 @@ struct Config {
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
-    std::size_t queue_limit = 65'536;  // files
+    std::chrono::milliseconds poll{5'000};  // the same where changes come without events
+    std::size_t queue_limit = 65'536;       // files
     cache::Budgets budgets = default_budgets();
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest

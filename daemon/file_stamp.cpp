@@ -1,5 +1,7 @@
 #include "daemon/file_stamp.h"
 
+#include "base/beneath.h"
+
 namespace stormcellar::daemon {
 
 namespace {
@@ -16,10 +18,17 @@ FileStamp stamp_of(const struct stat& facts) {
 }
 
 FileFound look_at(const std::filesystem::path& path) {
-    struct stat facts {};
-    if (::lstat(path.c_str(), &facts) != 0) return {};
-    if (S_ISREG(facts.st_mode)) return {Standing::regular, stamp_of(facts)};
-    return {S_ISDIR(facts.st_mode) ? Standing::directory : Standing::other, stamp_of(facts)};
+    return look_at(path, {});
+}
+
+FileFound look_at(const std::filesystem::path& path, const std::filesystem::path& beneath) {
+    const auto facts = look_beneath(beneath, path);
+    if (!facts) return {};
+    const mode_t mode = facts->st_mode;
+    const Standing standing = S_ISREG(mode)   ? Standing::regular
+                              : S_ISDIR(mode) ? Standing::directory
+                                              : Standing::other;
+    return {standing, stamp_of(*facts), mode};
 }
 
 }  // namespace stormcellar::daemon

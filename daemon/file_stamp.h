@@ -25,8 +25,12 @@ enum class Standing { regular, directory, other, missing };
 struct FileFound {
     Standing standing = Standing::missing;
     FileStamp stamp;
+    mode_t mode = 0;
 };
 // A path that may not be looked at counts as missing.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
+// The same below a directory: what lies behind links is missing too (base/beneath.h).
+[[nodiscard]] FileFound look_at(const std::filesystem::path& path,
+                                const std::filesystem::path& beneath);
 
 }  // namespace stormcellar::daemon

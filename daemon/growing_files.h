@@ -53,7 +53,7 @@ class GrowingFiles {
     // Reads the stamps when a poll is due; what it returns is no longer kept. A file that vanished
     // or became something else is forgotten.
     using Look = std::function<FileFound(const std::filesystem::path&)>;
-    std::vector<Due> poll(SteadyTime now, const Look& look = look_at);
+    std::vector<Due> poll(SteadyTime now, const Look& look);
 
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     [[nodiscard]] bool contains(const std::filesystem::path& path) const {

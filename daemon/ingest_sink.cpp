@@ -15,6 +15,7 @@ IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Confi
 pipeline::IngestOptions IngestSink::options_of(const Config& config,
                                                std::shared_ptr<const std::atomic<bool>> pressed) {
     pipeline::IngestOptions options = config.ingest;
+    options.beneath = config.drop;
     if (config.living) {
         options.living.scratch = config.state;
         options.living.has_time = [pressed = std::move(pressed)] { return !*pressed; };
@@ -48,7 +49,7 @@ std::vector<std::string> IngestSink::take_repairs() {
 
 Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_partial) {
     Taken taken;
-    const FileFound found = look_at(path);
+    const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
         taken.ingest.result = pipeline::IngestResult::vanished;  // something else took its name

@@ -1,12 +1,17 @@
 #include "daemon/inotify.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include <sys/inotify.h>
 #include <unistd.h>
+
+#include "daemon/silent_file_systems.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -30,6 +35,25 @@ ErrorCode code_of(int error_number) {
     }
 }
 
+// "fs.inotify.max_user_watches (16384 now)": what holds the user to so few, which is the least of
+// the limits there are. `name` without max_.
+std::string limit_named(std::string_view name) {
+    std::string least_name = fmt::format("fs.inotify.max_{}", name);
+    std::optional<std::uint64_t> least;
+    // The second counts for the users of a container.
+    const std::string_view kind = name.substr(name.find('_') + 1);
+    for (const std::string& sysctl :
+         {fmt::format("fs.inotify.max_{}", name), fmt::format("user.max_inotify_{}", kind)}) {
+        std::string path = "/proc/sys/" + sysctl;
+        std::replace(path.begin() + 10, path.end(), '.', '/');
+        std::uint64_t value = 0;
+        if (!(std::ifstream(path) >> value) || (least && *least <= value)) continue;
+        least = value;
+        least_name = sysctl;
+    }
+    return least ? fmt::format("{} ({} now)", least_name, *least) : least_name;
+}
+
 class Inotify final : public EventSource {
   public:
     explicit Inotify(int descriptor) : descriptor_(descriptor) {}
@@ -42,15 +66,21 @@ class Inotify final : public EventSource {
         if (number >= 0) return number;
         const int error_number = errno;
         if (error_number == ENOSPC) {
-            return fail(ErrorCode::no_space,
-                        "{}: no inotify watches left; raise the sysctl fs.inotify.max_user_watches",
-                        directory.native());
+            return fail(ErrorCode::no_space, "{}: no inotify watches left; raise the sysctl {}",
+                        directory.native(), limit_named("user_watches"));
         }
         return fail(code_of(error_number), "{}: {}", directory.native(),
                     std::system_category().message(error_number));
     }
 
     void unwatch(int watch) override { ::inotify_rm_watch(descriptor_, watch); }
+
+    std::optional<std::string> silence(const std::filesystem::path& directory) override {
+        const auto name = silent_file_system_of(directory);
+        if (!name) return std::nullopt;
+        return fmt::format("{}: lies on {}, where the kernel does not tell of all changes",
+                           directory.native(), *name);
+    }
 
     std::vector<DirectoryEvent> read() override {
         alignas(inotify_event) std::array<char, 65536> buffer;
@@ -77,6 +107,7 @@ class NoEvents final : public EventSource {
     [[nodiscard]] int descriptor() const override { return -1; }
     Result<int> watch(const std::filesystem::path&) override { return 0; }
     void unwatch(int) override {}
+    std::optional<std::string> silence(const std::filesystem::path&) override { return ""; }
     std::vector<DirectoryEvent> read() override { return {}; }
 };
 
@@ -88,7 +119,7 @@ Result<std::unique_ptr<EventSource>> open_inotify() {
         const int error_number = errno;
         return fail(
             code_of(error_number), "inotify: {}{}", std::system_category().message(error_number),
-            error_number == EMFILE ? "; raise the sysctl fs.inotify.max_user_instances" : "");
+            error_number == EMFILE ? "; raise the sysctl " + limit_named("user_instances") : "");
     }
     return std::make_unique<Inotify>(descriptor);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ class EventSource {
     // the system's limit of watches is reached; not_found, permission, io.
     virtual Result<int> watch(const std::filesystem::path& directory) = 0;
     virtual void unwatch(int watch) = 0;
+    // Why changes in the directory may come without events, so that it must be polled; none where
+    // they are told of. Empty: that was said already.
+    virtual std::optional<std::string> silence(const std::filesystem::path& /*directory*/) {
+        return std::nullopt;
+    }
     // All that waits now, oldest first; never blocks. At most about 64 KiB of events a call.
     virtual std::vector<DirectoryEvent> read() = 0;
 };
@@ -39,7 +45,7 @@ class EventSource {
 // Fails when the system has no inotify instance left, naming the sysctl.
 [[nodiscard]] Result<std::unique_ptr<EventSource>> open_inotify();
 
-// No events at all: everything is found by rescans. What is left when open_inotify() fails.
+// No events at all: every directory is silent, and polled. What is left when open_inotify() fails.
 [[nodiscard]] std::unique_ptr<EventSource> no_events();
 
 }  // namespace stormcellar::daemon

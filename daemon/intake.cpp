@@ -9,7 +9,8 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::size_t most_growing = 16'384;
-constexpr std::size_t most_problems = 16;
+constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
+constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
 constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
 
@@ -25,7 +26,8 @@ Clock real_clock() {
 }
 
 Intake::Intake(const Config& config, Clock clock)
-    : clock_(std::move(clock)),
+    : drop_(config.drop),
+      clock_(std::move(clock)),
       reread_(config.reread),
       schedule_(config.queue_limit),
       growing_(config.quiet, most_growing) {}
@@ -58,10 +60,17 @@ void Intake::offer(Job job, const FileStamp& stamp) {
     }
 }
 
+// The order of what is closed stays as it came when the clock on the wall is set back.
+std::int64_t Intake::closed_now_ns() {
+    const std::int64_t now_ns = clock_.wall_ns();
+    newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
+    return newest_closed_ns_;
+}
+
 void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
     Job job = job_for(path, Urgency::live);
     job.closed_at = clock_.steady();
-    job.newest_ns = clock_.wall_ns();
+    job.newest_ns = closed_now_ns();
     const auto incomplete_at = growing_.found_incomplete_at(path);
     if (incomplete_at && !followed_.contains(path)) {
         const SteadyTime earliest = *incomplete_at + reread_;
@@ -91,7 +100,8 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
     } else {
         const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
         Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
-        job.newest_ns = stamp.modified_ns;
+        // A time in the future puts nothing before what is closed now.
+        job.newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
         offer(std::move(job), stamp);
     }
 }
@@ -108,6 +118,33 @@ void Intake::file_gone(const std::filesystem::path& path) {
     schedule_.offer(std::move(job), clock_.steady());
 }
 
+// The kernel tells of the directory alone. One that was moved away takes files along of which
+// nothing is known here but hashes: a scan marks their rows.
+void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
+    std::vector<std::filesystem::path> gone;
+    const auto is_below = [&](const std::filesystem::path& file) {
+        return std::mismatch(path.begin(), path.end(), file.begin(), file.end()).first ==
+               path.end();
+    };
+    for (auto at = followed_.lower_bound(path); at != followed_.end() && is_below(*at); ++at)
+        gone.push_back(*at);
+    for (const std::filesystem::path& file : gone)
+        file_gone(file);
+    if (!deleted) lost_ = true;
+}
+
+void Intake::entry_left_out(const std::filesystem::path& path, std::string_view kind) {
+    tell({ErrorCode::not_a_file, fmt::format("{}: is {}: left out", path.native(), kind)});
+}
+
+void Intake::tell(Error problem) {
+    const std::filesystem::path key = problem.message;
+    if (told_.contains(key, {})) return told_.found_again(key);
+    if (problems_.size() >= most_problems) return;
+    if (told_.count() < most_told) told_.add(key, {});
+    problems_.push_back(std::move(problem));
+}
+
 void Intake::events_lost() {
     ++overflows_;
     lost_ = true;
@@ -118,7 +155,7 @@ void Intake::drop_vanished() {
 }
 
 void Intake::directory_problem(const Error& error) {
-    if (problems_.size() < most_problems) problems_.push_back(error);
+    tell(error);
 }
 
 void Intake::forget_seen() {
@@ -127,10 +164,11 @@ void Intake::forget_seen() {
 }
 
 void Intake::poll_growing() {
-    for (GrowingFiles::Due& due : growing_.poll(clock_.steady())) {
+    for (GrowingFiles::Due& due : growing_.poll(
+             clock_.steady(), [this](const std::filesystem::path& path) { return look(path); })) {
         Job job = job_for(due.path, Urgency::live);
         job.finish_partial = due.finish_partial;
-        job.newest_ns = due.stamp.modified_ns;
+        job.newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns());
         offer(std::move(job), due.stamp);
     }
 }
@@ -171,10 +209,18 @@ void Intake::begin_scan() {
     lost_ = false;
     refused_ = false;
     seen_.begin_scan();
+    told_.begin_scan();
 }
 
 void Intake::end_scan(bool whole) {
-    if (whole) seen_.end_scan();
+    if (!whole) return;
+    seen_.end_scan();
+    told_.end_scan();
+    // Those of which no event came: lost, or never sent.
+    const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
+    for (const std::filesystem::path& path : followed) {
+        if (look(path).standing != Standing::regular) file_gone(path);
+    }
 }
 
 bool Intake::needs_scan() const {

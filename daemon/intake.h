@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Intake final : public WatchListener {
     }
     void file_found(const std::filesystem::path& path, const FileStamp& stamp) override;
     void file_gone(const std::filesystem::path& path) override;
+    void directory_gone(const std::filesystem::path& path, bool deleted) override;
+    void entry_left_out(const std::filesystem::path& path, std::string_view kind) override;
     void events_lost() override;
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
@@ -76,12 +79,21 @@ class Intake final : public WatchListener {
     [[nodiscard]] SteadyTime::duration longest_wait() const;
     // How often the kernel dropped events, since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
+    // Of directories, and of entries that are no files (not_a_file). Each is given once, as long as
+    // scans go on finding it.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
     [[nodiscard]] Job job_for(const std::filesystem::path& path, Urgency urgency) const;
     void offer(Job job, const FileStamp& stamp);
+    void tell(Error problem);
+    [[nodiscard]] std::int64_t closed_now_ns();
 
+    [[nodiscard]] FileFound look(const std::filesystem::path& path) const {
+        return look_at(path, drop_);
+    }
+
+    std::filesystem::path drop_;
     Clock clock_;
     std::chrono::milliseconds reread_;
     Schedule schedule_;
@@ -93,6 +105,8 @@ class Intake final : public WatchListener {
     bool lost_ = false;
     std::uint64_t overflows_ = 0;
     std::vector<Error> problems_;
+    SeenFiles told_;                     // problems, by their text
+    std::int64_t newest_closed_ns_ = 0;  // as jobs have it
 };
 
 }  // namespace stormcellar::daemon

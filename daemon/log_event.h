@@ -33,8 +33,6 @@ enum class Event {
     vanished,
     registered,
     store_failed,
-    behind,
-    behind_no_more,
     // of the drop directory
     watch_failed,
     directory_problem,
@@ -43,6 +41,8 @@ enum class Event {
     drop_back,
     files_gone,
     files_gone_failed,
+    behind,
+    caught_up,
     // of what is stored
     stations_unknown,
     database_mended,

@@ -122,10 +122,10 @@ void Reporter::report(const Finished& finished) {
 }
 
 void Reporter::report_directory(const Error& error) {
-    log_warning(
-        {.event = Event::directory_problem, .reason = name_of(error.code)}, "{}{}",
-        printable(error.message),
-        error.code == ErrorCode::no_space ? "; until then files there are found by rescans" : "");
+    const bool is_blind = error.code == ErrorCode::no_space || error.code == ErrorCode::unsupported;
+    log_warning({.event = Event::directory_problem, .reason = name_of(error.code)}, "{}{}",
+                printable(error.message),
+                is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
 }
 
 // Where the air is clear nothing can be told: that is no news, hour by hour.

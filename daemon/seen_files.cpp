@@ -13,8 +13,9 @@ std::uint64_t hash_of(const std::filesystem::path& path) {
 }
 
 std::uint64_t hash_of(const FileStamp& stamp) {
-    const std::array<std::uint64_t, 3> words = {stamp.inode, stamp.size_bytes,
-                                                static_cast<std::uint64_t>(stamp.modified_ns)};
+    const std::array<std::uint64_t, 4> words = {stamp.inode, stamp.size_bytes,
+                                                static_cast<std::uint64_t>(stamp.modified_ns),
+                                                static_cast<std::uint64_t>(stamp.changed_ns)};
     return xxh3_64(std::as_bytes(std::span{words}));
 }
 

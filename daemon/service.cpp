@@ -157,6 +157,7 @@ void Service::apply(const Config& fresh) {
     config_.quiet = fresh.quiet;
     config_.reread = fresh.reread;
     config_.rescan = fresh.rescan;
+    config_.poll = fresh.poll;
     if (fresh.budgets != config_.budgets) cache_keeper_.roll_soon();
     config_.budgets = fresh.budgets;
     config_.log_level = fresh.log_level;
@@ -190,6 +191,7 @@ void Service::scan_if_due() {
 
 bool Service::scan() {
     const SteadyTime began = parts_.clock.steady();
+    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
     intake_.begin_scan();
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
@@ -201,12 +203,14 @@ bool Service::scan() {
         log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
-    if (scanned) mark_missing();
+    if (scanned && !is_poll) mark_missing();
     status_.count_scan(watcher_.directory_count());
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
     rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
-    next_scan_ = std::max(ended + config_.rescan, rested_);
+    if (!is_poll) next_rescan_ = ended + config_.rescan;
+    const auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
+    next_scan_ = std::max(ended + gap, rested_);
     return scanned.has_value();
 }
 
@@ -310,7 +314,7 @@ void Service::report_backlog(SteadyTime now) {
         }
         is_behind_ = true;
     } else if (is_behind_ && wait < behind_after / 2) {
-        log_info({Event::behind_no_more}, "no longer behind: {} files wait", waiting);
+        log_info({Event::caught_up}, "no longer behind: {} files wait", waiting);
         is_behind_ = false;
     }
 }

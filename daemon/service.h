@@ -111,8 +111,10 @@ class Service {
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     bool drop_missing_ = false;
-    SteadyTime rested_{}, next_scan_{};  // the earliest next scan, and the regular one
-    bool is_behind_ = false;             // and it stands in the log
+    // The earliest next scan, the regular one, and the next that looks for rows of missing files
+    // when the regular ones are polls.
+    SteadyTime rested_{}, next_scan_{}, next_rescan_{};
+    bool is_behind_ = false;  // and it stands in the log
     SteadyTime next_backlog_{}, next_behind_line_{};
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;

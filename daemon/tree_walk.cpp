@@ -1,8 +1,11 @@
 #include "daemon/tree_walk.h"
 
 #include <cerrno>
+#include <climits>
 #include <memory>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -31,14 +34,18 @@ std::string reason_of(int error_number) {
     return std::system_category().message(error_number);
 }
 
+std::string too_deep(const std::filesystem::path& path) {
+    return fmt::format("{}: more than {} directories deep, left out", path.native(),
+                       max_walk_depth);
+}
+
 void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor);
 
 void walk_below(int parent, const char* name, const std::filesystem::path& path, int depth,
                 const WalkVisitor& visitor) {
     if (depth > max_walk_depth) {
-        visitor.problem(fmt::format("{}: more than {} directories deep, left out", path.native(),
-                                    max_walk_depth));
+        visitor.problem(too_deep(path));
         return;
     }
     visitor.directory(path);
@@ -50,32 +57,64 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     }
 }
 
+// What makes some names of a directory unusable is said once of it.
+class NameProblem {
+  public:
+    NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)
+        : path_(path), visitor_(visitor) {}
+    void say(std::string_view what) {
+        if (!std::exchange(said_, true))
+            visitor_.problem(fmt::format("{}: {}", path_.native(), what));
+    }
+
+  private:
+    const std::filesystem::path& path_;
+    const WalkVisitor& visitor_;
+    bool said_ = false;
+};
+
+void walk_entry(int descriptor, const char* name, const std::filesystem::path& directory, int depth,
+                const WalkVisitor& visitor, NameProblem& problem) {
+    struct stat facts {};
+    if (::fstatat(descriptor, name, &facts, AT_SYMLINK_NOFOLLOW) != 0) {
+        if (errno != ENOENT) problem.say(reason_of(errno));
+        return;
+    }
+    std::filesystem::path path = directory / name;
+    if (path.native().size() >= PATH_MAX) {
+        problem.say(fmt::format("holds paths of more than {} bytes, left out", PATH_MAX - 1));
+    } else if (S_ISREG(facts.st_mode)) {
+        visitor.file(path, stamp_of(facts));
+    } else if (S_ISDIR(facts.st_mode)) {
+        walk_below(descriptor, name, path, depth + 1, visitor);
+    } else if (visitor.other) {
+        visitor.other(path, facts.st_mode);
+    }
+}
+
 void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor) {
     const int descriptor = ::dirfd(directory);
+    NameProblem problem(path, visitor);
     for (;;) {
         errno = 0;
         const struct dirent* entry = ::readdir(directory);
         if (entry == nullptr) {
-            if (errno != 0) {
-                visitor.problem(fmt::format("{}: {}", path.native(), reason_of(errno)));
-            }
+            if (errno != 0) problem.say(reason_of(errno));
             return;
         }
         if (pipeline::is_temporary_name(entry->d_name)) continue;
-        struct stat facts {};
-        if (::fstatat(descriptor, entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) != 0) continue;
-        if (S_ISREG(facts.st_mode)) {
-            visitor.file(path / entry->d_name, stamp_of(facts));
-        } else if (S_ISDIR(facts.st_mode)) {
-            walk_below(descriptor, entry->d_name, path / entry->d_name, depth + 1, visitor);
-        }
+        walk_entry(descriptor, entry->d_name, path, depth, visitor, problem);
     }
 }
 
 }  // namespace
 
-Status walk(const std::filesystem::path& root, const WalkVisitor& visitor) {
+Status walk(const std::filesystem::path& root, const WalkVisitor& visitor, int depth) {
+    if (depth > max_walk_depth) {
+        visitor.problem(too_deep(root));
+        return {};
+    }
     visitor.directory(root);
     const DirectoryHandle directory = open_directory(AT_FDCWD, root.c_str());
     if (!directory) {
@@ -86,7 +125,7 @@ Status walk(const std::filesystem::path& root, const WalkVisitor& visitor) {
                                                         : ErrorCode::io;
         return fail(code, "{}: {}", root.native(), reason_of(error_number));
     }
-    walk_entries(directory.get(), root, 0, visitor);
+    walk_entries(directory.get(), root, depth, visitor);
     return {};
 }
 

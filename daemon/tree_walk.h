@@ -2,7 +2,8 @@
 //
 // Walks by descriptors (openat, no symbolic link is followed), so a directory that is swapped for a
 // link while the walk runs cannot lead it out of the tree. Temporary names are left out
-// (pipeline/drop_names.h), files and directories alike. Depth is bounded: max_walk_depth.
+// (pipeline/drop_names.h), files and directories alike. Depth is bounded: max_walk_depth; so are
+// paths, which the system takes up to 4095 bytes long.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +23,13 @@ struct WalkVisitor {
     std::function<void(const std::filesystem::path&, const FileStamp&)> file;
     // A directory below the root that cannot be read, or lies too deep; one line. The walk goes on.
     std::function<void(const std::string&)> problem;
+    // What is neither file nor directory: a link, a FIFO, a device. May be empty.
+    std::function<void(const std::filesystem::path&, mode_t mode)> other = {};
 };
 
-// Fails (not_found, permission, io) when the root itself cannot be read.
-[[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor);
+// Fails (not_found, permission, io) when the root itself cannot be read. `depth`: of the root below
+// the directory from which depth counts.
+[[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor,
+                          int depth = 0);
 
 }  // namespace stormcellar::daemon

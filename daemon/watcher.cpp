@@ -1,11 +1,14 @@
 #include "daemon/watcher.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <sys/inotify.h>
 
+#include "base/beneath.h"
 #include "daemon/tree_walk.h"
 #include "pipeline/drop_names.h"
 
@@ -23,24 +26,48 @@ Watcher::Watcher(std::filesystem::path drop, EventSource& events, WatchListener&
     : drop_(std::move(drop)), events_(events), listener_(listener) {}
 
 Status Watcher::scan() {
-    return scan_below(drop_);
+    unwatched_ = silent_ = 0;
+    Status scanned = scan_below(drop_);
+    told_unwatched_ = told_unwatched_ && unwatched_ > 0;
+    told_silent_ = told_silent_ && silent_ > 0;
+    return scanned;
 }
 
 Status Watcher::scan_below(const std::filesystem::path& directory) {
-    return walk(directory, {[this](const std::filesystem::path& found) { add_watch(found); },
-                            [this](const std::filesystem::path& path, const FileStamp& stamp) {
-                                listener_.file_found(path, stamp);
-                            },
-                            [this](const std::string& problem) {
-                                listener_.directory_problem({ErrorCode::io, problem});
-                            }});
+    const auto depth = std::distance(directory.begin(), directory.end()) -
+                       std::distance(drop_.begin(), drop_.end());
+    return walk(directory,
+                {[this](const std::filesystem::path& found) { add_watch(found); },
+                 [this](const std::filesystem::path& path, const FileStamp& stamp) {
+                     listener_.file_found(path, stamp);
+                 },
+                 [this](const std::string& problem) {
+                     listener_.directory_problem({ErrorCode::io, problem});
+                 },
+                 [this](const std::filesystem::path& path, mode_t mode) {
+                     listener_.entry_left_out(path, kind_of_file(mode));
+                 }},
+                static_cast<int>(depth));
+}
+
+void Watcher::look_for_silence(const std::filesystem::path& directory) {
+    const std::optional<std::string> why = events_.silence(directory);
+    if (!why) return;
+    ++silent_;
+    if (why->empty() || std::exchange(told_silent_, true)) return;
+    listener_.directory_problem({ErrorCode::unsupported, *why});
 }
 
 void Watcher::add_watch(const std::filesystem::path& directory) {
+    look_for_silence(directory);
     const Result<int> watch = events_.watch(directory);
     if (!watch) {
-        // A directory that went away meanwhile is no problem; the walk says so of the root.
-        if (watch.error().code != ErrorCode::not_found) listener_.directory_problem(watch.error());
+        // One that went away meanwhile is no problem, and of one that may not be read the walk
+        // says so.
+        const ErrorCode code = watch.error().code;
+        if (code == ErrorCode::not_found || code == ErrorCode::permission) return;
+        ++unwatched_;
+        if (!std::exchange(told_unwatched_, true)) listener_.directory_problem(watch.error());
         return;
     }
     // One directory under a new name keeps its watch, and one name may have a new directory.
@@ -111,6 +138,7 @@ void Watcher::handle(const DirectoryEvent& event) {
 void Watcher::handle_directory(const DirectoryEvent& event, const std::filesystem::path& path) {
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
         unwatch_tree(path);
+        listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {
         const Status scanned = scan_below(path);
         if (!scanned && scanned.error().code != ErrorCode::not_found) {
@@ -126,7 +154,8 @@ void Watcher::handle_file(const DirectoryEvent& event, const std::filesystem::pa
     }
     const bool closed_or_made = (event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE)) != 0;
     if (!closed_or_made && !listener_.follows(path)) return;
-    const FileFound found = look_at(path);
+    const FileFound found = look_at(path, drop_);
+    if (found.standing == Standing::other) listener_.entry_left_out(path, kind_of_file(found.mode));
     if (found.standing != Standing::regular) return;
     if (!closed_or_made) {
         listener_.file_grew(path, found.stamp);

@@ -4,13 +4,16 @@
 // watch is set, so what was put into it in between is found. scan() reads the whole tree: at the
 // start, after the event queue overflowed, and from time to time for ever, since events can be
 // lost (network file systems have none). What is said twice does no harm: the schedule has one
-// entry a path. Symbolic links, devices, FIFOs and temporary names are never reported.
+// entry a path. Temporary names are never reported; symbolic links, FIFOs, sockets and devices only
+// as left out. Where not all can be watched (no watches left, file systems whose changes are not
+// told) it is blind, and must be scanned more often.
 // Thread contract: one thread; the listener is called from within read_events() and scan().
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "base/result.h"
@@ -39,12 +42,16 @@ class WatchListener {
     virtual void file_found(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // Deleted, or renamed away.
     virtual void file_gone(const std::filesystem::path& path) = 0;
+    // The same of a directory, with all that it held.
+    virtual void directory_gone(const std::filesystem::path& /*path*/, bool /*deleted*/) {}
+    // Neither file nor directory: `kind` says what ("a FIFO"). Said again by each scan.
+    virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
     // The kernel dropped events; a scan is needed.
     virtual void events_lost() = 0;
     // The drop directory itself was deleted or moved.
     virtual void drop_vanished() = 0;
-    // A directory that cannot be watched because the limit is reached (`error.code` no_space), or
-    // that cannot be read.
+    // A directory that cannot be read; or the first of those that cannot be watched, because the
+    // limit is reached (`error.code` no_space) or because its file system is silent (unsupported).
     virtual void directory_problem(const Error& error) = 0;
 };
 
@@ -58,6 +65,8 @@ class Watcher {
     // Handles what waits at events.descriptor().
     void read_events();
     [[nodiscard]] std::size_t directory_count() const { return watch_of_.size(); }
+    // Some directories' changes come without events, as the last scan and what came since have it.
+    [[nodiscard]] bool is_blind() const { return unwatched_ > 0 || silent_ > 0; }
 
   private:
     void handle(const DirectoryEvent& event);
@@ -66,6 +75,7 @@ class Watcher {
     void forget_watch(int watch);
     void unwatch_tree(const std::filesystem::path& directory);
     void add_watch(const std::filesystem::path& directory);
+    void look_for_silence(const std::filesystem::path& directory);
     [[nodiscard]] Status scan_below(const std::filesystem::path& directory);
 
     std::filesystem::path drop_;
@@ -73,6 +83,8 @@ class Watcher {
     WatchListener& listener_;
     std::unordered_map<int, std::filesystem::path> path_of_;
     std::map<std::filesystem::path, int> watch_of_;  // sorted: a tree is one run of entries
+    std::size_t unwatched_ = 0, silent_ = 0;         // directories, of the last scan and since
+    bool told_unwatched_ = false, told_silent_ = false;
 };
 
 }  // namespace stormcellar::daemon

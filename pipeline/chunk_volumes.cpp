@@ -1,12 +1,11 @@
 #include "pipeline/chunk_volumes.h"
 
 #include <algorithm>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
+#include "base/beneath.h"
 #include "base/checksum.h"
-#include "base/file_system.h"
 #include "pipeline/drop_names.h"
 
 namespace stormcellar::pipeline {
@@ -75,6 +74,7 @@ std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
 
 ChunkVolume::ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live)
     : moment_(options.moment),
+      beneath_(options.beneath),
       kept_(kept_volume_in(options.scratch)),
       depot_(kept_ ? std::make_unique<ShelfDepot>(*kept_->shelf) : nullptr),
       live_(with_depot(live)) {}
@@ -89,7 +89,7 @@ ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& sta
     if (known != files_.end() && known->second.stamp == stamp) {
         return known->second.is_whole ? Added::added : Added::unfinished;
     }
-    const auto bytes = read_file(chunk.path, most_chunk_bytes);
+    const auto bytes = read_beneath(beneath_, chunk.path, most_chunk_bytes);
     if (!bytes) return Added::not_ours;
     File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
     const auto added =
@@ -109,13 +109,14 @@ ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& sta
 }
 
 void ChunkVolume::add_siblings(const ChunkPath& of) {
-    std::error_code error;
+    waiter_ = of.path;
     std::vector<ChunkPath> found;
-    for (fs::directory_iterator at(of.path.parent_path(), error), end; !error && at != end;
-         at.increment(error)) {
-        const std::string name = at->path().filename().string();
+    const fs::path directory = of.path.parent_path();
+    const auto names = names_beneath(beneath_, directory);
+    if (!names) return;
+    for (const std::string& name : *names) {
         if (!name.starts_with(of.prefix) || is_temporary_name(name)) continue;
-        auto chunk = ChunkPath::of(at->path());
+        auto chunk = ChunkPath::of(directory / name);
         if (chunk && chunk->key == of.key && chunk->path != of.path &&
             found.size() < most_siblings) {
             found.push_back(std::move(*chunk));
@@ -125,7 +126,7 @@ void ChunkVolume::add_siblings(const ChunkPath& of) {
         return std::tie(a.name.number, a.path) < std::tie(b.name.number, b.path);
     });
     for (const ChunkPath& chunk : found) {
-        const auto stamp = stamp_of(chunk.path);
+        const auto stamp = stamp_of(chunk.path, beneath_);
         if (stamp && stamp->regular) (void)add(chunk, *stamp);
     }
     waiter_ = of.path;

@@ -85,6 +85,7 @@ class ChunkVolume {
     void shelve_new_sweeps();
 
     level2::Moment moment_;
+    std::filesystem::path beneath_;
     std::unique_ptr<KeptVolume> kept_;
     std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_
     level2::LiveVolume live_;

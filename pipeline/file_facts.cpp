@@ -1,28 +1,21 @@
 #include "pipeline/file_facts.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 
-#include <sys/stat.h>
-
+#include "base/beneath.h"
 #include "base/station_table.h"
 #include "level2/volume_checks.h"
 
 namespace stormcellar::pipeline {
 
-Result<FileStamp> stamp_of(const std::filesystem::path& path) {
-    struct stat facts {};
-    if (::lstat(path.c_str(), &facts) != 0) {
-        const int error_number = errno;
-        const bool missing = error_number == ENOENT || error_number == ENOTDIR;
-        return fail(missing ? ErrorCode::not_found : ErrorCode::io, "{}: {}", path.native(),
-                    std::system_category().message(error_number));
-    }
+Result<FileStamp> stamp_of(const std::filesystem::path& path,
+                           const std::filesystem::path& beneath) {
+    const auto facts = look_beneath(beneath, path);
+    if (!facts) return pass_on(facts);
     return FileStamp{
-        static_cast<std::uint64_t>(facts.st_size),
-        std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + std::int64_t{facts.st_mtim.tv_nsec},
-        S_ISREG(facts.st_mode)};
+        static_cast<std::uint64_t>(facts->st_size),
+        std::int64_t{facts->st_mtim.tv_sec} * 1'000'000'000 + std::int64_t{facts->st_mtim.tv_nsec},
+        S_ISREG(facts->st_mode), facts->st_mode & S_IFMT};
 }
 
 catalog::VolumeFacts facts_of(const level2::Volume& volume) {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include <sys/stat.h>
+
 #include "base/result.h"
 #include "catalog/catalog.h"
 #include "level2/decode.h"
@@ -19,10 +21,12 @@ struct FileStamp {
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;
     bool regular = false;  // symbolic links are not followed, so they are not regular
+    mode_t kind = 0;       // S_IFMT's part of the mode
     bool operator==(const FileStamp&) const = default;
 };
-// not_found when there is no such file, else io.
-[[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path);
+// not_found when there is no such file below `beneath` (base/beneath.h), else permission or io.
+[[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path,
+                                         const std::filesystem::path& beneath = {});
 
 [[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume);
 

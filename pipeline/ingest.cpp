@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/beneath.h"
 #include "base/checksum.h"
-#include "base/file_system.h"
 #include "level2/decode.h"
 #include "level2/message_2.h"
 #include "level2/volume_checks.h"
@@ -60,6 +60,7 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
         .moment = options.moment,
         .fallback_station = {},
         .scratch = options.living.scratch,
+        .beneath = options.beneath,
         .chunk_timeout = options.living.chunk_timeout,
         .chunk_grace = options.living.chunk_grace,
     };
@@ -90,6 +91,15 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, Error why,
     outcome.station = facts.station;
     outcome.reason = rejected.reason;
     return outcome;
+}
+
+// It may not even be looked at: its directory has no permission. Tried again when it is offered.
+Result<IngestOutcome> Ingestor::Impl::reject_unread(const fs::path& path, const Error& why) {
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_name(path);
+    facts.modified_ns = catalog::never_read_ns;
+    return reject(facts, {why.code, without_path(why.message, path)}, {});
 }
 
 // What a domain cannot use is no reason to reject the file, whose own grid stands.
@@ -189,9 +199,11 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
     const Running running(impl_->running);
     IngestOutcome outcome;
-    const auto before = stamp_of(path);
+    const auto before = stamp_of(path, impl_->options.beneath);
     if (!before) {
-        if (before.error().code != ErrorCode::not_found) return pass_on(before);
+        const ErrorCode code = before.error().code;
+        if (code == ErrorCode::permission) return impl_->reject_unread(path, before.error());
+        if (code != ErrorCode::not_found) return pass_on(before);
         if (impl_->living) impl_->living->forget(path);
         if (const auto marked = impl_->catalog.mark_gone(path); !marked) return pass_on(marked);
         outcome.result = IngestResult::vanished;
@@ -202,6 +214,10 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     if (*settled) {
         outcome.result = IngestResult::unchanged;
         return outcome;
+    }
+    if (before->size_bytes > impl_->options.most_file_bytes) {
+        if (impl_->living) impl_->living->forget(path);
+        return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
     }
     const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
     if (chunk) {
@@ -218,8 +234,8 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
 }
 
 Status Ingestor::note(const fs::path& path) {
-    const auto stamp = stamp_of(path);
-    if (!stamp) return stamp.error().code == ErrorCode::not_found ? Status{} : pass_on(stamp);
+    const auto stamp = stamp_of(path, impl_->options.beneath);
+    if (!stamp) return {};  // gone, or to be rejected when it is taken in
     const auto known = impl_->catalog.is_known(path);
     if (!known) return pass_on(known);
     if (*known || !stamp->regular) return {};
@@ -236,7 +252,7 @@ Status Ingestor::note(const fs::path& path) {
 
 Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {
     const Running running(impl_->running);
-    const auto before = stamp_of(path);
+    const auto before = stamp_of(path, impl_->options.beneath);
     if (!before) return pass_on(before);
     if (const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt) {
         impl_->chunks->forget(*chunk);
@@ -255,12 +271,21 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
     if (!before.regular) {
-        return reject(facts, {ErrorCode::not_a_file, "is not a regular file"}, outcome);
+        return reject(facts,
+                      {ErrorCode::not_a_file, fmt::format("is {}", kind_of_file(before.kind))},
+                      outcome);
+    }
+    if (before.size_bytes > options.most_file_bytes) {
+        return reject(
+            facts,
+            {ErrorCode::unsupported, fmt::format("{} bytes, and a raw file may have {}: not read",
+                                                 before.size_bytes, options.most_file_bytes)},
+            outcome);
     }
     const auto read_start = Clock::now();
-    const auto bytes = read_file(path);
+    const auto bytes = read_beneath(options.beneath, path, options.most_file_bytes);
     outcome.read_s = seconds_since(read_start);
-    const auto after = stamp_of(path);
+    const auto after = stamp_of(path, options.beneath);
     if (!bytes && after) {
         const ErrorCode code = bytes.error().code;
         // Ours for now, as when descriptors run out: the file is not to blame.
@@ -278,6 +303,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     const auto decode_start = Clock::now();
     level2::DecodeOptions decode_options;
     decode_options.threads = share_of(options.decode_threads);
+    decode_options.output_limit_bytes = options.most_output_bytes;
     decode_options.fallback_station = facts.station;
     auto decoded = level2::decode(*bytes, decode_options);
     outcome.decode_s = seconds_since(decode_start);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -52,6 +53,13 @@ struct IngestOptions {
     int decode_threads = 1;
     int grid_threads = 1;
     LivingGrids living;
+    // Nothing outside of this directory is opened, wherever links lead (base/beneath.h); empty: a
+    // file may lie anywhere.
+    std::filesystem::path beneath;
+    // A larger file is rejected unread. No volume is known that takes half of it.
+    std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
+    // Likewise one that unpacks to more.
+    std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 };
 
 enum class IngestResult {

@@ -68,6 +68,7 @@ struct Ingestor::Impl {
                                            const FileStamp& before, bool finish_partial,
                                            IngestOutcome outcome);
     Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
+    Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why);
     Result<IngestOutcome> take_in(catalog::FileFacts facts, level2::Decoded decoded,
                                   bool finish_partial, IngestOutcome outcome);
     Result<IngestOutcome> grid_all(const catalog::FileFacts& facts,

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
+#include "base/beneath.h"
 #include "level2/archive_header.h"
 #include "level2/content.h"
 
@@ -30,19 +30,15 @@ constexpr std::uint64_t most_records = 10'000;
 
 class OpenFile {
   public:
-    explicit OpenFile(const fs::path& path)
-        : descriptor_(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)),
-          number_(errno) {}
+    OpenFile(const fs::path& path, const fs::path& beneath)
+        : opened_(open_beneath(beneath, path)), descriptor_(opened_ ? *opened_ : -1) {}
     OpenFile(const OpenFile&) = delete;
     OpenFile& operator=(const OpenFile&) = delete;
     ~OpenFile() {
         if (descriptor_ >= 0) ::close(descriptor_);
     }
     [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
-    [[nodiscard]] Error failure(const fs::path& path) const {
-        return {number_ == ENOENT ? ErrorCode::not_found : ErrorCode::io,
-                fmt::format("{}: {}", path.native(), std::system_category().message(number_))};
-    }
+    [[nodiscard]] const Error& failure() const { return opened_.error(); }
     // None where it is no regular file.
     [[nodiscard]] std::optional<struct stat> facts() const {
         struct stat found {};
@@ -63,8 +59,8 @@ class OpenFile {
     }
 
   private:
+    Result<int> opened_;
     int descriptor_;
-    int number_;
 };
 
 std::int32_t control_word(std::span<const std::byte, 4> bytes) {
@@ -83,8 +79,8 @@ bool KeptVolume::is_lowest(double elevation_deg) const {
     });
 }
 
-bool LivingFile::is_growing(const fs::path& path) {
-    const OpenFile file(path);
+bool LivingFile::is_growing(const fs::path& path, const fs::path& beneath) {
+    const OpenFile file(path, beneath);
     if (!file.is_open()) return false;
     const auto facts = file.facts();
     if (!facts) return false;
@@ -111,6 +107,7 @@ bool LivingFile::is_growing(const fs::path& path) {
 
 LivingFile::LivingFile(fs::path path, const Options& options)
     : path_(std::move(path)),
+      beneath_(options.beneath),
       moment_(options.moment),
       growing_(level2::DecodeOptions{.threads = 1,
                                      .output_limit_bytes = most_output_bytes,
@@ -135,8 +132,8 @@ Status LivingFile::read_to(std::uint64_t size_bytes) {
 }
 
 Status LivingFile::read_on(std::uint64_t size_bytes) {
-    const OpenFile file(path_);
-    if (!file.is_open()) return tl::unexpected<Error>(file.failure(path_));
+    const OpenFile file(path_, beneath_);
+    if (!file.is_open()) return tl::unexpected<Error>(file.failure());
     const auto facts = file.facts();
     const std::uint64_t inode = facts ? facts->st_ino : 0;
     if (!facts || (read_bytes_ > 0 && inode != inode_) || size_bytes < read_bytes_) {
@@ -192,7 +189,7 @@ Status LivingFile::shelve_new_sweeps() {
 }
 
 Status LivingFile::is_as_followed() const {
-    const auto bytes = read_file(path_);
+    const auto bytes = read_beneath(beneath_, path_);
     if (!bytes) return pass_on(bytes);
     if (bytes->size() != read_bytes_ || xxh3_64(*bytes) != hash_.value()) {
         return fail(ErrorCode::corrupt, "{}: is not the file that it was", path_.native());

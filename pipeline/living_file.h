@@ -53,12 +53,14 @@ class LivingFile {
         level2::Moment moment = level2::Moment::ref;  // of living grids
         std::string fallback_station;
         std::filesystem::path scratch;
+        std::filesystem::path beneath = {};  // where all files must lie (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
     };
 
     // Whether to follow the file: LDM records, of which the last is not there yet. Reads the
     // lengths of its records.
-    [[nodiscard]] static bool is_growing(const std::filesystem::path& path);
+    [[nodiscard]] static bool is_growing(const std::filesystem::path& path,
+                                         const std::filesystem::path& beneath = {});
     static Result<std::unique_ptr<LivingFile>> begin(const std::filesystem::path& path,
                                                      const Options& options);
 
@@ -91,7 +93,7 @@ class LivingFile {
     Status shelve_new_sweeps();
     Status is_as_followed() const;
 
-    std::filesystem::path path_;
+    std::filesystem::path path_, beneath_;
     level2::Moment moment_;
     level2::GrowingVolume growing_;
     std::unique_ptr<KeptVolume> kept_;

@@ -48,6 +48,7 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_TRUE(shipped->living);
     EXPECT_TRUE(bare->living);
     EXPECT_EQ(shipped->rescan, bare->rescan);
+    EXPECT_EQ(shipped->poll, bare->poll);
     EXPECT_EQ(shipped->queue_limit, bare->queue_limit);
     EXPECT_EQ(shipped->refill, bare->refill);
     EXPECT_EQ(shipped->packing, bare->packing);
@@ -73,7 +74,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
              "reread_seconds = 0\nliving = false\nmoment = \"VEL\"\nspacing_km = 0.5\n"
              "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
              "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
-             "[watch]\nrescan_seconds = 7\nqueue_limit = 99\n"
+             "[watch]\nrescan_seconds = 7\npoll_seconds = 2\nqueue_limit = 99\n"
              "[log]\nlevel = \"debug\"\n");
     ASSERT_TRUE(config) << config.error().message;
     EXPECT_EQ(config->drop, "/d");
@@ -93,6 +94,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->ingest.ny, 100);
     EXPECT_EQ(config->ingest.levels_m, (std::vector<double>{500, 1000, 2500}));
     EXPECT_EQ(config->rescan, std::chrono::seconds{7});
+    EXPECT_EQ(config->poll, std::chrono::seconds{2});
     EXPECT_EQ(config->queue_limit, 99U);
     EXPECT_EQ(config->log_level, "debug");
 }

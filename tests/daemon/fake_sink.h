@@ -1,6 +1,7 @@
 // tests/daemon/fake_sink.h -- a sink that does what the test says, and remembers what it was given.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -42,6 +43,7 @@ class FakeSink final : public Sink {
         return {};
     }
     Result<int> mark_missing(const OnStep& step) override {
+        ++missing_looks_;
         if (looks) looks(step);
         return 0;
     }
@@ -51,6 +53,7 @@ class FakeSink final : public Sink {
     }
     // What else they do; set before the sink is used.
     std::function<void(const OnStep&)> looks, rolls;
+    [[nodiscard]] int missing_looks() const { return missing_looks_; }
 
     // False when it takes too long.
     bool wait_for_calls(std::size_t count) {
@@ -72,6 +75,7 @@ class FakeSink final : public Sink {
 
   private:
     Answer answer_;
+    std::atomic<int> missing_looks_ = 0;
     std::mutex mutex_;
     std::condition_variable called_;
     std::vector<std::string> calls_, noted_;

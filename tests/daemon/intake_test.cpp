@@ -93,6 +93,107 @@ TEST_F(IntakeTest, AFollowedFileIsReadAtEveryWriteWithoutAPause) {
     EXPECT_FALSE(intake_.follows(at("a")));
 }
 
+// Of the files in a directory that is moved away the kernel says nothing.
+TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
+    pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
+    followed.followed = true;
+    std::filesystem::create_directories(at("day"));
+    for (const char* name : {"day/a", "day2"}) {
+        intake_.file_closed(at(name), make(name));
+        next();
+        end(name, followed);
+    }
+    intake_.directory_gone(at("day"), false);
+    EXPECT_FALSE(intake_.follows(at("day/a")));
+    EXPECT_TRUE(intake_.follows(at("day2")));
+    EXPECT_EQ(next(), "a") << "so that its rows are marked";
+    EXPECT_TRUE(intake_.needs_scan()) << "for the rows of those of which nothing is known";
+    EXPECT_EQ(intake_.pending().growing, 1U);
+}
+
+TEST_F(IntakeTest, AScanFindsOutWhichFollowedFilesAreGone) {
+    pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
+    followed.followed = true;
+    for (const char* name : {"a", "b"}) {
+        intake_.file_closed(at(name), make(name));
+        next();
+        end(name, followed);
+    }
+    std::filesystem::remove(at("a"));
+    intake_.begin_scan();
+    intake_.end_scan(false);
+    EXPECT_TRUE(intake_.follows(at("a"))) << "the drop directory could not be read";
+    intake_.begin_scan();
+    intake_.end_scan(true);
+    EXPECT_FALSE(intake_.follows(at("a")));
+    EXPECT_TRUE(intake_.follows(at("b")));
+}
+
+TEST_F(IntakeTest, ProblemsAreGivenOnceAsLongAsScansFindThem) {
+    const auto scan = [&](bool finds) {
+        intake_.begin_scan();
+        if (finds) {
+            intake_.entry_left_out(at("link\n"), "a symbolic link");
+            intake_.directory_problem({ErrorCode::io, "closed: no"});
+        }
+        intake_.end_scan(true);
+        return intake_.take_directory_problems();
+    };
+    const auto first = scan(true);
+    ASSERT_EQ(first.size(), 2U);
+    EXPECT_EQ(first[0].code, ErrorCode::not_a_file);
+    EXPECT_EQ(first[0].message, at("link\n").native() + ": is a symbolic link: left out");
+    EXPECT_TRUE(scan(true).empty());
+    EXPECT_TRUE(scan(false).empty());
+    EXPECT_EQ(scan(true).size(), 2U) << "they went and came again";
+    intake_.begin_scan();
+    for (int i = 0; i < 100'000; ++i)
+        intake_.entry_left_out(at(std::to_string(i).c_str()), "a FIFO");
+    intake_.end_scan(true);
+    EXPECT_EQ(intake_.take_directory_problems().size(), 64U) << "bounded";
+}
+
+// Somebody sets the clock, or the machine starts without one: no order, wait or file is lost.
+TEST_F(IntakeTest, AClockThatIsSetBackKeepsTheOrderOfWhatIsClosed) {
+    intake_.file_closed(at("first"), make("first"));
+    wall_ns_ -= 3600 * second_ns;
+    intake_.file_closed(at("second"), make("second"));
+    wall_ns_ = 0;
+    intake_.file_closed(at("third"), make("third"));
+    EXPECT_EQ(next(), "third");
+    EXPECT_EQ(next(), "second");
+    EXPECT_EQ(next(), "first");
+}
+
+TEST_F(IntakeTest, AClockThatJumpsChangesNoWait) {
+    for (const std::int64_t jump_ns :
+         {-40 * 365 * 86'400 * second_ns, 3600 * second_ns, 40 * 365 * 86'400 * second_ns}) {
+        intake_.file_closed(at("a"), make("a"));
+        EXPECT_EQ(next(), "a");
+        end("a", IngestResult::incomplete);
+        wall_ns_ += jump_ns;
+        now_ += seconds{29};
+        intake_.poll_growing();
+        EXPECT_EQ(next(), "") << "29 s have passed, whatever the wall says";
+        now_ += seconds{2};
+        intake_.poll_growing();
+        EXPECT_EQ(next(), "a!") << "and now 31";
+        end("a", IngestResult::gridded);
+    }
+}
+
+// A time of the year 2100 would put a backlog before all that comes until then.
+TEST_F(IntakeTest, FilesFromTheFutureGoBeforeNothingThatIsClosedNow) {
+    FileStamp stamp = make("future");
+    stamp.modified_ns = wall_ns_ + 70LL * 365 * 86'400 * second_ns;
+    intake_.file_found(at("future"), stamp);
+    now_ += seconds{1};
+    wall_ns_ += second_ns;
+    intake_.file_closed(at("new"), make("new"));
+    EXPECT_EQ(next(), "new");
+    EXPECT_EQ(next(), "future");
+}
+
 TEST_F(IntakeTest, WhatIsClosedNowGoesBeforeTheBacklog) {
     intake_.file_found(at("old"), make("old"));
     intake_.file_closed(at("new"), make("new"));

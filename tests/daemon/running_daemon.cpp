@@ -62,13 +62,22 @@ void RunningDaemon::start(const std::string& more,
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 2, (root_ / "log").c_str(),
                                      O_WRONLY | O_CREAT | O_APPEND, 0600);
-    std::vector<std::string> arguments = {STORMCELLARD, "--config", file.native()};
+    std::vector<std::string> arguments = under_;
+    arguments.insert(arguments.end(), {STORMCELLARD, "--config", file.native()});
     arguments.insert(arguments.end(), options.begin(), options.end());
     std::vector<std::string> variables = environment_with(environment);
-    const int failed = ::posix_spawn(&child_, STORMCELLARD, &actions, nullptr,
-                                     pointers(arguments).data(), pointers(variables).data());
+    const int failed = ::posix_spawnp(&child_, arguments.front().c_str(), &actions, nullptr,
+                                      pointers(arguments).data(), pointers(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) throw std::runtime_error("cannot start stormcellard");
+}
+
+long RunningDaemon::peak_mib() const {
+    std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmHWM:")) return std::stol(line.substr(6)) / 1024;
+    }
+    return -1;
 }
 
 void RunningDaemon::signal(int number) const {

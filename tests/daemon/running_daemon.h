@@ -31,6 +31,11 @@ class RunningDaemon {
     void start(const std::string& more = {},
                const std::map<std::string, std::string>& environment = {},
                const std::vector<std::string>& options = {});
+    // Started by this program, which must become it (setpriv, unshare); before start().
+    void run_under(std::vector<std::string> program) { under_ = std::move(program); }
+    [[nodiscard]] pid_t id() const { return child_; }
+    // The most memory that it has had resident; -1 where that cannot be read.
+    [[nodiscard]] long peak_mib() const;
     void signal(int number) const;
     // The exit status, or minus the signal that ended it. Throws after 60 s.
     int wait();
@@ -50,6 +55,7 @@ class RunningDaemon {
 
   private:
     testing::TemporaryDirectory root_;
+    std::vector<std::string> under_;
     pid_t child_ = 0;
 };
 

@@ -164,6 +164,32 @@ TEST_F(ServiceTest, LivesOnRescansWhereThereAreNoEvents) {
     EXPECT_TRUE(sink_->wait_for_calls(1));
 }
 
+// As on NFS: no event comes, and that is known.
+TEST_F(ServiceTest, PollsWhereChangesComeWithoutEvents) {
+    class Silent final : public EventSource {
+      public:
+        [[nodiscard]] int descriptor() const override { return -1; }
+        Result<int> watch(const fs::path&) override { return ++watches_; }
+        void unwatch(int) override {}
+        std::vector<DirectoryEvent> read() override { return {}; }
+        std::optional<std::string> silence(const fs::path& directory) override {
+            return directory.native() + ": lies on NFS";
+        }
+
+      private:
+        int watches_ = 0;
+    };
+    config_.rescan = std::chrono::hours{1};
+    config_.poll = std::chrono::milliseconds{100};
+    start(always(IngestResult::gridded), std::make_unique<Silent>());
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    for (int i = 1; i <= 3; ++i) {
+        write_file(config_.drop / std::to_string(i), "1");
+        ASSERT_TRUE(sink_->wait_for_calls(static_cast<std::size_t>(i)));
+    }
+    EXPECT_EQ(sink_->missing_looks(), 1) << "polls do not look at every row of the catalog";
+}
+
 // Every event is dropped by the kernel: only the scan that follows can find the files.
 TEST_F(ServiceTest, ScansWhenEventsWereLost) {
     class Overflowing final : public EventSource {

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Seen {
-    std::set<std::string> files, directories, problems;
+    std::set<std::string> files, directories, problems, others;
 };
 
-Result<Seen> walked(const fs::path& root) {
+Result<Seen> walked(const fs::path& root, int depth = 0) {
     Seen seen;
     const Status status =
         walk(root,
@@ -26,7 +27,12 @@ Result<Seen> walked(const fs::path& root) {
               [&](const fs::path& path, const FileStamp&) {
                   seen.files.insert(path.lexically_relative(root));
               },
-              [&](const std::string& problem) { seen.problems.insert(problem); }});
+              [&](const std::string& problem) { seen.problems.insert(problem); },
+              [&](const fs::path& path, mode_t mode) {
+                  EXPECT_FALSE(S_ISREG(mode) || S_ISDIR(mode));
+                  seen.others.insert(path.lexically_relative(root));
+              }},
+             depth);
     if (!status) return pass_on(status);
     return seen;
 }
@@ -56,6 +62,44 @@ TEST(TreeWalk, LeavesOutLinksFifosAndTemporaryNames) {
     ASSERT_TRUE(seen);
     EXPECT_TRUE(seen->files.empty());
     EXPECT_EQ(seen->directories, std::set<std::string>{"."});
+    EXPECT_EQ(seen->others, (std::set<std::string>{"fifo", "link", "linked"}));
+}
+
+// What appears deep down is found by a walk of its own, and lies as deep as ever.
+TEST(TreeWalk, DepthCountsFromWhereItIsSaidTo) {
+    const testing::TemporaryDirectory directory;
+    fs::create_directories(directory / "a/b");
+    write_file(directory / "a/file", "1");
+    const Result<Seen> seen = walked(directory.path(), max_walk_depth - 1);
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->files, std::set<std::string>{"a/file"});
+    EXPECT_EQ(seen->directories, (std::set<std::string>{".", "a"}));
+    EXPECT_EQ(seen->problems.size(), 1U);
+    const Result<Seen> too_deep = walked(directory.path(), max_walk_depth + 1);
+    ASSERT_TRUE(too_deep);
+    EXPECT_TRUE(too_deep->directories.empty());
+    EXPECT_EQ(too_deep->problems.size(), 1U);
+}
+
+TEST(TreeWalk, PathsThatNoCallTakesAreLeftOut) {
+    const testing::TemporaryDirectory directory;
+    fs::path path = directory.path();
+    while (path.native().size() < 3800)
+        path /= std::string(250, 'd');
+    fs::create_directories(path);
+    const int at = ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    const std::string name(255, 'f');
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(::mkdirat(at, name.c_str(), 0755), i == 0 ? 0 : -1);
+        ASSERT_EQ(::mkdirat(at, std::string(254, 'f').c_str(), 0755), i == 0 ? 0 : -1);
+    }
+    ::close(at);
+    write_file(path / "fits", "1");
+    const Result<Seen> seen = walked(directory.path());
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->files.size(), 1U);
+    const bool too_long = path.native().size() + 255 >= 4096;
+    EXPECT_EQ(seen->problems.size(), too_long ? 1U : 0U) << "said once of their directory";
 }
 
 TEST(TreeWalk, GivesTheStampOfAFile) {

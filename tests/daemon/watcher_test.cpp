@@ -34,6 +34,12 @@ class Notes final : public WatchListener {
         return path.filename() == followed;
     }
     void file_grew(const fs::path& path, const FileStamp&) override { note("grew", path); }
+    void directory_gone(const fs::path& path, bool deleted) override {
+        note(deleted ? "deleted" : "moved", path);
+    }
+    void entry_left_out(const fs::path& path, std::string_view kind) override {
+        note(std::string{kind} + ":", path);
+    }
     void events_lost() override { said.emplace_back("lost"); }
     void drop_vanished() override { said.emplace_back("vanished"); }
     void directory_problem(const Error& error) override { problems.push_back(error); }
@@ -151,8 +157,14 @@ TEST_F(RealWatcher, NeverReportsLinksFifosAndDirectories) {
     settle();
     write_file(elsewhere / "b", "1");
     settle();
-    EXPECT_EQ(notes_.said, Lines{});
+    const Lines left_out = {"a symbolic link: link", "a symbolic link: linked", "a FIFO: fifo"};
+    EXPECT_EQ(notes_.said, left_out);
     EXPECT_EQ(watcher_->directory_count(), 2U) << "the drop directory and the real one";
+    notes_.said.clear();
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_TRUE(std::is_permutation(notes_.said.begin(), notes_.said.end(), left_out.begin(),
+                                    left_out.end()))
+        << "scans say so too";
 }
 
 // Directories come and are filled at once by another thread, faster than watches can be set.
@@ -201,7 +213,7 @@ TEST_F(RealWatcher, ForgetsADirectoryThatIsMovedAway) {
     settle();
     write_file(elsewhere / "day/site/a", "1");
     settle();
-    EXPECT_EQ(notes_.said, Lines{}) << "what lies outside is never reported";
+    EXPECT_EQ(notes_.said, Lines{"moved day"}) << "what lies outside is never reported";
     EXPECT_EQ(watcher_->directory_count(), 1U);
 }
 
@@ -210,7 +222,21 @@ TEST_F(RealWatcher, ForgetsADirectoryThatIsDeleted) {
     ASSERT_TRUE(watcher_->scan());
     fs::remove_all(drop() / "day");
     settle();
+    EXPECT_EQ(notes_.said, (Lines{"deleted day/site", "deleted day"}));
     EXPECT_EQ(watcher_->directory_count(), 1U);
+}
+
+// Each directory is seen when it comes, however deep it lies by then.
+TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
+    ASSERT_TRUE(watcher_->scan());
+    fs::path path = drop();
+    for (int i = 0; i < 40; ++i) {
+        path /= "d";
+        fs::create_directory(path);
+        settle();
+    }
+    EXPECT_EQ(watcher_->directory_count(), 17U) << "16 below the drop directory";
+    EXPECT_EQ(notes_.problems.size(), 1U) << "nobody hears of what lies below";
 }
 
 TEST_F(RealWatcher, SaysWhenTheDropDirectoryVanishesAndTakesItAgain) {
@@ -265,8 +291,13 @@ class FakeEvents final : public EventSource {
     }
     void unwatch(int) override {}
     std::vector<DirectoryEvent> read() override { return std::exchange(waiting, {}); }
+    std::optional<std::string> silence(const fs::path& directory) override {
+        if (directory.filename() != silent) return std::nullopt;
+        return directory.native() + ": lies on NFS";
+    }
 
     int most = 1000;
+    std::string silent = "none";
     std::vector<fs::path> watched;
     std::vector<DirectoryEvent> waiting;
 };
@@ -294,9 +325,39 @@ TEST(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEverythin
     Notes notes(directory.path());
     Watcher watcher(directory.path(), events, notes);
     ASSERT_TRUE(watcher.scan());
-    ASSERT_EQ(notes.problems.size(), 2U);
+    EXPECT_TRUE(watcher.is_blind());
+    ASSERT_EQ(notes.problems.size(), 1U) << "said of the first";
     EXPECT_EQ(notes.problems[0].code, ErrorCode::no_space);
     EXPECT_EQ(notes.taken(), (std::set<std::string>{"a/file", "b/file", "c/file"}));
+    events.watched.clear();
+    ASSERT_TRUE(watcher.scan());
+    EXPECT_EQ(notes.problems.size(), 1U) << "said once";
+    events.watched.clear();
+    events.most = 1000;
+    ASSERT_TRUE(watcher.scan());
+    EXPECT_FALSE(watcher.is_blind()) << "somebody raised the limit";
+    events.watched.clear();
+    events.most = 2;
+    ASSERT_TRUE(watcher.scan());
+    EXPECT_EQ(notes.problems.size(), 2U) << "said anew";
+}
+
+TEST(ForcedWatcher, SilentDirectoriesAreWatchedAllTheSameAndSaidOnce) {
+    const testing::TemporaryDirectory directory;
+    fs::create_directories(directory / "day/shared");
+    FakeEvents events;
+    events.silent = "shared";
+    Notes notes(directory.path());
+    Watcher watcher(directory.path(), events, notes);
+    ASSERT_TRUE(watcher.scan());
+    EXPECT_TRUE(watcher.is_blind());
+    EXPECT_EQ(watcher.directory_count(), 3U) << "what this machine writes is told of";
+    ASSERT_TRUE(watcher.scan());
+    ASSERT_EQ(notes.problems.size(), 1U);
+    EXPECT_EQ(notes.problems[0].code, ErrorCode::unsupported);
+    fs::remove(directory / "day/shared");
+    ASSERT_TRUE(watcher.scan());
+    EXPECT_FALSE(watcher.is_blind());
 }
 
 TEST(ForcedWatcher, EventsOfAWatchThatIsGoneAreLeftAlone) {

@@ -197,7 +197,7 @@ TEST_F(IngestTest, OddThingsAreRejectedAndNeverFollowed) {
     fs::create_symlink("/etc/passwd", directory_ / "link");
     const auto outcome = ingestor_.ingest(directory_ / "link", true);
     EXPECT_EQ(outcome->result, IngestResult::rejected);
-    EXPECT_EQ(outcome->reason, "is not a regular file");
+    EXPECT_EQ(outcome->reason, "is a symbolic link");
     EXPECT_EQ(outcome->rejected_with, ErrorCode::not_a_file);
 }
 

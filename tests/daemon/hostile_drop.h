@@ -1,0 +1,106 @@
+// tests/daemon/hostile_drop.h -- the real program on a drop directory that means harm.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "catalog/catalog.h"
+#include "tests/daemon/running_daemon.h"
+#include "tests/daemon/write_file.h"
+#include "tests/level2/wire.h"
+
+namespace stormcellar::daemon {
+
+// With two workers; what a volume of a radar takes is a fifth of it.
+inline constexpr long most_mib = 1024;
+// For what takes seconds where nothing else runs.
+inline constexpr double most_seconds = 60;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool memory_is_ours = false;
+#else
+inline constexpr bool memory_is_ours = true;
+#endif
+
+inline constexpr const char* hasty =
+    "[ingest]\nworkers = 2\nthreads = 2\nquiet_seconds = 1\nspacing_km = 4\n"
+    "[watch]\nrescan_seconds = 1\n[log]\nlevel = \"debug\"\n";
+
+class HostileDrop : public ::testing::Test {
+  protected:
+    HostileDrop() { std::filesystem::create_directory(outside()); }
+
+    [[nodiscard]] std::filesystem::path drop() const { return daemon_.drop(); }
+    [[nodiscard]] std::filesystem::path outside() const { return daemon_.root() / "outside"; }
+    static void put(const std::filesystem::path& path, const level2::wire::Bytes& bytes) {
+        std::filesystem::create_directories(path.parent_path());
+        write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    // A volume of the site of the tests; each with its own number of sweeps is told by it.
+    static level2::wire::Bytes volume(unsigned sweeps = 2) {
+        return level2::wire::ldm_volume(sweeps, 360);
+    }
+    void start() {
+        daemon_.start(hasty);
+        ASSERT_TRUE(daemon_.wait_for([](const nlohmann::json& s) {
+            return s["state"] == "running";
+        })) << daemon_.log();
+    }
+    bool wait_until_gridded(const std::string& name) {
+        return daemon_.wait_for([&](const nlohmann::json& status) {
+            return std::any_of(status["volumes"].begin(), status["volumes"].end(),
+                               [&](const nlohmann::json& file) {
+                                   return std::string{file["file"]}.ends_with(name);
+                               });
+        });
+    }
+    bool wait_until_rejected(std::size_t files) {
+        return daemon_.wait_for(
+            [&](const nlohmann::json& status) { return status["rejected"] >= files; });
+    }
+    // The reason for which a file was rejected; empty where it was not.
+    std::string reason_of(const std::string& name) {
+        const nlohmann::json status = daemon_.status();
+        for (const nlohmann::json& file : status["rejected_files"]) {
+            if (std::string{file["file"]}.ends_with(name)) return file["reason"];
+        }
+        return {};
+    }
+    bool was_said(const std::string& text) {
+        if (daemon_.wait_for_log(text)) return true;
+        std::printf("%s is not in\n%s", text.c_str(), daemon_.log().c_str());
+        return false;
+    }
+    void expect_bounded(const char* what) {
+        const long peak = daemon_.peak_mib();
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin_;
+        std::printf("%s: peak %ld MiB, %.2f s\n", what, peak, took.count());
+        EXPECT_GT(peak, 0);
+        if (memory_is_ours) {
+            EXPECT_LT(peak, most_mib);
+        }
+        EXPECT_LT(took.count(), most_seconds);
+    }
+    // How many sweeps the volumes have that the catalog knows, in any state.
+    std::multiset<int> sweeps_known() {
+        std::multiset<int> sweeps;
+        auto catalog = catalog::Catalog::open_for_reading(daemon_.catalog());
+        if (!catalog) return sweeps;
+        const auto entries = catalog->list("KTLX", {std::nullopt, std::nullopt, true});
+        if (!entries) return sweeps;
+        for (const catalog::CatalogEntry& entry : *entries)
+            sweeps.insert(entry.volume.sweep_count);
+        return sweeps;
+    }
+
+    RunningDaemon daemon_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace stormcellar::daemon

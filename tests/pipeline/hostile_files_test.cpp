@@ -1,0 +1,176 @@
+// Files that mean harm: links to elsewhere, names that are swapped, sizes beyond all volumes.
+#include <array>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/file_system.h"
+#include "cache/store.h"
+#include "pipeline/ingest.h"
+#include "pipeline/living_file.h"
+#include "tests/level2/wire.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+namespace wire = level2::wire;
+using catalog::FileState;
+
+class Hostile : public ::testing::Test {
+  protected:
+    Hostile() {
+        fs::create_directories(drop());
+        fs::create_directories(outside());
+    }
+    [[nodiscard]] fs::path drop() const { return directory_ / "drop"; }
+    [[nodiscard]] fs::path outside() const { return directory_ / "outside"; }
+    static fs::path put(const fs::path& path, std::span<const std::byte> bytes) {
+        fs::create_directories(path.parent_path());
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+        return path;
+    }
+    IngestOptions options() {
+        IngestOptions made;
+        made.spacing_m = 4000;
+        made.nx = made.ny = 115;
+        made.beneath = drop();
+        made.living.scratch = directory_.path();
+        made.living.chunk_grace = std::chrono::seconds{0};
+        return made;
+    }
+    // "rejected: REASON" and so on.
+    std::string take(const fs::path& path, bool finish_partial = true) {
+        const auto outcome = ingestor_.ingest(path, finish_partial);
+        if (!outcome) return "error: " + outcome.error().message;
+        switch (outcome->result) {
+            case IngestResult::rejected:
+                return "rejected: " + outcome->reason;
+            case IngestResult::vanished:
+                return "vanished";
+            case IngestResult::incomplete:
+                return "incomplete";
+            case IngestResult::gridded:
+                return "gridded";
+            default:
+                return "other";
+        }
+    }
+    std::size_t rows() {
+        std::size_t count = 0;
+        const auto stations = catalog_.stations();
+        for (const auto& station : *stations)
+            count += catalog_.list(station.station, {std::nullopt, std::nullopt, true})->size();
+        return count;
+    }
+    testing::TemporaryDirectory directory_;
+    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    Ingestor ingestor_{catalog_, store_, options()};
+};
+
+TEST_F(Hostile, AnOrdinaryFileIsTaken) {
+    EXPECT_EQ(take(put(drop() / "day/KTLX_a", wire::ldm_volume(2, 360))), "gridded");
+}
+
+// The names stay, what they lead to does not.
+TEST_F(Hostile, ADirectoryThatBecomesALinkLeadsNowhere) {
+    const auto bytes = wire::ldm_volume(2, 360);
+    put(outside() / "KTLX_a", bytes);
+    fs::create_directory_symlink(outside(), drop() / "day");
+    EXPECT_EQ(take(drop() / "day/KTLX_a"), "vanished");
+    EXPECT_EQ(take(drop() / "day/KTLX_a", false), "vanished");
+    EXPECT_EQ(rows(), 0U);
+}
+
+TEST_F(Hostile, APathThatLeadsOutIsNotThere) {
+    put(outside() / "KTLX_a", wire::ldm_volume(2, 360));
+    EXPECT_EQ(take(outside() / "KTLX_a"), "vanished");
+    EXPECT_EQ(take(drop() / "../outside/KTLX_a"), "vanished");
+    EXPECT_EQ(rows(), 0U);
+}
+
+TEST_F(Hostile, AGrowingFileBehindALinkIsNotFollowed) {
+    const auto bytes = wire::join({wire::archive_header(), {}});
+    put(outside() / "KTLX_a", bytes);
+    EXPECT_TRUE(LivingFile::is_growing(outside() / "KTLX_a"));
+    EXPECT_FALSE(LivingFile::is_growing(outside() / "KTLX_a", drop()));
+    fs::create_symlink(outside() / "KTLX_a", drop() / "KTLX_a");
+    EXPECT_FALSE(LivingFile::is_growing(drop() / "KTLX_a", drop()));
+    fs::create_directory_symlink(outside(), drop() / "day");
+    EXPECT_FALSE(LivingFile::is_growing(drop() / "day/KTLX_a", drop()));
+}
+
+// Two sweeps, a record each; the first does not end the volume.
+std::array<wire::Bytes, 2> two_records() {
+    const auto messages = wire::radial_messages(2, 360);
+    const std::span all{messages};
+    return {wire::ldm_record(all.first(all.size() / 2)),
+            wire::ldm_record(all.subspan(all.size() / 2), true)};
+}
+
+// Chunks beside the first one are found by their names; links among them are none of them.
+TEST_F(Hostile, LinksAmongChunksAreNotRead) {
+    const auto [first, last] = two_records();
+    put(drop() / "KTLX/1/20220317-000842-001-S", wire::join({wire::archive_header(), first}));
+    put(outside() / "chunk", last);
+    fs::create_symlink(outside() / "chunk", drop() / "KTLX/1/20220317-000842-002-E");
+    EXPECT_EQ(take(drop() / "KTLX/1/20220317-000842-001-S", false), "incomplete")
+        << "with the second it would have ended";
+    EXPECT_EQ(take(drop() / "KTLX/1/20220317-000842-002-E"), "rejected: is a symbolic link");
+}
+
+constexpr std::uintmax_t tebibyte = std::uintmax_t{1} << 40U;
+
+// Refused by their size, whatever they look like; nobody reads a tebibyte of zeros.
+TEST_F(Hostile, HugeSparseFilesAreRefusedUnread) {
+    const std::string why =
+        "rejected: 1099511627776 bytes, and a raw file may have 268435456: not read";
+    const auto record = wire::ldm_record(wire::radial_messages(1, 360));
+    const auto begun = wire::join({wire::archive_header(), record});
+    for (const char* name : {"plain", "KTLX20220317_000842_V06", "KTLX/1/20220317-000842-001-S"}) {
+        const fs::path path = put(drop() / name, begun);
+        fs::resize_file(path, tebibyte);
+        EXPECT_EQ(take(path, false), why) << name;
+        EXPECT_EQ(ingestor_.ingest_again(path)->reason, why.substr(10)) << name;
+    }
+}
+
+TEST_F(Hostile, AFollowedFileThatBecomesHugeIsGivenUp) {
+    const auto record = two_records()[0];
+    const fs::path path =
+        put(drop() / "KTLX20220317_000842_V06", wire::join({wire::archive_header(), record}));
+    EXPECT_EQ(take(path, false), "incomplete");
+    fs::resize_file(path, tebibyte);
+    EXPECT_EQ(take(path, false).substr(0, 23), "rejected: 1099511627776");
+}
+
+// Each of 90 bytes unpacks to 45 MB.
+wire::Bytes bomb(unsigned records) {
+    const auto messages = wire::radial_messages(1, 1);
+    wire::Bytes stream = wire::bzip2(wire::Bytes(45'000'000));
+    wire::Bytes file = wire::join({wire::archive_header(), wire::ldm_record(messages)});
+    const auto record =
+        wire::Writer{}.u32(static_cast<std::uint32_t>(stream.size())).raw(stream).bytes;
+    for (unsigned i = 0; i < records; ++i)
+        file.insert(file.end(), record.begin(), record.end());
+    return file;
+}
+
+TEST_F(Hostile, WhatUnpacksToMoreThanAnyVolumeIsRejected) {
+    const auto file = bomb(12);
+    EXPECT_LT(file.size(), 10'000U);
+    const std::string rejected = take(put(drop() / "KTLX_bomb", file));
+    EXPECT_TRUE(rejected.starts_with("rejected: ")) << rejected;
+    EXPECT_NE(rejected.find("limit"), std::string::npos) << rejected;
+    const std::string packed = take(put(drop() / "KTLX_packed", wire::gzip(file)));
+    EXPECT_TRUE(packed.starts_with("rejected: ")) << packed;
+}
+
+}  // namespace
+}  // namespace stormcellar::pipeline
