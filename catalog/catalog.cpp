@@ -7,6 +7,7 @@
 
 #include <sys/stat.h>
 
+#include "base/beneath.h"
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "catalog/station_database.h"
@@ -276,9 +277,8 @@ Result<int> Catalog::mark_missing(const fs::path& directory) {
         if (!paths) continue;
         std::vector<fs::path> gone;
         for (const fs::path& path : *paths) {
-            std::error_code error;
-            const fs::file_status status = fs::symlink_status(path, error);
-            if (status.type() == fs::file_type::not_found) gone.push_back(path);
+            const auto found = look_beneath(directory, path);
+            if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
         }
         if (gone.empty()) continue;
         const auto here = impl_->with(

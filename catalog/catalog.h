@@ -115,7 +115,8 @@ class Catalog {
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
-    // The same for every row below the directory: what went while nobody watched.
+    // The same for every row below the directory: what went while nobody watched, or lies behind a
+    // symbolic link by now.
     Result<int> mark_missing(const std::filesystem::path& directory);
 
     // True when the path stands in the catalog with this size and modification time and was decoded
