@@ -72,7 +72,7 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     if (Status swept = sweep_temporaries(file_system, directory); !swept) return pass_on(swept);
     std::unique_ptr<Roller> roller(new Roller(file_system, std::move(directory), std::move(budgets),
                                               std::move(surroundings), std::move(*lock)));
-    if (Status read = roller->reread(true); !read) return pass_on(read);
+    if (Status read = roller->reread(true, {}); !read) return pass_on(read);
     RollReport report = roller->roll();
     const std::scoped_lock guard(roller->mutex_);
     roller->reported_ = 0;

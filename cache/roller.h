@@ -73,7 +73,8 @@ class Roller {
     // A temporary file that could not be removed: counted, and removed at a later roll.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
 
-    RollReport roll();
+    using OnStep = std::function<void()>;
+    RollReport roll(const OnStep& step = {});  // store.h
     void set_budgets(Budgets budgets);
     [[nodiscard]] StoreUsage usage() const;
     [[nodiscard]] bool would_keep(const GridName& name);
@@ -98,9 +99,9 @@ class Roller {
     void evict(Lock& lock, const std::vector<GridName>& victims);
     void evict_all(Lock& lock, const std::function<std::vector<GridName>()>& choose);
     void keep_budget(Lock& lock, const std::string& group, const std::optional<Filling>& filling,
-                     RollReport& report);
+                     RollReport& report, const OnStep& step);
     void note_reached(const std::string& group, std::uint64_t bytes);
-    Status reread(bool all);
+    Status reread(bool all, const OnStep& step);
     Status reread_day(const Day& day, bool even_unchanged);
     void adopt(const Day& day, const DayContents& contents);
     void remove_leftovers();

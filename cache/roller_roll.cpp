@@ -42,11 +42,12 @@ std::string whose(const std::string& group) {
 
 }  // namespace
 
-Status Roller::reread(bool all) {
+Status Roller::reread(bool all, const OnStep& step) {
     const auto days = all_days(directory_);
     if (!days) return pass_on(days);
     for (const Day& day : *days) {
         if (Status read = reread_day(day, all); !read) return read;
+        if (step) step();
     }
     const Lock lock(mutex_);
     for (auto day = days_.begin(); day != days_.end();) {
@@ -127,7 +128,8 @@ void Roller::remove_leftovers() {
 // One budget: of a group, or of all when the name is empty. `filling` is what it would be if all
 // that was evicted since it was read is free by now.
 void Roller::keep_budget(Lock& lock, const std::string& group,
-                         const std::optional<Filling>& filling, RollReport& report) {
+                         const std::optional<Filling>& filling, RollReport& report,
+                         const OnStep& step) {
     const Budget budget = group.empty() ? budgets_.total : budgets_.of(group);
     const auto held = [&] { return group.empty() ? account_.used() : account_.used(group); };
     const bool reached = reached_.erase(group) > 0;
@@ -148,7 +150,12 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
             target = std::min(target.value_or(ours), budgets_.low_mark(ours));
         }
     }
-    if (target) evict_all(lock, [&] { return account_.down_to(group, *target, batch); });
+    if (target) {
+        evict_all(lock, [&] {
+            if (step) step();
+            return account_.down_to(group, *target, batch);
+        });
+    }
     if (!limit || held() <= *limit) return;
     report.problems.push_back(
         disk_too_full
@@ -160,18 +167,22 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
                           whose(group), format_byte_size(held()), format_byte_size(*limit)));
 }
 
-RollReport Roller::roll() {
+RollReport Roller::roll(const OnStep& step) {
     const std::scoped_lock one_at_a_time(rolling_);
     RollReport report;
     const bool all = ++rolls_ % rolls_between_full_readings == 0;
-    if (const Status read = reread(all); !read) report.problems.push_back(read.error().message);
+    if (const Status read = reread(all, step); !read)
+        report.problems.push_back(read.error().message);
 
     Lock lock(mutex_);
     remove_leftovers();
     account_.set_now(surroundings_.now());
     const std::vector<std::string> groups = account_.groups();
     for (const std::string& group : groups)
-        evict_all(lock, [&] { return account_.expired(group, budgets_, batch); });
+        evict_all(lock, [&] {
+            if (step) step();
+            return account_.expired(group, budgets_, batch);
+        });
 
     auto filling = surroundings_.filling(directory_);
     if (!filling) report.problems.push_back(filling.error().message);
@@ -183,8 +194,8 @@ RollReport Roller::roll() {
         return *filling;
     };
     for (const std::string& group : groups)
-        keep_budget(lock, group, filling_now(), report);
-    keep_budget(lock, "", filling_now(), report);
+        keep_budget(lock, group, filling_now(), report, step);
+    keep_budget(lock, "", filling_now(), report, step);
 
     report.evicted = evicted_ - std::exchange(reported_, evicted_);
     report.evicted_bytes = evicted_bytes_ - std::exchange(reported_bytes_, evicted_bytes_);

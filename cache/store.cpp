@@ -168,8 +168,8 @@ bool Store::would_keep(const std::string& domain, level2::Moment moment, UtcTime
     return !roller_ || roller_->would_keep({domain, moment, time});
 }
 
-RollReport Store::roll() const {
-    return roller_ ? roller_->roll() : RollReport{};
+RollReport Store::roll(const std::function<void()>& step) const {
+    return roller_ ? roller_->roll(step) : RollReport{};
 }
 
 void Store::set_budgets(Budgets budgets) const {

@@ -111,8 +111,9 @@ class Store {
     [[nodiscard]] bool would_keep(const std::string& domain, level2::Moment moment,
                                   UtcTime time) const;
 
-    // Of a rolling store; nothing happens in another.
-    RollReport roll() const;
+    // Of a rolling store; nothing happens in another. `step` is called after each directory that is
+    // read and each batch of files that go, for whoever watches that it moves on.
+    RollReport roll(const std::function<void()>& step = {}) const;
     void set_budgets(Budgets budgets) const;  // kept from the next commit or roll on
     [[nodiscard]] std::optional<StoreUsage> usage() const;
 

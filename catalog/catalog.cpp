@@ -10,6 +10,7 @@
 #include "base/beneath.h"
 #include "base/file_system.h"
 #include "base/station_table.h"
+#include "catalog/path_homes.h"
 #include "catalog/station_database.h"
 
 namespace stormcellar::catalog {
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view unknown_station = "_unknown";
 constexpr std::string_view database_ending = ".sqlite";
+constexpr std::size_t files_a_step = 1000;
 
 // The database that a station's rows stand in. Nothing unchecked becomes a file name.
 std::string database_name(std::string_view station) {
@@ -32,11 +34,17 @@ Result<std::string> name_asked_for(std::string_view station) {
                 station);
 }
 
-// The station that a path seems to belong to, as a first guess of where its row stands.
+// The station that a path seems to belong to, as a first guess of where its row stands: by its
+// name, its directory's (KTLX/FILE) or the one's above (KTLX/123/CHUNK).
 std::string guessed_station(const fs::path& path) {
     std::string name = path.filename().string().substr(0, 4);
     if (is_icao(name)) return name;
-    return database_name(path.parent_path().filename().string());
+    const fs::path directory = path.parent_path();
+    for (const fs::path& above : {directory, directory.parent_path()}) {
+        name = above.filename().string();
+        if (is_icao(name)) return name;
+    }
+    return std::string{unknown_station};
 }
 
 // Of another station's database: whether it concerns a file of this one. A damaged, foreign or
@@ -82,6 +90,7 @@ struct Catalog::Impl {
     bool writing = false;
     std::mutex slots_mutex;  // guards the map, not what its slots hold
     std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots;
+    PathHomes homes;
     std::mutex repairs_mutex;  // guards repairs
     std::vector<Repair> repairs;
 
@@ -222,50 +231,70 @@ Result<Catalog> Catalog::open_for_reading(fs::path directory) {
     return Catalog(std::move(impl));
 }
 
+// Called after the path was written into the database of that name.
+Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) {
+    const auto home = impl_->homes.of(path);
+    bool is_alone = true;
+    if (!home || (!home->empty() && *home != name)) {
+        const auto names = impl_->names();
+        if (!names) return pass_on(names);
+        for (const std::string& other : *names) {
+            if (other == name) continue;
+            const auto forgotten = impl_->with(other, false, [&](StationDatabase& database) {
+                database.forget(path);
+                return true;
+            });
+            // A damaged database of another station must not hold this file up.
+            if (!forgotten && is_ours_to_solve(forgotten.error())) return pass_on(forgotten);
+            is_alone = is_alone && forgotten;
+        }
+    }
+    if (is_alone) impl_->homes.set(path, name);
+    return {};
+}
+
 Result<Registered> Catalog::register_file(const FileFacts& facts) {
     const std::string name = database_name(facts.station);
     auto registered = impl_->with(
         name, true, [&](StationDatabase& database) { return database.register_file(facts); });
     if (!registered) return registered;
     // What stood there before may have been of another station, or of none that was known.
-    const auto names = impl_->names();
-    if (!names) return pass_on(names);
-    for (const std::string& other : *names) {
-        if (other == name) continue;
-        const auto forgotten = impl_->with(other, false, [&](StationDatabase& database) {
-            database.forget(facts.path);
-            return true;
-        });
-        // A damaged database of another station must not hold this file up.
-        if (!forgotten && is_ours_to_solve(forgotten.error())) return pass_on(forgotten);
-    }
+    if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
     return registered;
 }
 
 Status Catalog::register_files(const std::string& station, const std::vector<FileFacts>& files) {
-    const auto registered =
-        impl_->with(database_name(station), true, [&](StationDatabase& database) {
-            database.register_files(files);
-            return true;
-        });
+    const std::string name = database_name(station);
+    const auto registered = impl_->with(name, true, [&](StationDatabase& database) {
+        database.register_files(files);
+        return true;
+    });
     if (!registered) return pass_on(registered);
+    for (const FileFacts& file : files) {
+        if (Status alone = forget_elsewhere(file.path, name); !alone) return alone;
+    }
     return {};
 }
 
 Result<int> Catalog::mark_gone(const fs::path& path) {
-    const auto names = impl_->names();
+    const auto home = impl_->homes.of(path);
+    if (home && home->empty()) return 0;
+    const auto names =
+        home ? Result<std::vector<std::string>>{std::vector<std::string>{*home}} : impl_->names();
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
-        const auto here = impl_->with(
-            name, false, [&](StationDatabase& database) { return database.mark_gone({path}); });
+        // To look is cheaper than to begin to write.
+        const auto here = impl_->with(name, false, [&](StationDatabase& database) {
+            return database.is_settled(path, 0, 0) ? database.mark_gone({path}) : 0;
+        });
         if (!here && is_ours_to_solve(here.error())) return pass_on(here);
         marked += here.value_or(0);
     }
     return marked;
 }
 
-Result<int> Catalog::mark_missing(const fs::path& directory) {
+Result<int> Catalog::mark_missing(const fs::path& directory, const std::function<void()>& step) {
     const auto names = impl_->names();
     if (!names) return pass_on(names);
     int marked = 0;
@@ -275,8 +304,11 @@ Result<int> Catalog::mark_missing(const fs::path& directory) {
         });
         if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
         if (!paths) continue;
+        if (step) step();
         std::vector<fs::path> gone;
+        std::size_t looked_at = 0;
         for (const fs::path& path : *paths) {
+            if (step && ++looked_at % files_a_step == 0) step();
             const auto found = look_beneath(directory, path);
             if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
         }
@@ -289,25 +321,44 @@ Result<int> Catalog::mark_missing(const fs::path& directory) {
     return marked;
 }
 
-Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
-                                 std::int64_t modified_ns) {
+Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uint64_t size_bytes,
+                                                  std::int64_t modified_ns) {
     const auto ask = [&](StationDatabase& database) {
         return database.is_settled(path, size_bytes, modified_ns);
     };
-    const std::string guess = guessed_station(path);
-    const auto guessed = impl_->with(guess, false, ask);
-    if (guessed && guessed->has_value()) return **guessed;
-    if (!guessed && guessed.error().code != ErrorCode::not_found) return pass_on(guessed);
+    const auto home = impl_->homes.of(path);
+    if (home && home->empty()) return std::optional<bool>{};
+    const std::string guess = home.value_or(guessed_station(path));
+    auto guessed = impl_->with(guess, false, ask);
+    if (guessed && guessed->has_value()) return guessed;
+    if (!guessed && guessed.error().code != ErrorCode::not_found) return guessed;
+    if (home) return std::optional<bool>{};
 
     const auto names = impl_->names();
     if (!names) return pass_on(names);
+    bool is_sure = true;
     for (const std::string& name : *names) {
         if (name == guess) continue;
-        const auto here = impl_->with(name, false, ask);
-        if (!here && is_ours_to_solve(here.error())) return pass_on(here);
-        if (here && here->has_value()) return **here;
+        auto here = impl_->with(name, false, ask);
+        if (!here && is_ours_to_solve(here.error())) return here;
+        if (here && here->has_value()) return here;
+        is_sure = is_sure && here;
     }
-    return false;
+    if (is_sure && impl_->writing) impl_->homes.set_none(path);
+    return std::optional<bool>{};
+}
+
+Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
+                                 std::int64_t modified_ns) {
+    const auto found = find_settled(path, size_bytes, modified_ns);
+    if (!found) return pass_on(found);
+    return found->value_or(false);
+}
+
+Result<bool> Catalog::is_known(const fs::path& path) {
+    const auto found = find_settled(path, 0, 0);
+    if (!found) return pass_on(found);
+    return found->has_value();
 }
 
 Result<std::vector<std::string>> Catalog::station_names() const {

@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -109,20 +110,24 @@ class Catalog {
 
     // On success a power cut does not undo it, but for a state of `seen`, which may be lost.
     Result<Registered> register_file(const FileFacts& facts);
-    // The same of several files of one station, all of them or none; for files of which rows stand
-    // there already, as those of a volume's chunks.
+    // The same of several files of one station, all of them or none.
     Status register_files(const std::string& station, const std::vector<FileFacts>& files);
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
     // The same for every row below the directory: what went while nobody watched, or lies behind a
-    // symbolic link by now.
-    Result<int> mark_missing(const std::filesystem::path& directory);
+    // symbolic link by now. `step` is called after each station and every 1,000 files, for whoever
+    // watches that it moves on.
+    Result<int> mark_missing(const std::filesystem::path& directory,
+                             const std::function<void()>& step = {});
 
     // True when the path stands in the catalog with this size and modification time and was decoded
     // to its end (complete, partial or rejected): nothing to do again.
     Result<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                             std::int64_t modified_ns);
+
+    // True when the path stands in the catalog, in any state.
+    Result<bool> is_known(const std::filesystem::path& path);
 
     // The stations that have a database, sorted; "" for files without one comes first.
     [[nodiscard]] Result<std::vector<std::string>> station_names() const;
@@ -142,6 +147,10 @@ class Catalog {
 
   private:
     struct Impl;
+    // Whether the row of the path is settled; none where it has no row.
+    Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
+                                             std::uint64_t size_bytes, std::int64_t modified_ns);
+    Status forget_elsewhere(const std::filesystem::path& path, const std::string& name);
     explicit Catalog(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };

@@ -247,14 +247,20 @@ void StationDatabase::forget(const fs::path& path) {
 
 std::optional<bool> StationDatabase::is_settled(const fs::path& path, std::uint64_t size_bytes,
                                                 std::int64_t modified_ns) {
-    SQLite::Statement row(database_,
-                          "SELECT size_bytes = ? AND modified_ns = ? AND "
-                          "state IN ('complete', 'partial', 'rejected') FROM file WHERE path = ?");
+    if (!settled_) {
+        settled_.emplace(database_,
+                         "SELECT size_bytes = ? AND modified_ns = ? AND "
+                         "state IN ('complete', 'partial', 'rejected') FROM file WHERE path = ?");
+    }
+    SQLite::Statement& row = *settled_;
+    (void)row.tryReset();  // it may have failed the last time
     row.bind(1, static_cast<std::int64_t>(size_bytes));
     row.bind(2, modified_ns);
     bind_path(row, 3, path);
-    if (!row.executeStep()) return std::nullopt;
-    return row.getColumn(0).getInt() != 0;
+    std::optional<bool> settled;
+    if (row.executeStep()) settled = row.getColumn(0).getInt() != 0;
+    (void)row.tryReset();  // or it would keep a reader's lock
+    return settled;
 }
 
 StationSummary StationDatabase::summary() {

@@ -71,6 +71,7 @@ class StationDatabase {
 
     SQLite::Database database_;
     std::string station_;
+    std::optional<SQLite::Statement> settled_;  // asked of every station for each new file
     bool is_snapshot_ = false;
     bool is_durable_ = true;  // of the next transaction, where it may write
 };

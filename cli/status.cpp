@@ -26,6 +26,7 @@ int run_status(const StatusOptions& options) {
     if (!places) return report_error(places.error());
     auto found = find_status(*places);
     if (!found) return report_error(found.error());
+    add_loops(found->document, places->loops);
     const UtcTime now = now_utc();
     const std::optional<double> age_s = age_of(found->document, now);
     const bool answered = found->silent.empty();

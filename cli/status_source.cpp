@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -30,6 +31,7 @@ constexpr const char* usual_runtime = "/run/stormcellar";
 constexpr const char* usual_state = "/var/lib/stormcellar";
 constexpr const char* socket_name = "status.sock";
 constexpr const char* file_name = "status.json";
+constexpr const char* loops_file_name = "loops/status.json";
 constexpr std::string_view request = "GET /status.json HTTP/1.0\r\n\r\n";
 
 Error system_error(const fs::path& path, int error_number) {
@@ -118,7 +120,7 @@ Result<StatusPlaces> places_of_config(const fs::path& file) {
     };
     const fs::path state = path_of(root.section("paths"), "state").value_or(usual_state);
     const auto socket = path_of(root.section("status"), "socket");
-    StatusPlaces places{{}, state / file_name};
+    StatusPlaces places{{}, state / file_name, state / loops_file_name};
     if (socket) {
         places.sockets = {*socket};
         return places;
@@ -131,15 +133,35 @@ Result<StatusPlaces> places_of_config(const fs::path& file) {
 }  // namespace
 
 Result<StatusPlaces> places_of(const StatusOptions& options) {
-    if (!options.socket.empty()) return StatusPlaces{{options.socket}, {}};
+    if (!options.socket.empty()) return StatusPlaces{{options.socket}, {}, {}};
     if (!options.config.empty()) return places_of_config(options.config);
     StatusPlaces places;
     const fs::path state = options.state.empty() ? usual_state : options.state;
     if (options.state.empty()) places.sockets.push_back(fs::path{usual_runtime} / socket_name);
     places.sockets.push_back(state / socket_name);
     places.file = state / file_name;
+    places.loops = state / loops_file_name;
     add_named_socket(places);
     return places;
+}
+
+void add_loops(nlohmann::json& document, const fs::path& loops) {
+    const auto own = document.find("loops");
+    if (own != document.end() && own->is_object() && own->contains("each") &&
+        !(*own)["each"].empty()) {
+        return;
+    }
+    const auto keeper = read_status_file(loops);
+    if (!keeper || !keeper->contains("loops")) return;
+    document["loops"] = (*keeper)["loops"];
+    auto& service = document["loops_service"] = nlohmann::json::object();
+    for (const char* key : {"state", "pid", "version", "started", "updated"})
+        if (keeper->contains(key)) service[key] = (*keeper)[key];
+    const auto pid = keeper->find("pid");
+    // Another user's process may not be signalled, but is there.
+    service["alive"] = pid != keeper->end() && pid->is_number_integer() &&
+                       pid->get<std::int64_t>() > 0 &&
+                       (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
 }
 
 Result<nlohmann::json> ask_socket(const fs::path& path) {

@@ -24,6 +24,7 @@ struct StatusOptions {
 struct StatusPlaces {
     std::vector<std::filesystem::path> sockets;  // tried in this order
     std::filesystem::path file;                  // empty: none
+    std::filesystem::path loops;                 // of a process that keeps loops alone; empty: none
 };
 // bad_argument or what reading the configuration gives.
 [[nodiscard]] Result<StatusPlaces> places_of(const StatusOptions& options);
@@ -35,6 +36,11 @@ struct StatusAnswer {
 };
 // not_found when neither answers: the message says why, place by place.
 [[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
+
+// Where the daemon keeps no loops itself and another process does, its loops as "loops", and as
+// "loops_service" what it says of itself ("state","pid","version","started","updated") and "alive",
+// whether that process is there.
+void add_loops(nlohmann::json& document, const std::filesystem::path& loops);
 
 // The document of whoever listens at the path: io with the system's reason, or corrupt when it is
 // no status. Waits 5 s at most and reads 16 MiB at most.

@@ -100,12 +100,19 @@ std::string with_kinds(const json& status, const char* key, const char* by) {
     return line + fmt::format(" ({})", fmt::join(each, ", "));
 }
 
+// How long the first of them has, where it is long.
+std::string wait_of(const json& pending) {
+    const double wait_s = number(pending, "longest_wait_s").value_or(0);
+    return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);
+}
+
 std::string counts_lines(const json& status) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
-        "queue    {} waiting, {} running, {} growing; {} of the kernel's events, {}\n",
-        count(pending, "waiting"), count(pending, "running"), count(pending, "growing"),
-        counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
+        "queue    {} waiting{}, {} running, {} growing; {} of the kernel's events, {}\n",
+        count(pending, "waiting"), wait_of(pending), count(pending, "running"),
+        count(pending, "growing"), counted(count(status, "overflows"), "overflow"),
+        counted(count(status, "scans"), "scan"));
     lines += fmt::format("files    {} gridded ({} partial), {}, {} with nothing to grid, {}\n",
                          count(status, "ingested"), count(status, "partial"),
                          with_kinds(status, "rejected", "rejected_by"),
@@ -114,6 +121,9 @@ std::string counts_lines(const json& status) {
     const json& latency = at(status, "latency_s");
     lines += fmt::format("close to cache    {} ({})\n", summary(latency),
                          counted(count(latency, "count"), "file"));
+    const json& sweeps = at(status, "sweep_latency_s");
+    lines += fmt::format("close to sweep    {} ({})\n", summary(sweeps),
+                         counted(count(status, "living_grids"), "living grid"));
     const json& antenna = at(status, "antenna_to_cache_s");
     lines += fmt::format("antenna to cache  {} ({}", summary(antenna),
                          counted(count(antenna, "count"), "volume"));
@@ -163,18 +173,21 @@ std::vector<const json*> sorted_stations(const json& status) {
 std::string stations_table(const std::vector<const json*>& stations, UtcTime now) {
     if (stations.empty()) return "no station yet\n";
     std::vector<Row> rows = {{"station", "volume", "cached", "data", "p50", "p95", "max",
-                              "antenna p50", "antenna p95", "gridded", "partial", "rejected",
-                              "missing"}};
+                              "sweep p50", "sweep p95", "sweep max", "antenna p50", "antenna p95",
+                              "gridded", "partial", "rejected", "missing"}};
     for (const json* station : stations) {
         const json& latency = at(*station, "latency_s");
+        const json& sweeps = at(*station, "sweep_latency_s");
         const json& antenna = at(*station, "antenna_to_cache_s");
         rows.push_back(
             {text(*station, "station"), short_duration(age(*station, "volume_time", now)),
              short_duration(age(*station, "ingested_at", now)),
              short_duration(age(*station, "data_at", now)),
              short_duration(number(latency, "median")), short_duration(number(latency, "p95")),
-             short_duration(number(latency, "max")), antenna_of(antenna),
-             short_duration(number(antenna, "p95")), fmt::format("{}", count(*station, "gridded")),
+             short_duration(number(latency, "max")), short_duration(number(sweeps, "median")),
+             short_duration(number(sweeps, "p95")), short_duration(number(sweeps, "max")),
+             antenna_of(antenna), short_duration(number(antenna, "p95")),
+             fmt::format("{}", count(*station, "gridded")),
              fmt::format("{}", count(*station, "partial")),
              fmt::format("{}", count(*station, "rejected")),
              fmt::format("{}", count(*station, "missing_chunks"))});
@@ -212,13 +225,45 @@ std::string rejected_lines(const json& status) {
     return lines;
 }
 
+// "; kept by process 17: running": where it is not the daemon itself.
+std::string loops_keeper(const json& status) {
+    const json& service = at(status, "loops_service");
+    if (!service.is_object()) return "";
+    const json& alive = at(service, "alive");
+    const bool is_alive = alive.is_boolean() && alive.get<bool>();
+    if (text(service, "state") == "stopped" || is_alive) {
+        return fmt::format("; kept by process {}: {}", count(service, "pid"),
+                           text(service, "state"));
+    }
+    return fmt::format("; process {}, which kept them, is gone", count(service, "pid"));
+}
+
 std::string loops_line(const json& status) {
     const json& loops = at(status, "loops");
     const json& each = at(loops, "each");
     if (!each.is_array() || each.empty()) return "";
-    return fmt::format("loops    {} of {} running, {} made, {}\n", count(loops, "running"),
+    return fmt::format("loops    {} of {} running, {} made, {}{}\n", count(loops, "running"),
                        each.size(), count(loops, "made"),
-                       counted(count(loops, "restarts"), "restart"));
+                       counted(count(loops, "restarts"), "restart"), loops_keeper(status));
+}
+
+std::string loops_table(const json& status, UtcTime now) {
+    const json& each = at(at(status, "loops"), "each");
+    if (!each.is_array() || each.empty()) return "";
+    std::vector<Row> rows = {{"loop", "running", "last made", "frames", "made", "restarts"}};
+    std::string problems;
+    for (const json& loop : each) {
+        const json& running = at(loop, "running");
+        const bool runs = running.is_boolean() && running.get<bool>();
+        rows.push_back(
+            {text(loop, "name"), runs ? "yes" : "no", short_duration(age(loop, "last_made", now)),
+             fmt::format("{}", count(loop, "frames")), fmt::format("{}", count(loop, "made")),
+             fmt::format("{}", count(loop, "restarts"))});
+        if (at(loop, "last_problem").is_string())
+            problems +=
+                fmt::format("loop {}: {}\n", text(loop, "name"), text(loop, "last_problem"));
+    }
+    return "\n" + aligned(rows) + problems;
 }
 
 }  // namespace
@@ -250,7 +295,7 @@ std::string status_table(const json& status, UtcTime now) {
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)
         page += fmt::format("and {} of stations beyond these\n", counted(more, "file"));
-    return page + missing_lines(stations) + rejected_lines(status);
+    return page + missing_lines(stations) + rejected_lines(status) + loops_table(status, now);
 }
 
 }  // namespace stormcellar::cli

@@ -4,10 +4,9 @@
 #include <exception>
 #include <system_error>
 
-#include <spdlog/spdlog.h>
-
 #include "base/byte_size.h"
 #include "base/printable.h"
+#include "daemon/log.h"
 
 namespace stormcellar::daemon {
 
@@ -27,7 +26,7 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     try {
         roll_ = std::async(std::launch::async, [this, budgets] { return roll(budgets); });
     } catch (const std::system_error& error) {  // no thread to be had
-        spdlog::warn("cannot look after the cache: {}", error.what());
+        log_warning({Event::cache_problem}, "cannot look after the cache: {}", error.what());
     }
     return usage;
 }
@@ -35,7 +34,8 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
 CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
     CacheRolled rolled;
     try {
-        rolled = sink_.roll_cache(budgets);
+        const AtWork at_work(pulse_);
+        rolled = sink_.roll_cache(budgets, [this] { pulse_.beat(); });
     } catch (const std::exception& error) {  // no memory
         rolled.report.problems.emplace_back(error.what());
     }
@@ -45,16 +45,16 @@ CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
 
 void CacheKeeper::log(const CacheRolled& rolled, SteadyTime now) {
     if (rolled.report.evicted > 0 && rolled.usage) {
-        spdlog::info("cache: {} grids went ({}), {} stay ({})", rolled.report.evicted,
-                     format_byte_size(rolled.report.evicted_bytes), rolled.usage->grids,
-                     format_byte_size(rolled.usage->bytes));
+        log_info({Event::cache_rolled}, "cache: {} grids went ({}), {} stay ({})",
+                 rolled.report.evicted, format_byte_size(rolled.report.evicted_bytes),
+                 rolled.usage->grids, format_byte_size(rolled.usage->bytes));
     }
     if (rolled.report.problems.empty()) {
         next_reminder_ = {};
     } else if (now >= next_reminder_) {
         next_reminder_ = now + reminder;
         for (const std::string& problem : rolled.report.problems)
-            spdlog::warn("cache: {}", printable(problem));
+            log_warning({Event::cache_problem}, "cache: {}", printable(problem));
     }
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/pulse.h"
 #include "daemon/schedule.h"
 #include "daemon/sink.h"
 
@@ -30,6 +31,7 @@ class CacheKeeper {
     void roll_soon() { next_ = {}; }  // the budgets have changed
     // When the next roll is due. A roll that lasts longer delays it.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the roll's thread
 
   private:
     CacheRolled roll(const cache::Budgets& budgets);  // in its own thread
@@ -37,6 +39,7 @@ class CacheKeeper {
 
     Sink& sink_;
     std::function<void()> wake_;
+    Pulse pulse_;
     SteadyTime next_{}, next_reminder_{};
     std::optional<cache::StoreUsage> known_;
     std::future<CacheRolled> roll_;  // the last member: waited for before the rest goes

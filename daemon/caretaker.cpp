@@ -5,9 +5,10 @@
 #include <utility>
 
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
+#include "daemon/log.h"
+#include "daemon/status_names.h"
 
 namespace stormcellar::daemon {
 
@@ -19,7 +20,8 @@ namespace {
 constexpr std::chrono::milliseconds look_again{100};
 
 void log_problem(std::string_view what, const Error& error) {
-    spdlog::warn("{}: {}", what, printable(error.message));
+    log_warning({.event = Event::care_failed, .reason = name_of(error.code)}, "{}: {}", what,
+                printable(error.message));
 }
 
 }  // namespace
@@ -37,12 +39,14 @@ Caretaker::~Caretaker() {
 }
 
 bool Caretaker::pause(std::chrono::milliseconds least) {
+    pulse_.rest();
     std::unique_lock lock(mutex_);
     const auto stopped = [this] { return stopping_; };
     if (changed_.wait_for(lock, least, stopped)) return false;
     while (!links_.is_idle()) {
         if (changed_.wait_for(lock, look_again, stopped)) return false;
     }
+    pulse_.beat();
     return true;
 }
 
@@ -82,8 +86,9 @@ void Caretaker::run() {
             if (!check_grids(MendDepth::all, times_.between_grids)) return;
         } while (rest(times_.between_rounds));
     } catch (const std::exception& error) {
-        spdlog::error("grids are not looked after any more: {}", error.what());
+        log_error({Event::care_failed}, "grids are not looked after any more: {}", error.what());
     }
+    pulse_.rest();
 }
 
 // What was mended is logged by the service, which then scans for the files.
@@ -107,6 +112,7 @@ bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) 
     }
     for (const std::string& domain : *domains) {
         for (const level2::Moment moment : level2::all_moments) {
+            pulse_.beat();
             const auto entries = of_.store.list(domain, moment, std::nullopt, std::nullopt);
             if (!entries) {
                 log_problem("cannot look into the cache", entries.error());
@@ -125,34 +131,44 @@ void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto mended = of_.mender.mend(entry, depth);
     if (!mended) return log_problem("cannot mend a damaged grid", mended.error());
     const std::string reason = printable(mended->reason);
+    const About about{.event = Event::grid_damaged,
+                      .volume = entry.time,
+                      .file = entry.path,
+                      .domain = entry.domain};
+    About unchecked = about;
+    unchecked.event = Event::grid_unchecked;
     switch (mended->condition) {
         case GridCondition::sound:
             break;
         case GridCondition::made_again:
-            spdlog::warn("damaged grid {}: dropped, and made again from {}", reason,
-                         printable(mended->from));
+            log_warning(about, "damaged grid {}: dropped, and made again from {}", reason,
+                        printable(mended->from));
             break;
         case GridCondition::dropped:
-            spdlog::warn("damaged grid {}: dropped; it cannot be made again: {}", reason,
-                         printable(mended->why_not));
+            log_warning(about, "damaged grid {}: dropped; it cannot be made again: {}", reason,
+                        printable(mended->why_not));
             break;
         case GridCondition::left_alone:
-            spdlog::warn("grid {}: cannot be checked", reason);
+            log_warning(unchecked, "grid {}: cannot be checked", reason);
             break;
     }
 }
 
 void Caretaker::refill() {
     if (times_.refill <= std::chrono::milliseconds{0}) return;
-    const auto missing = of_.mender.missing(times_.refill);
+    const auto missing = of_.mender.missing(times_.refill, [this] { pulse_.beat(); });
     if (!missing) return log_problem("cannot look for missing grids", missing.error());
     for (const pipeline::MissingGrid& grid : *missing) {
         if (!pause({})) return;
         const auto made = of_.mender.make(grid);
         if (!made) return log_problem("cannot make a missing grid", made.error());
         if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
-        spdlog::info("missing grid {} {}: made again from {}", grid.names.front().domain,
-                     format_utc(grid.time), printable(grid.raw.native()));
+        log_info({.event = Event::grid_made_again,
+                  .volume = grid.time,
+                  .file = grid.raw,
+                  .domain = grid.names.front().domain},
+                 "missing grid {} {}: made again from {}", grid.names.front().domain,
+                 format_utc(grid.time), printable(grid.raw.native()));
     }
     refill_frames();
 }
@@ -166,8 +182,9 @@ void Caretaker::refill_frames() {
         const auto made = of_.mender.make(frame);
         if (!made) return log_problem("cannot make a missing frame", made.error());
         if (!*made) continue;
-        spdlog::info("missing frame {} {}: made again from {}", frame.domain,
-                     format_utc(frame.time), **made);
+        log_info({.event = Event::frame_made_again, .volume = frame.time, .domain = frame.domain},
+                 "missing frame {} {}: made again from {}", frame.domain, format_utc(frame.time),
+                 **made);
     }
 }
 

@@ -16,6 +16,7 @@
 #include <mutex>
 #include <thread>
 
+#include "daemon/pulse.h"
 #include "pipeline/mend_cache.h"
 #include "pipeline/site_watch.h"
 
@@ -48,6 +49,8 @@ class Caretaker {
     Caretaker& operator=(const Caretaker&) = delete;
     ~Caretaker();
 
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+
   private:
     void run();
     void examine_databases();
@@ -69,6 +72,7 @@ class Caretaker {
     std::chrono::steady_clock::time_point next_look_{};
     std::mutex mutex_;
     std::condition_variable changed_;
+    Pulse pulse_;
     bool stopping_ = false;  // guarded by mutex_
     std::thread thread_;     // the last member: it uses what stands above
 };

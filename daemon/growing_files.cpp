@@ -35,7 +35,8 @@ std::optional<GrowingFiles::Due> GrowingFiles::decide(const std::filesystem::pat
     }
     // An empty file is most likely one whose writer has just begun.
     const bool settled = now - file.changed_at >= settle && file.last.size_bytes > 0;
-    const bool overdue = now - file.since >= quiet_;
+    const bool is_first = !file.incomplete && file.last.size_bytes > 0;
+    const bool overdue = now - file.since >= (is_first ? std::min<Duration>(quiet_, busy) : quiet_);
     if (settled || quiet || overdue) return Due{path, file.last, false};
     return std::nullopt;
 }

@@ -2,7 +2,7 @@
 //
 // Two kinds. A NEW file was made and not closed (a writer that keeps it open; a hard link), or was
 // written a moment ago when a scan found it: it is looked at when it has stood unchanged for
-// `settle`, or after `quiet` when it never rests. An INCOMPLETE file was looked at and its volume
+// `settle`, or after `busy` when it never rests. An INCOMPLETE file was looked at and its volume
 // has not ended: it is looked at again when it has changed and settled, and finished as it is when
 // it has been quiet (no change of size, time or inode) for `quiet`.
 // Changes are seen by polling the stamps, which works for files that are never closed and on file
@@ -28,6 +28,9 @@ class GrowingFiles {
   public:
     using Duration = SteadyTime::duration;
     static constexpr Duration settle = std::chrono::seconds{1};  // also how often stamps are read
+    // A writer that keeps its file open at a great pace is to be followed soon; a large copy is
+    // looked at once in vain.
+    static constexpr Duration busy = std::chrono::seconds{3};
     // A file that is followed shows its sweeps anyway, and to finish it is to begin it anew when
     // more comes after all: it is given so many times `quiet`.
     static constexpr int patience = 10;

@@ -33,9 +33,9 @@ Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
         new IngestSink(std::move(*catalog), std::move(*store), config));
 }
 
-CacheRolled IngestSink::roll_cache(const cache::Budgets& budgets) {
+CacheRolled IngestSink::roll_cache(const cache::Budgets& budgets, const OnStep& step) {
     store_.set_budgets(budgets);
-    CacheRolled rolled{store_.roll(), {}};
+    CacheRolled rolled{store_.roll(step), {}};
     rolled.usage = store_.usage();
     return rolled;
 }

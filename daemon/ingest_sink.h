@@ -18,9 +18,12 @@ class IngestSink final : public Sink {
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override;
+    Status note(const std::filesystem::path& path) override { return ingestor_.note(path); }
     void set_pressed(bool pressed) override { *pressed_ = pressed; }
-    Result<int> mark_missing() override { return catalog_.mark_missing(drop_); }
-    CacheRolled roll_cache(const cache::Budgets& budgets) override;
+    Result<int> mark_missing(const OnStep& step) override {
+        return catalog_.mark_missing(drop_, step);
+    }
+    CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& step) override;
     std::vector<std::string> take_repairs() override;
 
     // For the keeper of the cache, which works beside take().

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/drop_names.h"
+
 namespace stormcellar::daemon {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr std::size_t most_growing = 16'384;
 constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
+constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
 
 }  // namespace
 
@@ -34,9 +37,22 @@ void Intake::set_times(const Config& config) {
     growing_.set_quiet(config.quiet);
 }
 
+// A followed file has its row since it began.
+Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
+    Job job;
+    job.path = path;
+    const bool is_followed = followed_.contains(path);
+    job.urgency = urgency;
+    job.is_begun = is_followed || pipeline::is_chunk_name(path);
+    job.is_registered = is_followed;
+    job.station = pipeline::station_by_name(path);
+    if (job.station.empty()) job.station = path.parent_path().native();
+    return job;
+}
+
 void Intake::offer(Job job, const FileStamp& stamp) {
     const std::filesystem::path path = job.path;
-    if (schedule_.offer(std::move(job)) == Offered::refused) {
+    if (schedule_.offer(std::move(job), clock_.steady()) == Offered::refused) {
         refused_ = true;
         seen_.forget(path);
     } else {
@@ -52,7 +68,9 @@ std::int64_t Intake::closed_now_ns() {
 }
 
 void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
-    Job job{.path = path, .closed_at = clock_.steady(), .newest_ns = closed_now_ns()};
+    Job job = job_for(path, Urgency::live);
+    job.closed_at = clock_.steady();
+    job.newest_ns = closed_now_ns();
     const auto incomplete_at = growing_.found_incomplete_at(path);
     if (incomplete_at && !followed_.contains(path)) {
         const SteadyTime earliest = *incomplete_at + reread_;
@@ -80,9 +98,11 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
     } else {
+        const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
+        Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
         // A time in the future puts nothing before what is closed now.
-        const std::int64_t newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
-        offer({.path = path, .closed_at = std::nullopt, .newest_ns = newest_ns}, stamp);
+        job.newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
+        offer(std::move(job), stamp);
     }
 }
 
@@ -92,7 +112,10 @@ void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
     followed_.erase(path);
     seen_.forget(path);
-    schedule_.offer({.path = path, .closed_at = std::nullopt, .newest_ns = 0});
+    Job job;
+    job.path = path;
+    job.is_registered = true;
+    schedule_.offer(std::move(job), clock_.steady());
 }
 
 // The kernel tells of the directory alone. One that was moved away takes files along of which
@@ -143,11 +166,10 @@ void Intake::forget_seen() {
 void Intake::poll_growing() {
     for (GrowingFiles::Due& due : growing_.poll(
              clock_.steady(), [this](const std::filesystem::path& path) { return look(path); })) {
-        offer({.path = std::move(due.path),
-               .finish_partial = due.finish_partial,
-               .closed_at = std::nullopt,
-               .newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns())},
-              due.stamp);
+        Job job = job_for(due.path, Urgency::live);
+        job.finish_partial = due.finish_partial;
+        job.newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns());
+        offer(std::move(job), due.stamp);
     }
 }
 
@@ -210,6 +232,11 @@ std::optional<SteadyTime> Intake::next_time(bool can_start) const {
     const auto poll = growing_.next_time();
     if (!job || !poll) return job ? job : poll;
     return std::min(*job, *poll);
+}
+
+SteadyTime::duration Intake::longest_wait() const {
+    const auto oldest = schedule_.oldest_offer();
+    return oldest ? clock_.steady() - *oldest : SteadyTime::duration{};
 }
 
 Pending Intake::pending() const {

@@ -61,6 +61,9 @@ class Intake final : public WatchListener {
     // Offers the growing files that are due.
     void poll_growing();
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
+    // One that has waited for some time without standing in the catalog.
+    std::optional<Job> next_unregistered() { return schedule_.next_unregistered(clock_.steady()); }
+    void registered(const Job& job) { schedule_.registered(job.path); }
     void job_ended(const Finished& finished);
 
     // Around a scan of the watcher; `whole`: the drop directory could be read.
@@ -72,6 +75,8 @@ class Intake final : public WatchListener {
     // When there is something to do: growing files to poll and, if a job can start, a job.
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start) const;
     [[nodiscard]] Pending pending() const;
+    // How long the job that has waited for longest has been able to run.
+    [[nodiscard]] SteadyTime::duration longest_wait() const;
     // How often the kernel dropped events, since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
     // Of directories, and of entries that are no files (not_a_file). Each is given once, as long as
@@ -79,6 +84,7 @@ class Intake final : public WatchListener {
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
+    [[nodiscard]] Job job_for(const std::filesystem::path& path, Urgency urgency) const;
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();

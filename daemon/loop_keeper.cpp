@@ -7,10 +7,10 @@
 
 #include <nlohmann/json.hpp>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "base/printable.h"
+#include "daemon/log.h"
 #include "daemon/schedule.h"
 
 namespace stormcellar::daemon {
@@ -49,7 +49,7 @@ void LoopKeeper::set(std::vector<LoopConfig> loops) {
     try {
         thread_ = std::thread([this] { run(); });
     } catch (const std::system_error& error) {  // no thread to be had
-        spdlog::error("cannot keep loops: {}", error.what());
+        log_error({Event::loop_failed}, "cannot keep loops: {}", error.what());
     }
 }
 
@@ -68,16 +68,10 @@ std::optional<std::vector<LoopState>> LoopKeeper::news() {
     return states_;
 }
 
-std::optional<SteadyTime> LoopKeeper::turns_until() const {
-    const SteadyTime turned = turned_;
-    if (turned == SteadyTime::max()) return std::nullopt;
-    return turned + longest_sleep;
-}
-
 void LoopKeeper::run() {
     while (true) {
         const SteadyTime now = std::chrono::steady_clock::now();
-        turned_ = now;
+        pulse_.beat(now);
         wake_up_.clear();
         for (Slot& slot : slots_)
             listen(slot, now);
@@ -90,9 +84,11 @@ void LoopKeeper::run() {
         if (stopping_ && slots_.empty()) break;
         start_due(now);
         publish();
+        pulse_.rest();
         sleep(now);
     }
     publish();
+    pulse_.rest();
 }
 
 void LoopKeeper::take_wanted() {
@@ -155,14 +151,16 @@ void LoopKeeper::start(Slot& slot, SteadyTime now) {
     if (!child) {
         slot.state.last_problem = printable(child.error().message);
         delay(slot, now);
-        spdlog::error("loop {}: cannot be started: {}; again in {} s", slot.state.name,
-                      slot.state.last_problem, Schedule::retry_delay(slot.failures).count());
+        log_error({.event = Event::loop_failed, .loop = slot.state.name},
+                  "loop {}: cannot be started: {}; again in {} s", slot.state.name,
+                  slot.state.last_problem, Schedule::retry_delay(slot.failures).count());
         return;
     }
     if (slot.failures > 0) ++slot.state.restarts;
     slot.child = std::move(*child);
     slot.state.is_running = true;
-    spdlog::info("loop {}: started, process {}", slot.state.name, slot.child->id());
+    log_info({.event = Event::loop_started, .loop = slot.state.name},
+             "loop {}: started, process {}", slot.state.name, slot.child->id());
 }
 
 void LoopKeeper::listen(Slot& slot, SteadyTime now) {
@@ -175,7 +173,7 @@ void LoopKeeper::listen(Slot& slot, SteadyTime now) {
     for (const std::string& line : slot.child->out.read())
         note_made(slot, line);
     for (const std::string& line : slot.child->err.read())
-        note_line(slot, line, now);
+        note_line(slot, line);
     if (!how.empty()) note_end(slot, how, now);
 }
 
@@ -190,17 +188,18 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
     ++slot.state.made;
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(number("frames"));
-    spdlog::info("loop {}: made of {} frames in {:.1f} s", slot.state.name, slot.state.frames,
-                 number("total_s"));
+    const double took_s = number("total_s");
+    log_info({.event = Event::loop_made, .took_s = took_s, .loop = slot.state.name},
+             "loop {}: made of {} frames in {:.1f} s", slot.state.name, slot.state.frames, took_s);
 }
 
-void LoopKeeper::note_line(Slot& slot, const std::string& line, SteadyTime now) {
+void LoopKeeper::note_line(Slot& slot, const std::string& line) {
     constexpr std::string_view speaker = "stormcellar: ";
     slot.last_line = printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
-    if (!lines_.allow(now)) return;
     const bool is_note = slot.last_line.starts_with("note: ");
-    spdlog::log(is_note ? spdlog::level::info : spdlog::level::warn, "loop {}: {}", slot.state.name,
-                slot.last_line);
+    log_line(is_note ? Severity::info : Severity::warning,
+             {.event = Event::loop_said, .loop = slot.state.name},
+             fmt::format("loop {}: {}", slot.state.name, slot.last_line));
 }
 
 void LoopKeeper::note_end(Slot& slot, const std::string& how, SteadyTime now) {
@@ -208,15 +207,17 @@ void LoopKeeper::note_end(Slot& slot, const std::string& how, SteadyTime now) {
     slot.kill_at.reset();
     slot.state.is_running = false;
     if (slot.is_leaving) {
-        spdlog::info("loop {}: ended", slot.state.name);
+        log_info({.event = Event::loop_ended, .loop = slot.state.name}, "loop {}: ended",
+                 slot.state.name);
         return;
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
     slot.state.last_problem =
         slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
-    spdlog::error("loop {}: ended with {}; again in {} s", slot.state.name, slot.state.last_problem,
-                  Schedule::retry_delay(slot.failures).count());
+    log_error({.event = Event::loop_failed, .loop = slot.state.name},
+              "loop {}: ended with {}; again in {} s", slot.state.name, slot.state.last_problem,
+              Schedule::retry_delay(slot.failures).count());
 }
 
 void LoopKeeper::delay(Slot& slot, SteadyTime now) {

@@ -19,8 +19,9 @@
 
 #include "daemon/child.h"
 #include "daemon/file_stamp.h"
-#include "daemon/log.h"
 #include "daemon/loop_config.h"
+#include "daemon/pulse.h"
+#include "daemon/schedule.h"
 #include "daemon/wake_up.h"
 
 namespace stormcellar::daemon {
@@ -39,9 +40,8 @@ class LoopKeeper {
     // Tells all to end, and does not wait; the destructor or wait() does, a few seconds at most.
     void stop();
     void wait();
-    // By when its thread turns again unless it hangs; none where there is no thread. From any
-    // thread.
-    [[nodiscard]] std::optional<SteadyTime> turns_until() const;
+    // Of its thread; rests where there is none.
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }
     // What has changed since the last call; none when nothing has.
     std::optional<std::vector<LoopState>> news();
 
@@ -68,7 +68,7 @@ class LoopKeeper {
     void start(Slot& slot, SteadyTime now);
     void listen(Slot& slot, SteadyTime now);
     void note_made(Slot& slot, const std::string& line);
-    void note_line(Slot& slot, const std::string& line, SteadyTime now);
+    static void note_line(Slot& slot, const std::string& line);
     void note_end(Slot& slot, const std::string& how, SteadyTime now);
     void delay(Slot& slot, SteadyTime now);
     void sleep(SteadyTime now);
@@ -79,9 +79,8 @@ class LoopKeeper {
     std::filesystem::path program_;
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
-    std::atomic<SteadyTime> turned_{SteadyTime::max()};  // max: it has not begun
-    std::list<Slot> slots_;                              // of the thread
-    RateLimit lines_{20, std::chrono::seconds{60}};
+    Pulse pulse_;
+    std::list<Slot> slots_;  // of the thread
     std::mutex mutex_;
     std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, as the next two
     std::vector<LoopState> states_;

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <span>
 #include <utility>
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
 #include "daemon/log.h"
@@ -25,7 +23,9 @@ LoopsService::LoopsService(Config config, std::filesystem::path config_file, Par
       config_file_(std::move(config_file)),
       parts_(parts),
       watchdog_(parts_.notifier.watchdog()),
-      keeper_(config_.cache, [this] { wake_up_.set(); }) {}
+      keeper_(config_.cache, [this] { wake_up_.set(); }) {
+    pulses_.watch("loops", keeper_.pulse());
+}
 
 std::filesystem::path LoopsService::directory(const Config& config) {
     return config.state / "loops";
@@ -39,8 +39,8 @@ void LoopsService::request_stop() {
 void LoopsService::run() {
     publish("running");
     parts_.notifier.send("READY=1");
-    spdlog::info("ready: keeping {} loops of {}", config_.loops.size(),
-                 printable(config_.cache.native()));
+    log_info({Event::ready}, "ready: keeping {} loops of {}", config_.loops.size(),
+             printable(config_.cache.native()));
     keeper_.set(config_.loops);
     while (true) {
         handle_signals();
@@ -52,7 +52,8 @@ void LoopsService::run() {
             has_news_ = true;
         }
         if (has_news_ && now >= next_publish_) publish("running");
-        if (watchdog_.is_due(now, keeper_.turns_until())) parts_.notifier.send("WATCHDOG=1");
+        log_held_back();
+        feed(watchdog_, parts_.notifier, now, pulses_.oldest());
         wait(now);
     }
     parts_.notifier.send("STOPPING=1");
@@ -60,7 +61,8 @@ void LoopsService::run() {
     keeper_.wait();
     if (auto loops = keeper_.news()) loops_ = std::move(*loops);
     publish("stopped");
-    spdlog::info("stopped");
+    log_all_held_back();
+    log_info({Event::stopped}, "stopped");
 }
 
 void LoopsService::wait(SteadyTime now) {
@@ -76,31 +78,24 @@ void LoopsService::wait(SteadyTime now) {
 }
 
 void LoopsService::handle_signals() {
-    if (parts_.signals == nullptr) return;
-    while (const std::optional<int> signal = parts_.signals->next()) {
-        if (*signal == SIGHUP) {
-            reload();
-        } else {
-            spdlog::info("stopping: asked to by {}", *signal == SIGTERM ? "SIGTERM" : "SIGINT");
-            stop_requested_ = true;
-        }
-    }
+    if (take_signals(parts_.signals, [this] { reload(); })) stop_requested_ = true;
 }
 
 void LoopsService::reload() {
     parts_.notifier.send(reloading_state());
     if (const Result<Config> fresh = load_config(config_file_)) {
         if (fresh->state != config_.state || fresh->cache != config_.cache) {
-            spdlog::warn("reload: [paths] cannot change while the service runs: restart it");
+            log_warning({Event::reload_ignored},
+                        "reload: [paths] cannot change while the service runs: restart it");
         }
         config_.loops = fresh->loops;
         config_.log_level = fresh->log_level;
         keeper_.set(config_.loops);
         set_log_level(config_.log_level);
-        spdlog::info("reloaded: {} loops", config_.loops.size());
+        log_info({Event::reloaded}, "reloaded: {} loops", config_.loops.size());
     } else {
-        spdlog::error("reload: {}; the configuration stays as it was",
-                      printable(fresh.error().message));
+        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+                  printable(fresh.error().message));
     }
     parts_.notifier.send("READY=1");
 }
@@ -114,8 +109,9 @@ void LoopsService::publish(const char* state) {
     const Status written =
         write_file_atomically(parts_.file_system, path, std::as_bytes(std::span{text}));
     if (!written && !failing_) {
-        spdlog::error("{}: cannot write the status: {}", printable(path.native()),
-                      printable(written.error().message));
+        log_error({.event = Event::status_unwritten, .file = path},
+                  "cannot write the status: {}: {}", printable(path.native()),
+                  printable(written.error().message));
     }
     failing_ = !written;
 }

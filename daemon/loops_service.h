@@ -7,7 +7,7 @@
 //                              in daemon/status.h; at most once a second, and at the stop
 //   STATE/loops/stormcellard.lock   held while it runs: one keeper of loops a state directory
 // SIGHUP reads the configuration again: only the [[loop]] tables and the log's level count.
-// The watchdog is fed while the thread that keeps the loops turns.
+// The watchdog is fed while no turn of the thread that keeps the loops lasts too long.
 // Thread contract: run() once; request_stop() from any thread.
 #pragma once
 
@@ -52,6 +52,7 @@ class LoopsService {
     std::filesystem::path config_file_;
     Parts parts_;
     WatchdogFeed watchdog_;
+    Pulses pulses_;
     UtcTime started_ = now_utc();
     std::vector<LoopState> loops_;
     bool has_news_ = false;

@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "base/memory.h"
 #include "base/printable.h"
@@ -101,13 +100,13 @@ Status check_drop(const std::filesystem::path& drop) {
 std::unique_ptr<EventSource> open_events() {
     Result<std::unique_ptr<EventSource>> events = open_inotify();
     if (events) return std::move(*events);
-    spdlog::warn("{}; until then the drop directory is polled ([watch] poll_seconds)",
-                 printable(events.error().message));
+    log_warning({Event::watch_failed}, "{}; until then the drop directory is polled ([watch] poll_seconds)",
+                printable(events.error().message));
     return no_events();
 }
 
 int serve_loops(const Config& config, const std::filesystem::path& file) {
-    set_up_logging(config.log_level);
+    set_up_logging(config.log_level, usual_outlet());
     const std::filesystem::path directory = LoopsService::directory(config);
     if (const Status ready = make_directory(directory); !ready) return complain(ready.error());
     const auto lock = pipeline::InstanceLock::acquire(directory);
@@ -122,7 +121,8 @@ int serve_loops(const Config& config, const std::filesystem::path& file) {
 void know_stations(catalog::Catalog& catalog, Service& service) {
     const auto stations = catalog.stations();
     if (!stations) {
-        spdlog::warn("what was known of stations: {}", printable(stations.error().message));
+        log_warning({Event::stations_unknown}, "what was known of stations: {}",
+                    printable(stations.error().message));
         return;
     }
     for (const catalog::StationSummary& station : *stations)
@@ -132,7 +132,7 @@ void know_stations(catalog::Catalog& catalog, Service& service) {
 int serve(const Config& config, const std::filesystem::path& file, bool keeps_loops) {
     keep_freed_memory();
     cache::install_map_guard();
-    set_up_logging(config.log_level);
+    set_up_logging(config.log_level, usual_outlet());
     const Status ready = check_drop(config.drop)
                              .and_then([&] { return make_directory(config.state); })
                              .and_then([&] { return make_directory(config.cache); });
@@ -163,6 +163,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
         {.refill = config.refill},
         {[&] { return service.is_idle(); },
          [&](pipeline::PairReport report) { service.sites_compared(std::move(report)); }});
+    service.watch("status", status_server.pulse());
+    service.watch("caretaker", keeper.pulse());
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;

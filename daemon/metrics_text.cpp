@@ -33,6 +33,12 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.sample(std::uint64_t{pending.waiting}, {{"state", "waiting"}});
     out.sample(std::uint64_t{pending.running}, {{"state", "running"}});
     out.sample(std::uint64_t{pending.growing}, {{"state", "growing"}});
+    out.family("stormcellar_longest_wait_seconds", Type::gauge,
+               "How long the file that has waited for longest has been able to run.");
+    out.sample(facts.longest_wait_s);
+    out.family("stormcellar_living_left_out_total", Type::counter,
+               "Living grids that were left out because whole volumes waited.");
+    out.sample(facts.living_left_out);
     out.family("stormcellar_event_overflows_total", Type::counter,
                "How often the kernel dropped directory events.");
     out.sample(facts.overflows);
@@ -53,6 +59,9 @@ void write_files(MetricsWriter& out, const StatusFacts& facts) {
     out.family("stormcellar_grids_committed_total", Type::counter,
                "Single-site grids put into the cache.");
     out.sample(facts.grids);
+    out.family("stormcellar_living_grids_total", Type::counter,
+               "Grids of volumes that had not ended, each time that a sweep entered one.");
+    out.sample(facts.living);
     out.family("stormcellar_rejected_files_total", Type::counter,
                "Files that could not be decoded, read or gridded, by what was wrong.");
     for (const ErrorCode code : all_error_codes)
@@ -64,6 +73,9 @@ void write_files(MetricsWriter& out, const StatusFacts& facts) {
     out.family("stormcellar_close_to_cache_seconds", Type::summary,
                "From the close of a file to its grids in the cache, over the last 4096 files.");
     out.sample(facts.close_to_cache);
+    out.family("stormcellar_close_to_living_seconds", Type::summary,
+               "From the close with which a sweep was complete to the grid that shows it.");
+    out.sample(facts.close_to_living);
     out.family("stormcellar_antenna_to_cache_seconds", Type::summary,
                "From a volume's newest radial to its grids in the cache, of live data.");
     out.sample(facts.antenna_to_cache);
@@ -175,6 +187,12 @@ void write_stations(MetricsWriter& out, const StatusFacts& facts, UtcTime now) {
     each.timings("stormcellar_station_close_to_cache_seconds",
                  "From the close of a file to its grids in the cache, over the last 128 files.",
                  &StationState::close_to_cache);
+    each.count("stormcellar_station_living_grids_total",
+               "Grids of the station's volumes that had not ended, each time.",
+               &StationState::living);
+    each.timings("stormcellar_station_close_to_living_seconds",
+                 "From the close with which a sweep was complete to the grid that shows it.",
+                 &StationState::close_to_living);
     each.timings("stormcellar_station_antenna_to_cache_seconds",
                  "From a volume's newest radial to its grids in the cache, of live data.",
                  &StationState::antenna_to_cache);

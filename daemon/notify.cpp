@@ -2,9 +2,13 @@
 
 #include <cstdint>
 #include <ctime>
+#include <utility>
 
 #include <fmt/format.h>
 #include <systemd/sd-daemon.h>
+
+#include "base/printable.h"
+#include "daemon/log.h"
 
 namespace stormcellar::daemon {
 
@@ -26,15 +30,35 @@ std::string reloading_state() {
                        std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000);
 }
 
-bool WatchdogFeed::is_due(SteadyTime now, std::optional<SteadyTime> oldest_job_start) {
+bool WatchdogFeed::hangs(SteadyTime now, const std::optional<Step>& oldest) const {
+    return oldest && now - oldest->since > period_.value_or(without_watchdog);
+}
+
+bool WatchdogFeed::is_due(SteadyTime now, const std::optional<Step>& oldest) {
     if (!period_ || now < next_) return false;
     next_ = now + *period_ / 4;
-    return !oldest_job_start || now - *oldest_job_start <= *period_;
+    return !hangs(now, oldest);
+}
+
+bool WatchdogFeed::hangs_now(SteadyTime now, const std::optional<Step>& oldest) {
+    if (!hangs(now, oldest)) return false;
+    return std::exchange(found_hanging_, oldest->since) != oldest->since;
 }
 
 std::optional<SteadyTime> WatchdogFeed::next_time() const {
     if (!period_) return std::nullopt;
     return next_;
+}
+
+void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
+          const std::optional<Step>& oldest) {
+    if (watchdog.is_due(now, oldest)) notifier.send("WATCHDOG=1");
+    if (!watchdog.hangs_now(now, oldest)) return;
+    log_error({Event::hang},
+              "hang: {} has been at one step for {} s; until it goes on, the watchdog "
+              "is not fed",
+              printable(oldest->who),
+              std::chrono::duration_cast<std::chrono::seconds>(now - oldest->since).count());
 }
 
 }  // namespace stormcellar::daemon

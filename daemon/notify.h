@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "daemon/pulse.h"
 #include "daemon/schedule.h"
 
 namespace stormcellar::daemon {
@@ -34,17 +35,29 @@ class SystemdNotifier final : public Notifier {
 // "RELOADING=1" with the monotonic time that systemd wants with it.
 [[nodiscard]] std::string reloading_state();
 
-// Decides when the watchdog is fed: four times a period, and only while no job has been running for
-// longer than a whole period, so that a stuck decoder is not hidden by a loop that still turns.
+// Decides when the watchdog is fed: four times a period, and only while no thread has been at one
+// step (pulse.h) for longer than a whole period, so that a stuck one is not hidden by a loop that
+// still turns. A step that lasts so long is logged, once, with or without a watchdog.
 class WatchdogFeed {
   public:
+    static constexpr std::chrono::seconds without_watchdog{180};
+
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
-    [[nodiscard]] bool is_due(SteadyTime now, std::optional<SteadyTime> oldest_job_start);
+    [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
+    // Whether this step has just been found to last too long.
+    [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:
+    [[nodiscard]] bool hangs(SteadyTime now, const std::optional<Step>& oldest) const;
+
     std::optional<std::chrono::microseconds> period_;
     SteadyTime next_{};
+    std::optional<SteadyTime> found_hanging_;  // since when the step lasted that was named
 };
+
+// Feeds when it is due, and logs what hangs.
+void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
+          const std::optional<Step>& oldest);
 
 }  // namespace stormcellar::daemon

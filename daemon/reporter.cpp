@@ -1,16 +1,17 @@
 #include "daemon/reporter.h"
 
-#include <spdlog/spdlog.h>
-
 #include "base/printable.h"
 #include "base/utc_time.h"
 #include "daemon/status.h"
+#include "daemon/status_names.h"
 
 namespace stormcellar::daemon {
 namespace {
 
 using pipeline::IngestOutcome;
 using pipeline::IngestResult;
+
+constexpr std::size_t longest_reason = 512;
 
 // "KTLX 2022-03-17T00:08:42Z NAME": what the event is about.
 std::string subject(const Finished& finished) {
@@ -21,7 +22,8 @@ std::string subject(const Finished& finished) {
 }
 
 std::string because(const IngestOutcome& outcome) {
-    return outcome.reason.empty() ? "" : fmt::format(" ({})", printable(outcome.reason));
+    if (outcome.reason.empty()) return "";
+    return fmt::format(" ({})", printable(outcome.reason.substr(0, longest_reason)));
 }
 
 std::string describe_gridded(const Finished& finished) {
@@ -36,10 +38,16 @@ std::string describe_gridded(const Finished& finished) {
                        outcome.commit_s * 1000, because(outcome));
 }
 
-void log_held_back(RateLimit& limit, SteadyTime now, std::string_view what) {
-    if (const auto count = limit.take_held_back(now)) {
-        spdlog::warn("{} more {}, not shown one by one", *count, what);
-    }
+// Sweeps have entered the grid of a volume that goes on growing.
+bool shows_living(const IngestOutcome& outcome) {
+    return outcome.result != IngestResult::gridded && !outcome.living.empty();
+}
+
+std::string describe_living(const Finished& finished) {
+    const std::optional<double> latency = latency_of(finished);
+    return fmt::format("sweep of {}: {}", subject(finished),
+                       latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
+                               : std::string{"close not seen"});
 }
 
 }  // namespace
@@ -52,6 +60,7 @@ std::string describe(const Finished& finished) {
                            Schedule::retry_delay(finished.job.failures + 1).count());
     }
     const IngestOutcome& outcome = finished.taken->ingest;
+    if (shows_living(outcome)) return describe_living(finished);
     switch (outcome.result) {
         case IngestResult::gridded:
             return describe_gridded(finished);
@@ -73,57 +82,63 @@ std::string describe(const Finished& finished) {
     return {};
 }
 
-void Reporter::report(const Finished& finished, SteadyTime now) {
+About about(const Finished& finished) {
     if (!finished.taken) {
-        if (failures_.allow(now)) spdlog::error("{}", describe(finished));
-        return;
+        return {.event = Event::store_failed,
+                .file = finished.job.path,
+                .reason = name_of(finished.taken.error().code)};
     }
-    switch (finished.taken->ingest.result) {
-        case IngestResult::gridded:
-            spdlog::info("{}", describe(finished));
-            break;
-        case IngestResult::rejected:
-        case IngestResult::no_position:
-            if (rejected_.allow(now)) spdlog::warn("{}", describe(finished));
-            break;
-        case IngestResult::no_moment:
-            if (rejected_.allow(now)) spdlog::info("{}", describe(finished));
-            break;
-        case IngestResult::incomplete:
-        case IngestResult::unchanged:
-        case IngestResult::vanished:
-        case IngestResult::registered:
-            spdlog::debug("{}", describe(finished));
-            break;
-    }
+    const IngestOutcome& outcome = finished.taken->ingest;
+    About subject{.event = event_of(outcome.result),
+                  .station = printable(outcome.station),
+                  .volume = outcome.volume_time,
+                  .file = finished.job.path};
+    if (outcome.rejected_with) subject.reason = name_of(*outcome.rejected_with);
+    if (shows_living(outcome)) subject.event = Event::living;
+    if (!outcome.grids.empty() || !outcome.living.empty()) subject.latency_s = latency_of(finished);
+    subject.took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
+    return subject;
 }
 
-void Reporter::report_directory(const Error& error, SteadyTime now) {
-    if (!directories_.allow(now)) return;
+void Reporter::report(const Finished& finished) {
+    const auto severity = [&] {
+        if (!finished.taken) return Severity::error;
+        switch (finished.taken->ingest.result) {
+            case IngestResult::gridded:
+            case IngestResult::no_moment:
+                return Severity::info;
+            case IngestResult::rejected:
+            case IngestResult::no_position:
+                return Severity::warning;
+            case IngestResult::incomplete:
+            case IngestResult::unchanged:
+            case IngestResult::vanished:
+            case IngestResult::registered:
+                return Severity::debug;
+        }
+        return Severity::debug;
+    };
+    log_line(severity(), about(finished), describe(finished));
+}
+
+void Reporter::report_directory(const Error& error) {
     const bool is_blind = error.code == ErrorCode::no_space || error.code == ErrorCode::unsupported;
-    spdlog::warn("{}{}", printable(error.message),
-                 is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
+    log_warning({.event = Event::directory_problem, .reason = name_of(error.code)}, "{}{}",
+                printable(error.message),
+                is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
 }
 
 // Where the air is clear nothing can be told: that is no news, hour by hour.
 void Reporter::report_sites(const pipeline::PairReport& report) {
-    const std::string line =
-        fmt::format("sites of {} at {}: {}", printable(report.domain), format_utc(report.instant),
-                    pipeline::describe(report.found));
-    if (pipeline::tells_anything(report.found)) {
-        spdlog::info("{}", line);
-    } else {
-        spdlog::debug("{}", line);
-    }
+    const About compared{
+        .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};
+    log_line(pipeline::tells_anything(report.found) ? Severity::info : Severity::debug, compared,
+             fmt::format("sites of {} at {}: {}", printable(report.domain),
+                         format_utc(report.instant), pipeline::describe(report.found)));
+    About faulty = compared;
+    faulty.event = Event::site_fault;
     for (const std::string& fault : report.faults)
-        spdlog::warn("sites of {}: {}", printable(report.domain), fault);
-}
-
-void Reporter::report_held_back(SteadyTime now) {
-    log_held_back(rejected_, now, "files rejected or with nothing to grid");
-    log_held_back(failures_, now, "failures to store a file");
-    log_held_back(directories_, now,
-                  "entries of the drop directory that were left out, or cannot be watched or read");
+        log_warning(faulty, "sites of {}: {}", printable(report.domain), fault);
 }
 
 }  // namespace stormcellar::daemon

@@ -1,9 +1,11 @@
 // daemon/schedule.h -- which file is looked at next.
 //
 // One entry a path: what is offered again while it waits is merged, what is offered again while it
-// runs is looked at once more afterwards. Newest first, by the time at which the file was closed
-// (its modification time when nobody saw the close), so that a backlog never delays what has just
-// come. A file that could not be stored waits, longer each time, and is never dropped.
+// runs is looked at once more afterwards. In the order of ready_jobs.h, so that a backlog never
+// delays what has just come, nor one station another. A file that could not be stored waits, longer
+// each time, and is never dropped.
+// What has waited for `register_after` is to be written into the catalog without being read
+// (next_unregistered()): however far behind we are, what is there can be asked for.
 // Memory is bounded by `limit` entries: beyond it an offer is refused, and the caller finds the
 // file again by a scan once there is room. Pure bookkeeping: the caller says what time it is.
 // Thread contract: one thread.
@@ -18,6 +20,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "daemon/ready_jobs.h"
+
 namespace stormcellar::daemon {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
@@ -26,22 +30,34 @@ struct Job {
     std::filesystem::path path;
     bool finish_partial = false;          // the file was quiet for long enough
     std::optional<SteadyTime> closed_at;  // the last close that was seen; none: found by a scan
-    std::int64_t newest_ns = 0;           // since the epoch; decides the order
+    std::int64_t newest_ns = 0;           // since the epoch
     SteadyTime not_before{};
     int failures = 0;  // how often it could not be stored
+    // For its place among the others (ready_jobs.h):
+    Urgency urgency = Urgency::backlog;
+    bool is_begun = false;
+    std::string station;
+    bool is_registered = false;  // in the catalog with this state, or one before
 };
 
 enum class Offered { queued, merged, refused };
 
 class Schedule {
   public:
+    static constexpr std::chrono::seconds register_after{2};
+
     explicit Schedule(std::size_t limit) : limit_(limit) {}
 
     // Merged: the later close and time count, and finish_partial only when both ask for it (a new
     // close means that the file was not quiet).
-    Offered offer(Job job);
-    // The newest job that may run now; it counts as running until finished() or retry().
+    Offered offer(Job job, SteadyTime now = {});
+    // The first job that may run now; it counts as running until finished() or retry().
     std::optional<Job> next(SteadyTime now);
+    // One that is not registered and was offered long enough ago, the longest first; it counts as
+    // running until registered().
+    std::optional<Job> next_unregistered(SteadyTime now);
+    // Puts it back, to be run; whether that succeeded or not it is not asked for again.
+    void registered(const std::filesystem::path& path);
     // What was offered again meanwhile waits once more, not to run before `again_not_before`.
     void finished(const std::filesystem::path& path, SteadyTime again_not_before = {});
     // Puts a running job back, not to run before now + retry_delay(its failures).
@@ -51,7 +67,9 @@ class Schedule {
 
     // When the next waiting job may run; none when nothing waits. May lie in the past.
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    [[nodiscard]] std::size_t waiting_count() const { return ready_.size() + delayed_.size(); }
+    // Since when the one waits that has waited for longest, of those that may run.
+    [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
+    [[nodiscard]] std::size_t waiting_count() const { return ready_.count() + delayed_.size(); }
     [[nodiscard]] std::size_t running_count() const { return entries_.size() - waiting_count(); }
     [[nodiscard]] std::size_t limit() const { return limit_; }
 
@@ -64,28 +82,25 @@ class Schedule {
         bool running = false;
         std::optional<Job> again;  // offered while it ran
         std::uint64_t sequence = 0;
-    };
-    // Newest first, and first come first served among equals.
-    struct ReadyKey {
-        std::int64_t newest_ns;
-        std::uint64_t sequence;
-        bool operator<(const ReadyKey& other) const {
-            if (newest_ns != other.newest_ns) return newest_ns > other.newest_ns;
-            return sequence < other.sequence;
-        }
+        SteadyTime offered_at{}, again_at{};
+        std::uint64_t place = 0;  // among those that were offered
     };
     using DelayedKey = std::pair<SteadyTime, std::uint64_t>;
 
+    static ReadyJobs::Key key_of(const Entry& entry);
     void enqueue(Entry& entry);
-    void dequeue(const Entry& entry);
+    void wait_again(Entry& entry, const Job& job);
+    void run(Entry& entry);
     static void merge(Job& into, const Job& job);
 
     std::size_t limit_;
-    std::uint64_t next_sequence_ = 0;
+    std::uint64_t next_sequence_ = 0, next_place_ = 0;
     SteadyTime held_until_{};
     std::unordered_map<std::string, Entry> entries_;
-    std::map<ReadyKey, Entry*> ready_;
+    ReadyJobs ready_;
     std::map<DelayedKey, Entry*> delayed_;
+    std::map<std::uint64_t, Entry*> waiting_;       // by place: all that wait
+    std::map<std::uint64_t, Entry*> unregistered_;  // the same, those alone
 };
 
 }  // namespace stormcellar::daemon

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <system_error>
 #include <utility>
 
 #include <poll.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
+#include "daemon/log.h"
 
 namespace stormcellar::daemon {
 namespace {
@@ -19,12 +18,18 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
+constexpr std::chrono::seconds between_backlog_looks{1}, behind_after{20};
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
     const bool same_socket =
         fresh.status.socket.empty() || fresh.status.socket == running.status.socket;
     return same_socket && fresh.status.http_port == running.status.http_port;
+}
+
+Result<Taken> note(Sink& sink, const Job& job) {
+    if (Status noted = sink.note(job.path); !noted) return pass_on(noted);
+    return Taken{};
 }
 
 }  // namespace
@@ -38,10 +43,16 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       status_(config_.drop, config_.cache),
       status_file_(parts_.file_system, config_.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
-      pool_(parts_.sink, config_.worker_count(), [this] { wake_up_.set(); }),
+      pool_([this](const Job& job) { return parts_.sink.take(job.path, job.finish_partial); },
+            "ingest", config_.worker_count(), [this] { wake_up_.set(); }),
+      registrar_([this](const Job& job) { return note(parts_.sink, job); }, "register", 1,
+                 [this] { wake_up_.set(); }),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
     status_.set_listening(config_.status.socket, config_.status.http_port);
+    watch("missing", missing_pulse_);
+    watch("cache", cache_keeper_.pulse());
+    watch("loops", loop_keeper_.pulse());
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), {});
 }
 
@@ -70,9 +81,9 @@ bool Service::start() {
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    spdlog::info("ready: watching {} ({} directories), {} files to look at, {} workers",
-                 printable(config_.drop.native()), watcher_.directory_count(),
-                 pending.waiting + pending.growing, config_.worker_count());
+    log_info({Event::ready}, "ready: watching {} ({} directories), {} files to look at, {} workers",
+             printable(config_.drop.native()), watcher_.directory_count(),
+             pending.waiting + pending.growing, config_.worker_count());
     if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
     return true;
 }
@@ -116,15 +127,7 @@ void Service::wait() {
 }
 
 void Service::handle_signals() {
-    if (parts_.signals == nullptr) return;
-    while (const std::optional<int> signal = parts_.signals->next()) {
-        if (*signal == SIGHUP) {
-            reload();
-        } else {
-            spdlog::info("stopping: asked to by {}", *signal == SIGTERM ? "SIGTERM" : "SIGINT");
-            stop_requested_ = true;
-        }
-    }
+    if (take_signals(parts_.signals, [this] { reload(); })) stop_requested_ = true;
 }
 
 void Service::reload() {
@@ -132,8 +135,8 @@ void Service::reload() {
     if (const Result<Config> fresh = load_config(config_file_)) {
         apply(*fresh);
     } else {
-        spdlog::error("reload: {}; the configuration stays as it was",
-                      printable(fresh.error().message));
+        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+                  printable(fresh.error().message));
     }
     parts_.notifier.send("READY=1");
 }
@@ -141,12 +144,15 @@ void Service::reload() {
 void Service::apply(const Config& fresh) {
     if (fresh.drop != config_.drop || fresh.state != config_.state ||
         fresh.cache != config_.cache) {
-        spdlog::warn("reload: [paths] cannot change while the service runs: restart it");
+        log_warning({Event::reload_ignored},
+                    "reload: [paths] cannot change while the service runs: restart it");
     }
     if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
-        spdlog::warn("reload: the grid, threads and queue_limit change at a restart only");
+        log_warning({Event::reload_ignored},
+                    "reload: the grid, threads and queue_limit change at a restart only");
     }
-    if (!same_listening(fresh, config_)) spdlog::warn("reload: [status] changes at a restart only");
+    if (!same_listening(fresh, config_))
+        log_warning({Event::reload_ignored}, "reload: [status] changes at a restart only");
     config_.workers = fresh.workers;
     config_.quiet = fresh.quiet;
     config_.reread = fresh.reread;
@@ -161,18 +167,21 @@ void Service::apply(const Config& fresh) {
     intake_.set_times(config_);
     next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
     set_log_level(config_.log_level);
-    spdlog::info("reloaded: {} workers, quiet after {} s, log level {}", config_.worker_count(),
-                 std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
+    log_info({Event::reloaded}, "reloaded: {} workers, quiet after {} s, log level {}",
+             config_.worker_count(), std::chrono::duration<double>(config_.quiet).count(),
+             config_.log_level);
 }
 
 void Service::collect() {
-    const SteadyTime now = parts_.clock.steady();
     for (const Finished& finished : pool_.collect()) {
-        reporter_.report(finished, now);
+        Reporter::report(finished);
         status_.add(finished);
         intake_.job_ended(finished);
         status_file_.changed();
     }
+    // What could not be written will be when the file is taken in.
+    for (const Finished& noted : registrar_.collect())
+        intake_.registered(noted.job);
 }
 
 void Service::scan_if_due() {
@@ -187,11 +196,11 @@ bool Service::scan() {
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
     if (!scanned && !drop_missing_) {
-        spdlog::error("drop directory {}; looking again every {} s",
-                      printable(scanned.error().message),
-                      std::chrono::duration<double>(config_.rescan).count());
+        log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
+                  printable(scanned.error().message),
+                  std::chrono::duration<double>(config_.rescan).count());
     } else if (scanned && drop_missing_) {
-        spdlog::info("drop directory {} is back", printable(config_.drop.native()));
+        log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
     if (scanned && !is_poll) mark_missing();
@@ -211,21 +220,29 @@ void Service::mark_missing() {
         missing_.valid() && missing_.wait_for(std::chrono::seconds{0}) != std::future_status::ready;
     if (busy) return;
     const auto look = [this] {
-        const Result<int> marked = parts_.sink.mark_missing();
+        const AtWork at_work(missing_pulse_);
+        const Result<int> marked = parts_.sink.mark_missing([this] { missing_pulse_.beat(); });
         if (!marked) {
-            spdlog::warn("cannot look for files that went: {}", printable(marked.error().message));
+            log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                        printable(marked.error().message));
         } else if (*marked > 0) {
-            spdlog::info("{} files went while nobody watched", *marked);
+            log_info({Event::files_gone}, "{} files went while nobody watched", *marked);
         }
     };
     try {
         missing_ = std::async(std::launch::async, look);
     } catch (const std::system_error& error) {  // no thread to be had
-        spdlog::warn("cannot look for files that went: {}", error.what());
+        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                    error.what());
     }
 }
 
 void Service::start_jobs() {
+    if (registrar_.has_free_worker()) {
+        if (std::optional<Job> job = intake_.next_unregistered()) {
+            registrar_.submit(std::move(*job));
+        }
+    }
     while (pool_.has_free_worker()) {
         std::optional<Job> job = intake_.next_job();
         if (!job) return;
@@ -239,13 +256,15 @@ void Service::keep_house() {
     if (const std::uint64_t overflows = intake_.take_overflows(); overflows > 0) {
         for (std::uint64_t i = 0; i < overflows; ++i)
             status_.count_overflow();
-        spdlog::warn("the kernel dropped events (fs.inotify.max_queued_events): scanning");
+        log_warning({Event::overflow},
+                    "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
     report_repairs();
+    report_backlog(now);
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
-        reporter_.report_directory(problem, now);
-    reporter_.report_held_back(now);
+        Reporter::report_directory(problem);
+    log_held_back();
     if (const auto usage = cache_keeper_.poll(now, config_.budgets)) {
         status_.set_usage(*usage);
         status_file_.changed();
@@ -255,7 +274,19 @@ void Service::keep_house() {
         status_file_.changed();
     }
     publish(false);
-    if (watchdog_.is_due(now, pool_.oldest_start())) parts_.notifier.send("WATCHDOG=1");
+    feed(watchdog_, parts_.notifier, now, oldest_step());
+}
+
+std::optional<Step> Service::oldest_step() const {
+    std::optional<Step> oldest = pulses_.oldest();
+    const auto look_at = [&](const char* what, const WorkerPool& pool) {
+        const auto job = pool.oldest();
+        if (job && (!oldest || job->since < oldest->since))
+            oldest = Step{what + job->path.native(), job->since};
+    };
+    look_at("ingest of ", pool_);
+    look_at("registration of ", registrar_);
+    return oldest;
 }
 
 void Service::publish(bool at_once) {
@@ -266,10 +297,32 @@ void Service::publish(bool at_once) {
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
 }
 
+// Once when it begins, each minute while it lasts, and once when it is over.
+void Service::report_backlog(SteadyTime now) {
+    if (now < next_backlog_) return;
+    next_backlog_ = now + between_backlog_looks;
+    const auto wait = intake_.longest_wait();
+    status_.set_longest_wait(std::chrono::duration<double>(wait).count());
+    const std::size_t waiting = intake_.pending().waiting;
+    if (wait >= behind_after) {
+        if (!is_behind_ || now >= next_behind_line_) {
+            log_warning({Event::behind},
+                        "behind: {} files wait, one of them for {} s; of growing volumes only the "
+                        "low sweeps are gridded, whole volumes all",
+                        waiting, std::chrono::duration_cast<std::chrono::seconds>(wait).count());
+            next_behind_line_ = now + std::chrono::minutes{1};
+        }
+        is_behind_ = true;
+    } else if (is_behind_ && wait < behind_after / 2) {
+        log_info({Event::caught_up}, "no longer behind: {} files wait", waiting);
+        is_behind_ = false;
+    }
+}
+
 void Service::report_repairs() {
     const std::vector<std::string> repairs = parts_.sink.take_repairs();
     for (const std::string& line : repairs)
-        spdlog::error("{}", printable(line));
+        log_error({Event::database_mended}, "{}", printable(line));
     if (!repairs.empty()) intake_.forget_seen();
 }
 
@@ -300,19 +353,21 @@ Stopped Service::stop() {
     status_.set_state("stopping");
     publish(true);
     loop_keeper_.stop();
-    const bool drained = pool_.drain(time_to_drain);
+    const bool drained = pool_.drain(time_to_drain) && registrar_.drain(time_to_drain);
     loop_keeper_.wait();
     if (auto loops = loop_keeper_.news()) status_.set_loops(std::move(*loops));
     collect();
     const std::size_t left = intake_.pending().waiting;
+    log_all_held_back();
     if (!drained) {
-        spdlog::error("stopped with files still being read after {} s", time_to_drain.count());
+        log_error({Event::stopped_with_jobs}, "stopped with files still being read after {} s",
+                  time_to_drain.count());
         return Stopped::with_jobs;
     }
     status_.set_state("stopped");
     publish(true);
-    spdlog::info("stopped: {} files ingested, {} left for the next start", status_.ingested(),
-                 left);
+    log_info({Event::stopped}, "stopped: {} files ingested, {} left for the next start",
+             status_.ingested(), left);
     return Stopped::cleanly;
 }
 

@@ -25,6 +25,7 @@
 #include "daemon/intake.h"
 #include "daemon/loop_keeper.h"
 #include "daemon/notify.h"
+#include "daemon/pulse.h"
 #include "daemon/reporter.h"
 #include "daemon/signals.h"
 #include "daemon/sink.h"
@@ -68,6 +69,9 @@ class Service {
     [[nodiscard]] bool is_idle() const { return idle_; }
     // What two sites say otherwise than each other, for the log and the status; from any thread.
     void sites_compared(pipeline::PairReport report);
+    // Before run(): a thread beside the service's own that the watchdog is to see. Its pulse must
+    // stand until run() is over.
+    void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
     bool start();
@@ -82,10 +86,12 @@ class Service {
     bool scan();
     void mark_missing();
     void start_jobs();
+    void report_backlog(SteadyTime now);
     void keep_house();
     void report_repairs();
     void report_sites();
     void publish(bool at_once);
+    [[nodiscard]] std::optional<Step> oldest_step() const;
     [[nodiscard]] SteadyTime next_time() const;
 
     Config config_;
@@ -93,11 +99,12 @@ class Service {
     ServiceParts parts_;
     Intake intake_;
     Watcher watcher_;
-    Reporter reporter_;
     StatusBook status_;
     StatusFile status_file_;
     Pending published_;  // as it was last looked at
     WatchdogFeed watchdog_;
+    Pulses pulses_;
+    Pulse missing_pulse_;
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
     std::atomic<bool> idle_ = false;
@@ -107,7 +114,10 @@ class Service {
     // The earliest next scan, the regular one, and the next that looks for rows of missing files
     // when the regular ones are polls.
     SteadyTime rested_{}, next_scan_{}, next_rescan_{};
-    WorkerPool pool_;  // last: its threads use what stands above
+    bool is_behind_ = false;             // and it stands in the log
+    SteadyTime next_backlog_{}, next_behind_line_{};
+    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
+    WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.
     std::future<void> missing_;
     CacheKeeper cache_keeper_;

@@ -8,6 +8,8 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include "daemon/log.h"
+
 namespace stormcellar::daemon {
 
 Result<Signals> Signals::open() {
@@ -36,6 +38,21 @@ std::optional<int> Signals::next() const {
     signalfd_siginfo facts{};
     if (::read(descriptor_, &facts, sizeof facts) != ssize_t{sizeof facts}) return std::nullopt;
     return static_cast<int>(facts.ssi_signo);
+}
+
+bool take_signals(const Signals* signals, const std::function<void()>& reload) {
+    if (signals == nullptr) return false;
+    bool is_asked_to_end = false;
+    while (const std::optional<int> signal = signals->next()) {
+        if (*signal == SIGHUP) {
+            reload();
+            continue;
+        }
+        log_info({Event::stopping}, "stopping: asked to by {}",
+                 *signal == SIGTERM ? "SIGTERM" : "SIGINT");
+        is_asked_to_end = true;
+    }
+    return is_asked_to_end;
 }
 
 }  // namespace stormcellar::daemon

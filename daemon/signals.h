@@ -4,6 +4,7 @@
 // that it starts, and ignores SIGPIPE.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "base/result.h"
@@ -27,5 +28,9 @@ class Signals {
     explicit Signals(int descriptor) : descriptor_(descriptor) {}
     int descriptor_;
 };
+
+// Takes those that wait: `reload` is called for each SIGHUP. True when one of them asked for the
+// end, which is logged. No signals (null): there are none.
+[[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
 }  // namespace stormcellar::daemon

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,13 +36,20 @@ class Sink {
 
     // An error is ours alone (catalog or cache cannot be written): the file is tried again later.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial) = 0;
+    // Writes the file into the catalog as it is there, unread; for one that has to wait. May run
+    // beside take() of other paths.
+    virtual Status note(const std::filesystem::path& /*path*/) { return {}; }
     // Whether more waits than workers can soon take: what may be left out is left out.
     virtual void set_pressed(bool /*pressed*/) {}
+    // Called now and then by what may last long, from its own thread: it moves on.
+    using OnStep = std::function<void()>;
     // Marks what is known and no longer there, as after a scan; gives how much. May run beside
     // take().
-    virtual Result<int> mark_missing() = 0;
+    virtual Result<int> mark_missing(const OnStep& step) = 0;
     // Keeps the cache within these budgets from now on. May run beside take(); one at a time.
-    virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/) { return {}; }
+    virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
+        return {};
+    }
     // What was found damaged and put right since the last call, one line each, fit for the log. The
     // files of the drop directory must then be offered again. May be called beside the others.
     virtual std::vector<std::string> take_repairs() { return {}; }

@@ -41,6 +41,8 @@ struct StationState {
     PerResult<std::uint64_t> results{};    // files
     std::uint64_t partial = 0;             // of those gridded: not whole
     Timings close_to_cache{128};
+    std::uint64_t living = 0;      // grids of volumes that had not ended, each time
+    Timings close_to_living{128};  // from the close with which a sweep was complete to its grid
     Timings antenna_to_cache{128};
     std::optional<double> last_antenna_s;  // whatever it is
     std::uint64_t not_live = 0;            // volumes that antenna_to_cache leaves out

@@ -49,6 +49,7 @@ void StatusBook::add(const Finished& finished, UtcTime at) {
     }
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     ++facts_.results.at(index_of(outcome.result));
+    facts_.living_left_out += outcome.living_left_out ? 1 : 0;
     facts_.stations.add(outcome, latency_of(finished), at);
     if (!outcome.missing_chunks.empty()) {
         facts_.stations.add_missing_chunks(outcome.station,
@@ -57,6 +58,7 @@ void StatusBook::add(const Finished& finished, UtcTime at) {
                                             .numbers = outcome.missing_chunks,
                                             .count = outcome.missing_chunks.size()});
     }
+    if (!outcome.living.empty()) add_living(finished);
     if (outcome.result == IngestResult::gridded) add_ingested(finished, at);
     if (outcome.result == IngestResult::rejected) add_rejected(finished, at);
 }
@@ -84,6 +86,11 @@ void StatusBook::add_ingested(const Finished& finished, UtcTime at) {
                               outcome.volume_time ? format_utc(*outcome.volume_time) : "",
                               outcome.grids.size(), latency_s, antenna_s, outcome.read_s,
                               outcome.decode_s, outcome.grid_s, outcome.commit_s});
+}
+
+void StatusBook::add_living(const Finished& finished) {
+    facts_.living += finished.taken->ingest.living.size();
+    if (const auto latency_s = latency_of(finished)) facts_.close_to_living.add(*latency_s);
 }
 
 void StatusBook::add_rejected(const Finished& finished, UtcTime at) {

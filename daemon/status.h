@@ -57,9 +57,13 @@ struct StatusFacts {
     PerErrorCode<std::uint64_t> failed{};    // of failures: by what hindered
     std::uint64_t overflows = 0, scans = 0;
     std::size_t directories = 0;
+    double longest_wait_s = 0;          // of the files that wait
+    std::uint64_t living_left_out = 0;  // living grids, for want of time
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};
+    std::uint64_t living = 0;          // grids of volumes that had not ended, each time
+    Timings close_to_living{4096};     // of the chunk with which a sweep was complete
     Timings antenna_to_cache{4096};    // of data that can have come live
     std::uint64_t not_live = 0;        // volumes that it leaves out
     std::deque<RecentVolume> volumes;  // the last 64, oldest first, as the next
@@ -75,6 +79,7 @@ class StatusBook {
     // `at`: when it ended, by the clock on the wall.
     void add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
+    void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
     void count_scan(std::size_t directories);
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);
@@ -93,6 +98,7 @@ class StatusBook {
   private:
     void add_ingested(const Finished& finished, UtcTime at);
     void add_rejected(const Finished& finished, UtcTime at);
+    void add_living(const Finished& finished);
 
     StatusFacts facts_;
 };

@@ -3,9 +3,9 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "base/printable.h"
+#include "daemon/log.h"
 
 namespace stormcellar::daemon {
 
@@ -37,8 +37,9 @@ bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyT
     notifier_.send("STATUS=" + book.line(pending));
     const Status written = write(book.json(pending, now_utc()));
     if (!written && !failing_) {
-        spdlog::error("{}: cannot write the status: {}", printable(path_.native()),
-                      printable(written.error().message));
+        log_error({.event = Event::status_unwritten, .file = path_},
+                  "cannot write the status: {}: {}", printable(path_.native()),
+                  printable(written.error().message));
     }
     failing_ = !written;
     return true;

@@ -162,6 +162,8 @@ Json json_of(const std::string& name, const StationState& state, UtcTime now) {
             {"no_moment", count(IngestResult::no_moment)},
             {"no_position", count(IngestResult::no_position)},
             {"latency_s", json_of(state.close_to_cache)},
+            {"living_grids", state.living},
+            {"sweep_latency_s", json_of(state.close_to_living)},
             {"antenna_to_cache_s", antenna},
             {"missing_chunks", state.missing_chunks},
             {"missing", missing}};
@@ -187,6 +189,7 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"listening", listening_of(facts)},
             {"ingested", facts.ingested},
             {"grids", facts.grids},
+            {"living_grids", facts.living},
             {"partial", facts.partial},
             {"rejected", count(IngestResult::rejected)},
             {"rejected_by", json_of(facts.rejected)},
@@ -199,8 +202,10 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"pending",
              {{"waiting", pending.waiting},
               {"running", pending.running},
-              {"growing", pending.growing}}},
+              {"growing", pending.growing},
+              {"longest_wait_s", facts.longest_wait_s}}},
             {"overflows", facts.overflows},
+            {"living_left_out", facts.living_left_out},
             {"scans", facts.scans},
             {"directories", facts.directories},
             {"rolling", json_of(facts.usage)}};
@@ -211,6 +216,7 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
 std::string status_json(const StatusFacts& facts, const Pending& pending, UtcTime now) {
     Json document = counts_of(facts, pending, now);
     document["latency_s"] = json_of(facts.close_to_cache);
+    document["sweep_latency_s"] = json_of(facts.close_to_living);
     document["antenna_to_cache_s"] = json_of(facts.antenna_to_cache);
     document["antenna_to_cache_s"]["not_live"] = facts.not_live;
     const auto list = [&](const char* name) -> Json& { return document[name] = Json::array(); };

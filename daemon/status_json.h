@@ -8,6 +8,7 @@
 //   listening      {"socket" (null: none),"http_port" (null: none)}: where it was told to answer
 //   ingested       files whose volumes were gridded, each time they were
 //   grids          grids committed to the cache
+//   living_grids   grids of volumes that had not ended, each time a sweep entered one
 //   partial        how many of `ingested` were of volumes that had not ended or were damaged
 //   rejected, no_moment, no_position, unchanged, vanished   files that ended so
 //   rejected_by    {"corrupt": 3, ...}: what was wrong; only what occurred
@@ -22,7 +23,10 @@
 //   latency_s      {"count","median","p95","max"} seconds from the close (or rename) of a file to
 //                  its grids in the cache, waiting included, over the last 4096 ingested files
 //                  whose close was seen; files found by a scan have none. null values with count 0
-//   antenna_to_cache_s   the same from the newest radial of a volume to its grids in the cache, of
+//   sweep_latency_s   the same from the close with which a sweep was complete to the living grid
+//   that
+//                  shows it
+//   antenna_to_cache_s   from the newest radial of a volume to its grids in the cache, of
 //                  volumes that can have come live (at most an hour old), and "not_live": volumes
 //                  that are left out, as of old data that are replayed
 //   volumes        the last 64 ingested files, oldest first: {"file","station","time","grids",
@@ -31,7 +35,8 @@
 //   rejected_files the last 64, oldest first: {"file","station","at","by","reason"}
 //   stations       by name: {"station","volume_time","volume_age_s","newest_radial","ingested_at",
 //                  "ingested_age_s","data_at","data_age_s","gridded","partial","rejected",
-//                  "no_moment","no_position","latency_s","antenna_to_cache_s" (with "last" and
+//                  "no_moment","no_position","latency_s","living_grids","sweep_latency_s",
+//                  "antenna_to_cache_s" (with "last" and
 //                  "last_is_live"),"missing_chunks" (how many in all),"missing" (the last 8 volumes
 //                  that miss some: {"volume_time","volume_number","count","numbers"})};
 //                  newest_radial is of the newest volume; data_at: a file was last looked at

@@ -11,11 +11,11 @@
 
 #include <microhttpd.h>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include "base/printable.h"
 #include "daemon/http_listener.h"
+#include "daemon/log.h"
 #include "daemon/metrics_text.h"
 #include "daemon/status_json.h"
 
@@ -109,11 +109,12 @@ void StatusServer::Worker::open(Address& address) {
         }
     }
     if (opened) {
-        spdlog::info("the status is answered at {}", printable(address.name));
+        log_info({Event::status_answered}, "the status is answered at {}", printable(address.name));
     } else if (!address.failing) {
-        spdlog::log(address.may_lack ? spdlog::level::debug : spdlog::level::err,
-                    "the status cannot be asked for: {}; trying again",
-                    printable(opened.error().message));
+        log_line(address.may_lack ? Severity::debug : Severity::error,
+                 {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
+                 fmt::format("the status cannot be asked for: {}; trying again",
+                             printable(opened.error().message)));
     }
     address.failing = !opened;
 }
@@ -189,9 +190,12 @@ void StatusServer::run() {
     // Of this thread alone, on Linux; where it may not, it goes on as it is.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
     while (!stopping_) {
-        worker_->open(std::chrono::steady_clock::now());
+        {
+            const AtWork at_work(pulse_);
+            worker_->turn(std::chrono::steady_clock::now());
+            worker_->open(std::chrono::steady_clock::now());
+        }
         worker_->wait(std::chrono::steady_clock::now(), wake_up_);
-        worker_->turn(std::chrono::steady_clock::now());
     }
 }
 

@@ -20,6 +20,7 @@
 #include <string>
 #include <thread>
 
+#include "daemon/pulse.h"
 #include "daemon/status_board.h"
 #include "daemon/wake_up.h"
 
@@ -46,6 +47,8 @@ class StatusServer {
     StatusServer& operator=(const StatusServer&) = delete;
     ~StatusServer();
 
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
+
   private:
     class Worker;
     void run();
@@ -53,6 +56,7 @@ class StatusServer {
     std::unique_ptr<Worker> worker_;  // of the thread
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
+    Pulse pulse_;
     std::thread thread_;  // the last member: it uses what stands above
 };
 

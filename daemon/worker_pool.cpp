@@ -8,8 +8,8 @@
 
 namespace stormcellar::daemon {
 
-WorkerPool::WorkerPool(Sink& sink, int workers, std::function<void()> wake)
-    : sink_(sink), wake_(std::move(wake)) {
+WorkerPool::WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake)
+    : work_(std::move(work)), thread_name_(thread_name), wake_(std::move(wake)) {
     resize(workers);
 }
 
@@ -54,10 +54,10 @@ std::vector<Finished> WorkerPool::collect() {
     return std::exchange(outbox_, {});
 }
 
-std::optional<SteadyTime> WorkerPool::oldest_start() const {
+std::optional<WorkerPool::Oldest> WorkerPool::oldest() const {
     const std::lock_guard lock(mutex_);
     if (running_.empty()) return std::nullopt;
-    return *running_.begin();
+    return Oldest{running_.begin()->second, running_.begin()->first};
 }
 
 bool WorkerPool::drain(std::chrono::milliseconds within) {
@@ -75,29 +75,30 @@ std::optional<WorkerPool::Begun> WorkerPool::wait_for_job() {
         --alive_;
         return std::nullopt;
     }
-    Begun begun{std::move(inbox_.front()), std::chrono::steady_clock::now()};
+    Job job = std::move(inbox_.front());
     inbox_.pop_front();
-    running_.insert(begun.at);
-    return begun;
+    const auto entry = running_.emplace(std::chrono::steady_clock::now(), job.path);
+    return Begun{std::move(job), entry};
 }
 
 Result<Taken> WorkerPool::take(const Job& job) {
     try {
-        return sink_.take(job.path, job.finish_partial);
+        return work_(job);
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, "{}: {}", job.path.native(), error.what());
     }
 }
 
 void WorkerPool::work() {
-    ::pthread_setname_np(::pthread_self(), "ingest");
+    ::pthread_setname_np(::pthread_self(), thread_name_);
     while (std::optional<Begun> begun = wait_for_job()) {
         Result<Taken> taken = take(begun->job);
         const SteadyTime ended = std::chrono::steady_clock::now();
         {
             const std::lock_guard lock(mutex_);
-            running_.erase(running_.find(begun->at));
-            outbox_.push_back({std::move(begun->job), std::move(taken), begun->at, ended});
+            const SteadyTime started = begun->entry->first;
+            running_.erase(begun->entry);
+            outbox_.push_back({std::move(begun->job), std::move(taken), started, ended});
         }
         changed_.notify_all();
         wake_();

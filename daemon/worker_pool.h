@@ -1,4 +1,4 @@
-// daemon/worker_pool.h -- the threads that take files in.
+// daemon/worker_pool.h -- threads that take files in, or write them into the catalog.
 //
 // A job is handed over only when a worker is free, so nothing queues here. A worker outlives every
 // file: what is thrown becomes an error of the job.
@@ -9,9 +9,9 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <vector>
 
@@ -29,7 +29,10 @@ struct Finished {
 
 class WorkerPool {
   public:
-    WorkerPool(Sink& sink, int workers, std::function<void()> wake);
+    // What a worker does with a job; called by all of them.
+    using Work = std::function<Result<Taken>(const Job&)>;
+
+    WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
     ~WorkerPool();  // waits for the running jobs
@@ -40,27 +43,32 @@ class WorkerPool {
     void submit(Job job);  // only when a worker is free
     // What has ended since the last call.
     std::vector<Finished> collect();
-    // When the longest running job began; none when all are idle.
-    [[nodiscard]] std::optional<SteadyTime> oldest_start() const;
+    // The longest running job, by its file; none when all are idle.
+    struct Oldest {
+        std::filesystem::path path;
+        SteadyTime since;
+    };
+    [[nodiscard]] std::optional<Oldest> oldest() const;
     // No job begins any more; true when the running ones ended within the time.
     bool drain(std::chrono::milliseconds within);
 
   private:
     struct Begun {
         Job job;
-        SteadyTime at;
+        std::multimap<SteadyTime, std::filesystem::path>::iterator entry;  // of running_
     };
     void work();
     std::optional<Begun> wait_for_job();
     Result<Taken> take(const Job& job);
 
-    Sink& sink_;
+    Work work_;
+    const char* thread_name_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;  // all below but threads_
     std::condition_variable changed_;
     std::deque<Job> inbox_;
     std::vector<Finished> outbox_;
-    std::multiset<SteadyTime> running_;  // when each running job began
+    std::multimap<SteadyTime, std::filesystem::path> running_;  // by when each began
     int wanted_ = 0;
     int alive_ = 0;
     bool stopping_ = false;

@@ -7,6 +7,7 @@
 #include "level2/archive_header.h"
 #include "level2/content.h"
 #include "level2/ldm_framer.h"
+#include "level2/live_sweep.h"
 #include "level2/message_reader.h"
 #include "level2/part_decoder.h"
 
@@ -97,6 +98,44 @@ Status ChunkReader::read_messages(std::span<const std::byte> body) {
 }
 
 }  // namespace
+
+void put_aside(LiveChunk& chunk, SweepDepot& depot) {
+    for (Fragment& fragment : chunk.fragments) {
+        for (Fragment::Piece& piece : fragment.pieces) {
+            Sweep& sweep = piece.sweep;
+            auto& place = chunk.places.emplace_back();
+            if (piece.left_out || sweep.radials.size() < 3) continue;
+            place = depot.put(sweep);
+            if (!place) continue;
+            chunk.away_bytes += bytes_of(sweep);
+            sweep.moments = {};
+            sweep.radials = {sweep.radials.front(), sweep.radials.back()};
+        }
+    }
+    chunk.away_bytes = std::min(chunk.away_bytes, chunk.held_bytes);
+}
+
+Result<Sweep> whole_piece(const LiveChunk& chunk, std::size_t place, const Fragment::Piece& piece,
+                          const SweepDepot* depot) {
+    if (place >= chunk.places.size() || !chunk.places[place]) return piece.sweep;
+    return depot->get(*chunk.places[place]);
+}
+
+Status bring_back(LiveChunk& chunk, const SweepDepot* depot) {
+    std::size_t place = 0;
+    for (Fragment& fragment : chunk.fragments) {
+        for (Fragment::Piece& piece : fragment.pieces) {
+            const std::size_t own = place++;
+            if (own >= chunk.places.size() || !chunk.places[own]) continue;
+            Result<Sweep> sweep = depot->get(*chunk.places[own]);
+            if (!sweep) return pass_on(sweep);
+            piece.sweep = std::move(*sweep);
+        }
+    }
+    chunk.places.clear();
+    chunk.away_bytes = 0;
+    return {};
+}
 
 Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes, const DecodeOptions& options,
                                   LiveRoom room) {

@@ -79,7 +79,12 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
         if (chunk) {
             chunk->kind = kind;
             refused_.erase(number);
-            return keep_better(number, std::move(*chunk), now);
+            const auto kept = keep_better(number, std::move(*chunk), now);
+            const bool is_new = kept && (*kept == Added::added || *kept == Added::replaced);
+            if (is_new && options_.depot != nullptr) {
+                put_aside(chunks_.at(number), *options_.depot);
+            }
+            return kept;
         }
         if (!chunks_.contains(number)) {
             // Of several the same one is named in any order.
@@ -122,7 +127,7 @@ bool LiveVolume::is_due(Clock::time_point now) const {
 std::uint64_t LiveVolume::held_bytes() const {
     std::uint64_t bytes = 0;
     for (const auto& [number, chunk] : chunks_)
-        bytes += chunk.held_bytes;
+        bytes += chunk.held_bytes - chunk.away_bytes;
     return bytes;
 }
 
@@ -145,11 +150,12 @@ std::vector<LiveSweep> LiveVolume::changed_sweeps() {
         const std::uint64_t pieces = xxh3_64(std::as_bytes(std::span{sweeps[i].ids}));
         if (!sweeps[i].closed || handed_out_.contains(pieces)) continue;
         handed_out.insert(pieces);
-        Sweep sweep = join(sweeps[i], options_.decode.output_limit_bytes);
-        if (sweep.radials.empty()) continue;  // joined they exceed the limit
-        bytes += bytes_of(sweep);
-        const bool whole = level2::is_whole(sweep);
-        changed.push_back({std::move(sweep), i, whole});
+        Result<Sweep> sweep = join(sweeps[i], options_.decode.output_limit_bytes, options_.depot);
+        // Joined they exceed the limit, or cannot be read back: finish() says so.
+        if (!sweep || sweep->radials.empty()) continue;
+        bytes += bytes_of(*sweep);
+        const bool whole = level2::is_whole(*sweep);
+        changed.push_back({std::move(*sweep), i, whole});
     }
     handed_out_.merge(handed_out);
     return changed;
@@ -198,6 +204,7 @@ Result<Decoded> LiveVolume::join_all() {
             if (!taken) return pass_on(taken);
         }
         first = false;
+        if (Status back = bring_back(chunk, options_.depot); !back) return pass_on(back);
         for (Fragment& fragment : chunk.fragments) {
             if (Status taken = builder.append(std::exchange(fragment, {})); !taken) {
                 return pass_on(taken);

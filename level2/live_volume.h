@@ -8,9 +8,10 @@
 // does not depend on the order either. A start chunk of another volume shows that the radar has
 // begun again: it is refused, and what there is can be finished.
 // After a restart of the program the chunks that lie there are added again.
-// Memory: what is held of all chunks together, and their decompressed bytes, stay under the
-// decoder's output limit; a chunk that would go beyond is refused, and then the order does matter.
-// Thread contract: one thread at a time.
+// Memory: with a depot little but the first radial and the last of each stretch. What is held of
+// all chunks together, and their decompressed bytes, stay under the decoder's output limit; a chunk
+// that would go beyond is refused, and then the order does matter. Thread contract: one thread at a
+// time.
 #pragma once
 
 #include <chrono>
@@ -39,6 +40,8 @@ struct LiveOptions {
     std::chrono::seconds timeout{600};
     // Once its end is there, late chunks are waited for so long.
     std::chrono::seconds grace{30};
+    // Where the gates of chunks lie until they are wanted; null: in memory. Outlives the volume.
+    SweepDepot* depot = nullptr;
 };
 
 class LiveVolume {
@@ -77,10 +80,11 @@ class LiveVolume {
     // Whole, or there is no use in waiting longer.
     [[nodiscard]] bool is_due(Clock::time_point now) const;
     [[nodiscard]] bool is_empty() const { return chunks_.empty(); }
-    // What the decoded chunks take in memory.
+    // What the decoded chunks take in memory, without what lies in the depot.
     [[nodiscard]] std::uint64_t held_bytes() const;
 
-    // Gives up the volume; nothing is left. Errors: those of decode(), empty where no chunk came.
+    // Gives up the volume; nothing is left. Errors: those of decode(), empty where no chunk came;
+    // those of the depot.
     [[nodiscard]] Result<Decoded> finish();
 
   private:

@@ -12,6 +12,7 @@ class Grouper {
     void begin_chunk(const LiveChunk& chunk) {
         header_between_ = header_between_ || (chunk.header && !first_chunk_);
         first_chunk_ = false;
+        chunk_ = &chunk;
         serial_ = chunk.serial;
         place_ = 0;
     }
@@ -33,7 +34,7 @@ class Grouper {
         if (piece.left_out) return;
         if (!continues) sweeps_.push_back({{}, {pattern_id_}, pattern_, false});
         OpenSweep& sweep = sweeps_.back();
-        sweep.pieces.push_back(&piece);
+        sweep.pieces.push_back({&piece, chunk_, id.second});
         sweep.ids.push_back(id);
         sweep.closed = ends_sweep(piece.sweep.radials.back());
     }
@@ -46,6 +47,7 @@ class Grouper {
     const Fragment::Piece* previous_ = nullptr;
     bool header_between_ = false;
     bool first_chunk_ = true;
+    const LiveChunk* chunk_ = nullptr;
     std::uint64_t serial_ = 0;
     std::size_t place_ = 0;
 };
@@ -65,15 +67,17 @@ std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks) {
     return grouper.take();
 }
 
-Sweep join(const OpenSweep& open, std::uint64_t limit_bytes) {
+Result<Sweep> join(const OpenSweep& open, std::uint64_t limit_bytes, const SweepDepot* depot) {
     VolumeBuilder builder{limit_bytes};
     const Vcp* pattern = open.pattern;
-    for (const Fragment::Piece* piece : open.pieces) {
+    for (const auto& [piece, chunk, place] : open.pieces) {
+        Result<Sweep> sweep = whole_piece(*chunk, place, *piece, depot);
+        if (!sweep) return sweep;
         Fragment fragment;
-        fragment.pieces.push_back({{}, piece->sweep, piece->vcp, false});
+        fragment.pieces.push_back({{}, std::move(*sweep), piece->vcp, false});
         if (pattern != nullptr) fragment.pieces.front().before.patterns = {*pattern};
         pattern = nullptr;
-        if (!builder.append(std::move(fragment))) return {};
+        if (!builder.append(std::move(fragment))) return Sweep{};
     }
     return builder.so_far().sweeps.empty() ? Sweep{} : builder.whole_sweep(0);
 }

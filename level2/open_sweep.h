@@ -18,7 +18,12 @@ struct OpenSweep {
     // The serial number of a piece's chunk, and its place there.
     using PieceId = std::pair<std::uint64_t, std::size_t>;
 
-    std::vector<const Fragment::Piece*> pieces;
+    struct OpenPiece {
+        const Fragment::Piece* piece = nullptr;
+        const LiveChunk* chunk = nullptr;
+        std::size_t place = 0;  // in the chunk
+    };
+    std::vector<OpenPiece> pieces;
     std::vector<PieceId>
         ids;  // behind that of the chunk that gave the pattern, which counts from 1
     const Vcp* pattern = nullptr;
@@ -29,6 +34,8 @@ struct OpenSweep {
 [[nodiscard]] std::vector<OpenSweep> sweeps_of(const std::map<int, LiveChunk>& chunks);
 
 // The pieces as the VolumeBuilder joins them; a sweep without radials where that exceeds the limit.
-[[nodiscard]] Sweep join(const OpenSweep& sweep, std::uint64_t limit_bytes);
+// Errors: those of the depot (null: nothing lies elsewhere).
+[[nodiscard]] Result<Sweep> join(const OpenSweep& sweep, std::uint64_t limit_bytes,
+                                 const SweepDepot* depot);
 
 }  // namespace stormcellar::level2

@@ -19,6 +19,37 @@ constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 constexpr std::size_t most_volumes = 320;  // each has a descriptor
 constexpr std::size_t most_siblings = 2000;
 
+// The pieces of chunks beside the sweeps that they make.
+class ShelfDepot final : public level2::SweepDepot {
+  public:
+    explicit ShelfDepot(SweepShelf& shelf) : shelf_(shelf) {}
+    std::optional<std::uint64_t> put(const level2::Sweep& sweep) override {
+        const auto place = shelf_.put(sweep);
+        if (!place) return std::nullopt;
+        places_.push_back(*place);
+        return places_.size() - 1;
+    }
+    Result<level2::Sweep> get(std::uint64_t place) const override {
+        auto sweep = shelf_.get(places_.at(place));
+        // Ours, whatever it is: the chunks are as they were.
+        if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
+        return sweep;
+    }
+
+  private:
+    SweepShelf& shelf_;
+    std::vector<SweepShelf::Place> places_;
+};
+
+// Null where there is no room for one.
+std::unique_ptr<KeptVolume> kept_volume_in(const fs::path& directory) {
+    auto shelf = SweepShelf::make_in(directory);
+    if (!shelf) return nullptr;
+    auto kept = std::make_unique<KeptVolume>();
+    kept->shelf = std::move(*shelf);
+    return kept;
+}
+
 }  // namespace
 
 // The key has all of the name but the chunk's number and kind.
@@ -41,12 +72,16 @@ std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
     return std::nullopt;
 }
 
-ChunkVolume::ChunkVolume(const LivingFile::Options& options, level2::LiveOptions live)
-    : moment_(options.moment), beneath_(options.beneath), live_(std::move(live)) {
-    auto shelf = SweepShelf::make_in(options.scratch);
-    if (!shelf) return;
-    kept_ = std::make_unique<KeptVolume>();
-    kept_->shelf = std::move(*shelf);
+ChunkVolume::ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live)
+    : moment_(options.moment),
+      beneath_(options.beneath),
+      kept_(kept_volume_in(options.scratch)),
+      depot_(kept_ ? std::make_unique<ShelfDepot>(*kept_->shelf) : nullptr),
+      live_(with_depot(live)) {}
+
+level2::LiveOptions ChunkVolume::with_depot(level2::LiveOptions live) const {
+    live.depot = depot_.get();
+    return live;
 }
 
 ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
@@ -115,7 +150,9 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     const bool has_moment = sweep.find(moment_) != nullptr;
     kept_->places.insert_or_assign(cut, *place);
     kept_->sweeps.insert_or_assign(cut, KeptVolume::Kept{has_moment, sweep.mean_elevation_deg()});
-    has_news_ = has_news_ || has_moment;
+    if (!has_moment) return;
+    news_.any = true;
+    news_.low = news_.low || kept_->is_lowest(sweep.mean_elevation_deg());
 }
 
 void ChunkVolume::shelve_new_sweeps() {
@@ -148,8 +185,8 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         live.grace = options_.chunk_grace;
         live.decode.output_limit_bytes = most_output_bytes;
         live.decode.selection = options_.selection;
-        live.decode.fallback_station = station_of_chunk(chunk.path);
-        followed.volume = std::make_shared<ChunkVolume>(options_, std::move(live));
+        live.decode.fallback_station = station_by_name(chunk.path);
+        followed.volume = std::make_shared<ChunkVolume>(options_, live);
     }
     const std::shared_ptr<ChunkVolume> found = followed.volume;
     give_up_beyond_limits(chunk.key);

@@ -4,8 +4,9 @@
 // kind alone (level2/chunk_name.h). Whichever of them is met first, all that lie there are read, so
 // that nothing depends on what was seen before: after a restart, and when a late chunk comes, the
 // volume is put together again from the files.
-// Bounded: beyond so many bytes (a national feed holds some 0.8 GiB) or volumes the volume to which
-// nothing has come for longest is forgotten, and put together again with its next chunk. Inside the
+// What is decoded lies on the shelf (pipeline/sweep_shelf.h) until it is wanted.
+// Bounded: beyond so many bytes or volumes the volume to which nothing has come for longest is
+// forgotten, and put together again with its next chunk. Inside the
 // pipeline room only. Thread contract: find() by many threads; a volume by whoever holds its mutex.
 #pragma once
 
@@ -37,7 +38,7 @@ struct ChunkPath {
 
 class ChunkVolume {
   public:
-    ChunkVolume(const LivingFile::Options& options, level2::LiveOptions live);
+    ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live);
 
     enum class Added : std::uint8_t {
         added,       // or was there
@@ -54,9 +55,8 @@ class ChunkVolume {
     [[nodiscard]] bool is_whole() const { return live_.is_whole(); }
     [[nodiscard]] bool is_due() const { return live_.is_due(level2::LiveVolume::Clock::now()); }
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
-    // Sweeps have come that no living grid shows yet.
-    [[nodiscard]] bool has_news() const { return has_news_; }
-    void set_shown() { has_news_ = false; }
+    [[nodiscard]] LivingNews news() const { return news_; }
+    void set_shown() { news_ = {}; }
     // Null where there is no room on the shelf.
     [[nodiscard]] const KeptVolume* kept() const { return kept_.get(); }
     [[nodiscard]] std::uint64_t held_bytes() const { return live_.held_bytes(); }
@@ -80,22 +80,24 @@ class ChunkVolume {
     bool is_finished = false;  // nothing more can be added: to be found anew
 
   private:
+    [[nodiscard]] level2::LiveOptions with_depot(level2::LiveOptions live) const;
     void shelve(const level2::Sweep& sweep);
     void shelve_new_sweeps();
 
     level2::Moment moment_;
     std::filesystem::path beneath_;
-    level2::LiveVolume live_;
     std::unique_ptr<KeptVolume> kept_;
+    std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_
+    level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::filesystem::path waiter_;
-    bool has_news_ = false;
+    LivingNews news_;
 };
 
 class ChunkVolumes {
   public:
     explicit ChunkVolumes(LivingFile::Options options,
-                          std::uint64_t most_held_bytes = std::uint64_t{1} << 30)
+                          std::uint64_t most_held_bytes = std::uint64_t{256} << 20)
         : options_(std::move(options)), most_held_bytes_(most_held_bytes) {}
 
     // Made where it is not known.

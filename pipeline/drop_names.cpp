@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "base/station_table.h"
+#include "level2/chunk_name.h"
+
 namespace stormcellar::pipeline {
 
 bool is_temporary_name(std::string_view name) {
@@ -11,6 +14,19 @@ bool is_temporary_name(std::string_view name) {
     if (name.empty() || name.front() == '.') return true;
     return std::any_of(endings.begin(), endings.end(),
                        [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+std::string station_by_name(const std::filesystem::path& path) {
+    std::filesystem::path part = path;
+    for (int above = 0; above < 3; ++above, part = part.parent_path()) {
+        const std::string name = part.filename().string().substr(0, 4);
+        if (find_station(name)) return name;
+    }
+    return {};
+}
+
+bool is_chunk_name(const std::filesystem::path& path) {
+    return level2::parse_chunk_name(path.filename().native()).has_value();
 }
 
 }  // namespace stormcellar::pipeline

@@ -53,11 +53,4 @@ std::string station_of_name(const std::filesystem::path& path) {
     return find_station(name) ? name : std::string{};
 }
 
-std::string station_of_chunk(const std::filesystem::path& path) {
-    std::string station = station_of_name(path);
-    if (station.empty()) station = station_of_name(path.parent_path());
-    if (station.empty()) station = station_of_name(path.parent_path().parent_path());
-    return station;
-}
-
 }  // namespace stormcellar::pipeline

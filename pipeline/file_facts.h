@@ -35,7 +35,5 @@ struct FileStamp {
 
 // The station that the file's name begins with, when it is one of the table; else empty.
 [[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
-// The same of a chunk's file: of its name, else of its directory's, else of the one above.
-[[nodiscard]] std::string station_of_chunk(const std::filesystem::path& path);
 
 }  // namespace stormcellar::pipeline

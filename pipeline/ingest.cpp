@@ -10,6 +10,7 @@
 #include "level2/decode.h"
 #include "level2/message_2.h"
 #include "level2/volume_checks.h"
+#include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
 
 namespace stormcellar::pipeline {
@@ -230,6 +231,23 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         return std::move(*followed);
     }
     return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
+}
+
+Status Ingestor::note(const fs::path& path) {
+    const auto stamp = stamp_of(path, impl_->options.beneath);
+    if (!stamp) return {};  // gone, or to be rejected when it is taken in
+    const auto known = impl_->catalog.is_known(path);
+    if (!known) return pass_on(known);
+    if (*known || !stamp->regular) return {};
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_by_name(path);
+    facts.size_bytes = stamp->size_bytes;
+    facts.modified_ns = stamp->modified_ns;
+    facts.state = FileState::seen;
+    const auto registered = impl_->catalog.register_file(facts);
+    if (!registered) return pass_on(registered);
+    return {};
 }
 
 Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {

@@ -33,7 +33,7 @@ struct LivingGrids {
     // A directory for what they put aside, in files without names; empty: none are made.
     std::filesystem::path scratch;
     // Asked before each: false while there is more urgent work. The sweeps are in the next one.
-    // Empty: there is always time.
+    // Not asked for what shows a new low sweep. Empty: there is always time.
     std::function<bool()> has_time;
     // Of volumes that come as one file a chunk (level2/live_volume.h).
     std::chrono::seconds chunk_timeout{600};
@@ -88,6 +88,7 @@ struct IngestOutcome {
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
     std::vector<int> missing_chunks;              // of a volume of chunks that was finished
     std::vector<std::filesystem::path> living;    // of volumes that have not ended
+    bool living_left_out = false;                 // for want of time
     int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
@@ -105,7 +106,10 @@ class Ingestor {
 
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
-    // The same for a file that was settled before: its volumes are gridded again, as they are.
+    // The file is there: writes it into the catalog as seen, unread, unless it stands there.
+    Status note(const std::filesystem::path& path);
+    // The same as ingest() for a file that was settled before: its volumes are gridded again, as
+    // they are.
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path);
 
     [[nodiscard]] MosaicKeeper& mosaics();

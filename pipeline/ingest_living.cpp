@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
 #include "pipeline/keep_rule.h"
 
@@ -22,12 +23,16 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, const std::string& source_file,
-                                         std::int64_t modified_ns, IngestOutcome& outcome) {
+Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news,
+                                         const std::string& source_file, std::int64_t modified_ns,
+                                         IngestOutcome& outcome) {
     // A grid is named by the start in the header: without it, it would stay beside the whole one.
     if (!kept.facts.header) return false;
-    if (!options.own_grids || (options.living.has_time && !options.living.has_time())) {
-        return false;  // with the next sweep, or when the volume has ended
+    if (!options.own_grids) return false;
+    // With the next sweep, or when the volume has ended. Low sweeps are what is looked at first.
+    if (!news.low && options.living.has_time && !options.living.has_time()) {
+        outcome.living_left_out = true;
+        return false;
     }
     const auto last = living->last_of(kept.facts.station);
     std::size_t standing = 0;
@@ -49,7 +54,9 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     outcome.result = IngestResult::incomplete;
     outcome.followed = true;
     const KeptVolume& kept = living_file.kept();
-    if (!living_file.has_news() || living_file.holds_several()) return outcome;
+    // Also where no sweep is complete yet: something has come of the station.
+    outcome.station = kept.facts.station.empty() ? file.station : kept.facts.station;
+    if (!living_file.news().any || living_file.holds_several()) return outcome;
     FileFacts facts = file;
     facts.station = kept.facts.station;
     facts.content_hash = living_file.content_hash();
@@ -65,8 +72,8 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     outcome.station = facts.station;
     outcome.volume_time = volume_facts.start_time;
     outcome.newest_radial = volume_facts.end_time;
-    const auto shown =
-        show_living(kept, facts.path.filename().string(), facts.modified_ns, outcome);
+    const auto shown = show_living(kept, living_file.news(), facts.path.filename().string(),
+                                   facts.modified_ns, outcome);
     if (!shown) return pass_on(shown);
     if (*shown) living_file.set_shown();
     return outcome;
@@ -145,7 +152,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
     facts.modified_ns = before.modified_ns;
     facts.content_hash = volume->files().at(chunk.path).content_hash;
     facts.station = volume->station();
-    if (facts.station.empty()) facts.station = station_of_chunk(chunk.path);
+    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
     facts.state = FileState::seen;
     outcome.station = facts.station;
     if (volume->is_whole() || finish == Finish::as_it_is ||
@@ -159,9 +166,10 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         return pass_on(registered);
     }
     chunks->grew(chunk, volume->held_bytes());
-    if (volume->has_news() && volume->kept() != nullptr) {
-        const auto shown = show_living(*volume->kept(), volume->first_file().filename().string(),
-                                       facts.modified_ns, outcome);
+    if (volume->news().any && volume->kept() != nullptr) {
+        const auto shown =
+            show_living(*volume->kept(), volume->news(), volume->first_file().filename().string(),
+                        facts.modified_ns, outcome);
         if (!shown) return pass_on(shown);
         if (*shown) volume->set_shown();
     }
@@ -194,6 +202,8 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
+    // What was put aside cannot be read back: the files are not to blame, and are read again.
+    if (!decoded && decoded.error().code == ErrorCode::io) return pass_on(decoded);
     if (!decoded) return reject(facts, decoded.error(), outcome);
     auto taken = take_in(std::move(facts), std::move(*decoded), true, std::move(outcome));
     if (!taken) return taken;

@@ -88,8 +88,9 @@ struct Ingestor::Impl {
     Result<IngestOutcome> show_file(const catalog::FileFacts& file, LivingFile& living_file,
                                     IngestOutcome outcome);
     // False where there is no time for it.
-    Result<bool> show_living(const KeptVolume& kept, const std::string& source_file,
-                             std::int64_t modified_ns, IngestOutcome& outcome);
+    Result<bool> show_living(const KeptVolume& kept, LivingNews news,
+                             const std::string& source_file, std::int64_t modified_ns,
+                             IngestOutcome& outcome);
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
 };
 

@@ -72,6 +72,13 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
 
 }  // namespace
 
+bool KeptVolume::is_lowest(double elevation_deg) const {
+    return std::none_of(sweeps.begin(), sweeps.end(), [&](const auto& entry) {
+        return entry.second.has_moment &&
+               entry.second.elevation_deg < elevation_deg - same_elevation_deg;
+    });
+}
+
 bool LivingFile::is_growing(const fs::path& path, const fs::path& beneath) {
     const OpenFile file(path, beneath);
     if (!file.is_open()) return false;
@@ -169,7 +176,10 @@ Status LivingFile::shelve_new_sweeps() {
             newest_ = std::max(newest_.value_or(UtcTime{}), live.sweep.radials.back().time);
         }
         held_bytes_ = level2::bytes_of(live.sweep);  // the next one will be about as large
-        has_news_ = has_news_ || has_moment;
+        if (has_moment) {
+            news_.any = true;
+            news_.low = news_.low || kept_->is_lowest(live.sweep.mean_elevation_deg());
+        }
     }
     for (; dropped_ < growing_.droppable_sweeps(); ++dropped_) {
         if (!kept_->places.contains(dropped_)) break;

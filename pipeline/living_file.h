@@ -36,6 +36,14 @@ struct KeptVolume {
         double elevation_deg = 0;  // mean
     };
     std::map<std::size_t, Kept> sweeps;
+
+    // Whether no sweep that has come is lower: the lowest cut and its repetitions.
+    [[nodiscard]] bool is_lowest(double elevation_deg) const;
+};
+
+// Sweeps that no living grid shows yet.
+struct LivingNews {
+    bool any = false, low = false;
 };
 
 class LivingFile {
@@ -62,9 +70,8 @@ class LivingFile {
     [[nodiscard]] bool is_whole() const { return is_whole_; }
     // Its last radial has come.
     [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
-    // Sweeps have come that no living grid shows yet.
-    [[nodiscard]] bool has_news() const { return has_news_; }
-    void set_shown() { has_news_ = false; }
+    [[nodiscard]] LivingNews news() const { return news_; }
+    void set_shown() { news_ = {}; }
     // Station, pattern and position, and the sweeps that have closed; radials counts all theirs.
     [[nodiscard]] const KeptVolume& kept() const { return *kept_; }
     [[nodiscard]] std::size_t radials() const { return radials_; }
@@ -96,7 +103,7 @@ class LivingFile {
     std::size_t radials_ = 0;
     std::map<std::size_t, std::size_t> radials_of_;
     std::optional<UtcTime> newest_;
-    bool has_news_ = false;
+    LivingNews news_;
     bool is_whole_ = true;
 };
 

@@ -236,7 +236,8 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
     return missing;
 }
 
-Result<std::vector<MissingGrid>> CacheMender::missing(std::chrono::milliseconds newest) {
+Result<std::vector<MissingGrid>> CacheMender::missing(std::chrono::milliseconds newest,
+                                                      const std::function<void()>& step) {
     std::vector<MissingGrid> all;
     const auto stations = catalog_.station_names();
     if (!stations) return pass_on(stations);
@@ -245,6 +246,7 @@ Result<std::vector<MissingGrid>> CacheMender::missing(std::chrono::milliseconds 
         const auto here = missing_of(station, newest);
         if (!here) return pass_on(here);
         all.insert(all.end(), here->begin(), here->end());
+        if (step) step();
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const MissingGrid& a, const MissingGrid& b) { return a.time > b.time; });

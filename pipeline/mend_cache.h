@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -63,7 +64,9 @@ class CacheMender {
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
     // Newest first. Errors: the catalog or the cache cannot be read.
-    Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest);
+    // `step` is called after each station, for whoever watches that it moves on.
+    Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
+                                             const std::function<void()>& step = {});
     Result<IngestOutcome> make(const MissingGrid& grid);
 
     // Frames of mosaics, newest first; after the partials. Errors: the cache cannot be read.

@@ -91,6 +91,18 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
+// A watchdog goes by the steps.
+TEST_F(RollingStoreTest, ARollSaysThatItMovesOn) {
+    budgets_.total.bytes = room_for(10);
+    budgets_.low_watermark = 0.5;
+    const Store store = open(budgets_);
+    for (const char* domain : {"A", "B", "C"})
+        ASSERT_TRUE(commit(store, domain, 0));
+    int steps = 0;
+    EXPECT_EQ(store.roll([&] { ++steps; }).evicted, 0U);
+    EXPECT_GE(steps, 3) << "a directory of each domain was looked at";
+}
+
 TEST_F(RollingStoreTest, EachDomainHasItsOwnBudgetAndAllHaveOne) {
     budgets_.domains["A"].bytes = room_for(2);
     budgets_.total.bytes = room_for(5);

@@ -170,6 +170,55 @@ TEST_F(CatalogTest, SettledMeansSameSizeAndTimeAndDecodedToItsEnd) {
     EXPECT_FALSE(*catalog_.is_settled(facts.path, 1000, 43));
 }
 
+// Wherever a file stood before, in this program's time or another's, it has one row.
+TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
+    const auto rows = [&] {
+        std::string found;
+        const auto stations = catalog_.stations().value();
+        for (const StationSummary& station : stations) {
+            const auto entries =
+                catalog_.list(station.station, {std::nullopt, std::nullopt, true}).value();
+            for (const CatalogEntry& entry : entries)
+                found += entry.path.native() + "@" + entry.station + " ";
+        }
+        return found;
+    };
+    for (const bool reopened : {false, true}) {
+        SCOPED_TRACE(reopened);
+        const auto reopen = [&] {
+            if (reopened) catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+        };
+        for (const bool asked : {false, true}) {
+            for (const char* station : {"", "KTLX", "KOUN", "KTLX"}) {
+                reopen();
+                if (asked) (void)*catalog_.is_settled("/d/a", 1, 1);
+                ASSERT_TRUE(catalog_.register_file(file("/d/a", {}, station)));
+                EXPECT_EQ(rows(), std::string{"/d/a@"} + station + " ");
+                EXPECT_TRUE(*catalog_.is_known("/d/a"));
+            }
+        }
+        for (const char* station : {"", "KOUN", "KTLX"}) {
+            reopen();
+            ASSERT_TRUE(catalog_.register_files(station, {file("/d/a", {}, station)}));
+            EXPECT_EQ(rows(), std::string{"/d/a@"} + station + " ");
+        }
+        reopen();
+        EXPECT_FALSE(*catalog_.is_known("/d/never"));
+        EXPECT_EQ(*catalog_.mark_gone("/d/never"), 0);
+        EXPECT_EQ(*catalog_.mark_gone("/d/a"), 1);
+    }
+}
+
+TEST_F(CatalogTest, AFileThatWasNowhereWhileItIsWrittenIsFoundAfterwards) {
+    EXPECT_FALSE(*catalog_.is_known("/d/a"));
+    ASSERT_TRUE(catalog_.register_files("KTLX", {file("/d/a", {})}));
+    EXPECT_TRUE(*catalog_.is_settled("/d/a", 1000, 42));
+    EXPECT_FALSE(*catalog_.is_known("/d/b"));
+    ASSERT_TRUE(catalog_.register_file(file("/d/b", {})));
+    EXPECT_TRUE(*catalog_.is_settled("/d/b", 1000, 42));
+    EXPECT_EQ(*catalog_.mark_gone("/d/b"), 1);
+}
+
 TEST_F(CatalogTest, GoneFilesStayAndAreMarkedOnce) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     EXPECT_EQ(*catalog_.mark_gone("/d/a"), 1);
@@ -302,6 +351,24 @@ TEST_F(CatalogTest, WhatCouldNotBeReadIsNeverSettled) {
     unread.modified_ns = never_read_ns;
     ASSERT_TRUE(catalog_.register_file(unread));
     EXPECT_FALSE(*catalog_.is_settled("/d/KTLX_a", 1000, 42));
+}
+
+// A watchdog goes by the steps: one a station at least, and no more than 1,000 files between two.
+TEST_F(CatalogTest, LookingForFilesThatWentSaysThatItMovesOn) {
+    const std::filesystem::path drop = directory_ / "drop";
+    ASSERT_TRUE(catalog_.register_file(file(drop / "a", {volume("2022-03-17T00:00")})));
+    int steps = 0;
+    EXPECT_EQ(*catalog_.mark_missing(drop, [&] { ++steps; }), 1);
+    const int of_one_file = steps;
+    EXPECT_GE(of_one_file, 1);
+    for (int i = 0; i < 2500; ++i) {
+        FileFacts unread = file(drop / fmt::format("KTLX_{}", i), {});
+        unread.state = FileState::rejected;
+        ASSERT_TRUE(catalog_.register_file(unread));
+    }
+    steps = 0;
+    EXPECT_EQ(*catalog_.mark_missing(drop, [&] { ++steps; }), 2500);
+    EXPECT_GE(steps, of_one_file + 2);
 }
 
 TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {

@@ -43,6 +43,7 @@ json station(const std::string& name) {
             {"latency_s", {{"count", 9U}, {"median", 0.085}, {"p95", 0.12}, {"max", 2.5}}},
             {"antenna_to_cache_s",
              {{"count", 3U}, {"median", 21}, {"p95", 30}, {"max", 33}, {"last", 20}}},
+            {"sweep_latency_s", {{"count", 8U}, {"median", 0.2}, {"p95", 0.5}, {"max", 2}}},
             {"missing_chunks", 70U},
             {"missing", json::array()}};
 }
@@ -79,6 +80,8 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         {"failures", 0U},
         {"failures_by", json::object()},
         {"latency_s", {{"count", 9U}, {"median", 0.085}, {"p95", 0.12}, {"max", 2.5}}},
+        {"living_grids", 180U},
+        {"sweep_latency_s", {{"count", 180U}, {"median", 0.2}, {"p95", 0.5}, {"max", 2}}},
         {"antenna_to_cache_s",
          {{"count", 3U}, {"median", 21}, {"p95", 30}, {"max", 33}, {"not_live", 6U}}},
         {"stations", {ktlx, kbgm}},
@@ -87,7 +90,19 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
            {"at", "2022-03-17T00:01:00Z"},
            {"by", "corrupt"},
            {"reason", "why"}}}},
-        {"loops", {{"running", 1U}, {"restarts", 2U}, {"made", 30U}, {"each", {json::object()}}}}};
+        {"loops",
+         {{"running", 1U},
+          {"restarts", 2U},
+          {"made", 30U},
+          {"each",
+           {{{"name", "plains"},
+             {"running", true},
+             {"last_made", "2022-03-17T00:19:30Z"},
+             {"frames", 24U},
+             {"made", 30U},
+             {"restarts", 2U},
+             {"last_problem", "signal 9"}}}}}},
+        {"loops_service", {{"state", "running"}, {"pid", 18U}, {"alive", true}}}};
     EXPECT_EQ(
         status_table(status, now),
         "stormcellard 1.2 (process 17): running, started 2022-03-17T00:00:00Z, 20 min ago\n"
@@ -97,19 +112,34 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "files    24 gridded (2 partial), 3 rejected (2 corrupt, 1 empty), 0 with nothing to "
         "grid, 0 failures\n"
         "close to cache    p50 85 ms, p95 120 ms, max 2.5 s (9 files)\n"
+        "close to sweep    p50 200 ms, p95 500 ms, max 2.0 s (180 living grids)\n"
         "antenna to cache  p50 21 s, p95 30 s, max 33 s (3 volumes; 6 more were over an hour "
         "old)\n"
-        "loops    1 of 1 running, 30 made, 2 restarts\n"
+        "loops    1 of 1 running, 30 made, 2 restarts; kept by process 18: running\n"
         "\n"
-        "station  volume  cached   data    p50     p95    max  antenna p50  antenna p95  gridded  "
-        "partial  rejected  missing\n"
-        "KBGM     11 min    10 s  5.0 s      -       -      -   old: 8.3 d            -       12  "
-        "      1         2       70\n"
-        "KTLX     11 min    10 s  5.0 s  85 ms  120 ms  2.5 s         21 s         30 s       12  "
-        "      1         2       70\n"
+        "station  volume  cached   data    p50     p95    max  sweep p50  sweep p95  sweep max  "
+        "antenna p50  antenna p95  gridded  partial  rejected  missing\n"
+        "KBGM     11 min    10 s  5.0 s      -       -      -     200 ms     500 ms      2.0 s   "
+        "old: 8.3 d            -       12        1         2       70\n"
+        "KTLX     11 min    10 s  5.0 s  85 ms  120 ms  2.5 s     200 ms     500 ms      2.0 s  "
+        "       21 s         30 s       12        1         2       70\n"
         "missing chunks of KTLX, volume 2022-03-17T00:08:42Z: 3, 9, ...\n"
         "rejected last:\n"
-        "  2022-03-17T00:01:00Z  /d/x: corrupt (why)\n");
+        "  2022-03-17T00:01:00Z  /d/x: corrupt (why)\n"
+        "\n"
+        "loop    running  last made  frames  made  restarts\n"
+        "plains      yes       30 s      24    30         2\n"
+        "loop plains: signal 9\n");
+}
+
+TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
+    json status = {{"loops", {{"running", 1U}, {"each", {{{"name", "a"}, {"running", true}}}}}},
+                   {"loops_service", {{"state", "running"}, {"pid", 18U}, {"alive", false}}}};
+    const std::string gone = "; process 18, which kept them, is gone\n";
+    EXPECT_NE(status_table(status, now).find(gone), std::string::npos);
+    status["loops_service"]["state"] = "stopped";
+    EXPECT_EQ(status_table(status, now).find(gone), std::string::npos);
+    EXPECT_NE(status_table(status, now).find("; kept by process 18: stopped\n"), std::string::npos);
 }
 
 TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {

@@ -131,6 +131,7 @@ TEST(StatusPlaces, AreWhereItIsSaid) {
     ASSERT_TRUE(places) << places.error().message;
     EXPECT_EQ(places->sockets, std::vector<fs::path>{directory / "run/s"});
     EXPECT_EQ(places->file, directory / "st/status.json");
+    EXPECT_EQ(places->loops, directory / "st/loops/status.json");
     write_file(file, "[paths\n");
     EXPECT_EQ(places_of(options).error().code, ErrorCode::bad_argument);
     options = {};
@@ -141,6 +142,66 @@ TEST(StatusPlaces, AreWhereItIsSaid) {
     options = {};
     EXPECT_EQ(places_of(options)->sockets.at(0), "/run/stormcellar/status.sock");
     EXPECT_EQ(places_of(options)->file, "/var/lib/stormcellar/status.json");
+    EXPECT_EQ(places_of(options)->loops, "/var/lib/stormcellar/loops/status.json");
+    options.socket = "/s";
+    EXPECT_EQ(places_of(options)->loops, "");
+}
+
+TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
+    const testing::TemporaryDirectory directory;
+    const fs::path file = directory / "status.json";
+    json keeper = {{"state", "running"},
+                   {"pid", ::getpid()},
+                   {"loops", {{"running", 1}, {"each", {{{"name", "plains"}}}}}}};
+    write_file(file, keeper.dump());
+    const json none = {{"loops", {{"running", 0}, {"each", json::array()}}}};
+    json document = none;
+    add_loops(document, file);
+    EXPECT_EQ(document["loops"], keeper["loops"]);
+    EXPECT_EQ(document["loops_service"],
+              (json{{"state", "running"}, {"pid", ::getpid()}, {"alive", true}}));
+
+    json own = {{"loops", {{"running", 1}, {"each", {{{"name", "its own"}}}}}}};
+    const json before = own;
+    add_loops(own, file);
+    EXPECT_EQ(own, before) << "the daemon keeps them itself";
+
+    for (const std::string& text : {std::string{"[1]"}, std::string{"{}"}, std::string{"{half"}}) {
+        write_file(file, text);
+        document = none;
+        add_loops(document, file);
+        EXPECT_EQ(document, none) << text;
+    }
+    document = none;
+    add_loops(document, directory / "nothing");
+    add_loops(document, {});
+    EXPECT_EQ(document, none);
+
+    // One that was killed says what it said last.
+    for (const json& pid : {json(-1), json(0), json("x"), json(0x7FFFFFF0)}) {
+        keeper["pid"] = pid;
+        write_file(file, keeper.dump());
+        document = none;
+        add_loops(document, file);
+        EXPECT_EQ(document["loops_service"]["alive"], false) << pid;
+    }
+}
+
+TEST(StatusLoops, StandBesideWhatTheDaemonAnswers) {
+    RunningDaemon ingest;
+    ingest.start("", {}, {"--no-loops"});
+    ASSERT_TRUE(wait_until_it_answers(ingest.root() / "state")) << ingest.log();
+    const auto alone = status({"--state", ingest.root() / "state", "--json"});
+    EXPECT_FALSE(json::parse(alone.out).contains("loops_service"));
+    fs::create_directories(ingest.root() / "state/loops");
+    write_file(ingest.root() / "state/loops/status.json",
+               R"({"state": "running", "pid": 1, "loops": {"running": 1, "each":
+                   [{"name": "plains", "running": true}]}})");
+    const auto table = status({"--config", ingest.root() / "stormcellard.toml"});
+    EXPECT_EQ(table.status, 0);
+    EXPECT_NE(table.out.find("; kept by process 1: running\n"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("\nplains "), std::string::npos) << table.out;
+    EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
 }
 
 // Answers the first who asks with what it is told, and goes.

@@ -16,8 +16,8 @@ using std::chrono::seconds;
 class RollingSink final : public Sink {
   public:
     Result<Taken> take(const std::filesystem::path&, bool) override { return Taken{}; }
-    Result<int> mark_missing() override { return 0; }
-    CacheRolled roll_cache(const cache::Budgets& budgets) override {
+    Result<int> mark_missing(const OnStep& /*step*/) override { return 0; }
+    CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& /*step*/) override {
         while (hold)
             std::this_thread::sleep_for(milliseconds{1});
         ++rolls;

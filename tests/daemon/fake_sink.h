@@ -34,10 +34,25 @@ class FakeSink final : public Sink {
         return taken;
     }
 
-    Result<int> mark_missing() override {
+    Status note(const std::filesystem::path& path) override {
+        {
+            const std::lock_guard lock(mutex_);
+            noted_.push_back(path.filename().native());
+        }
+        called_.notify_all();
+        return {};
+    }
+    Result<int> mark_missing(const OnStep& step) override {
         ++missing_looks_;
+        if (looks) looks(step);
         return 0;
     }
+    CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& step) override {
+        if (rolls) rolls(step);
+        return {};
+    }
+    // What else they do; set before the sink is used.
+    std::function<void(const OnStep&)> looks, rolls;
     [[nodiscard]] int missing_looks() const { return missing_looks_; }
 
     // False when it takes too long.
@@ -45,6 +60,12 @@ class FakeSink final : public Sink {
         std::unique_lock lock(mutex_);
         return called_.wait_for(lock, std::chrono::seconds{20},
                                 [&] { return calls_.size() >= count; });
+    }
+    // In their order; what there is after a while, where it is less.
+    std::vector<std::string> wait_for_noted(std::size_t count) {
+        std::unique_lock lock(mutex_);
+        called_.wait_for(lock, std::chrono::seconds{20}, [&] { return noted_.size() >= count; });
+        return noted_;
     }
     // "NAME", with "!" when it was to be finished; in the order in which they ended.
     std::vector<std::string> calls() {
@@ -57,7 +78,7 @@ class FakeSink final : public Sink {
     std::atomic<int> missing_looks_ = 0;
     std::mutex mutex_;
     std::condition_variable called_;
-    std::vector<std::string> calls_;
+    std::vector<std::string> calls_, noted_;
 };
 
 inline pipeline::IngestOutcome outcome_of(pipeline::IngestResult result) {

@@ -201,6 +201,60 @@ TEST_F(IntakeTest, WhatIsClosedNowGoesBeforeTheBacklog) {
     EXPECT_EQ(next(), "old");
 }
 
+TEST_F(IntakeTest, WhatAScanFindsIsLiveWhenItIsYoung) {
+    FileStamp young = make("KTLX20240101_000000");
+    young.modified_ns = wall_ns_ - 599 * second_ns;
+    FileStamp old = make("KTLX20230101_000000");
+    old.modified_ns = wall_ns_ - 601 * second_ns;
+    intake_.file_found(at("KTLX20230101_000000"), old);
+    intake_.file_found(at("KTLX20240101_000000"), young);
+    const auto first = intake_.next_job();
+    const auto second = intake_.next_job();
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->urgency, Urgency::live);
+    EXPECT_EQ(first->station, "KTLX");
+    EXPECT_EQ(second->urgency, Urgency::backlog);
+}
+
+// The end of a volume, while the station's next one comes and another station sends much.
+TEST_F(IntakeTest, TheEndOfAVolumeWaitsForOneTurnOfItsStation) {
+    pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
+    followed.followed = true;
+    intake_.file_closed(at("KTLX20240101_000000"), make("KTLX20240101_000000"));
+    ASSERT_EQ(next(), "KTLX20240101_000000");
+    end("KTLX20240101_000000", followed);
+    intake_.file_grew(at("KTLX20240101_000000"), make("KTLX20240101_000000", "12"));
+    wall_ns_ += second_ns;
+    intake_.file_closed(at("KTLX20240101_000500"), make("KTLX20240101_000500"));
+    intake_.file_closed(at("KFWS20240101_000000"), make("KFWS20240101_000000"));
+    wall_ns_ += second_ns;
+    intake_.file_closed(at("KFWS20240101_000500"), make("KFWS20240101_000500"));
+    EXPECT_EQ(next(), "KTLX20240101_000000");
+    EXPECT_EQ(next(), "KFWS20240101_000500") << "the newest of those that were not begun";
+    EXPECT_EQ(next(), "KTLX20240101_000500");
+    EXPECT_EQ(next(), "KFWS20240101_000000");
+}
+
+TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedOrGoneNeedNot) {
+    pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
+    followed.followed = true;
+    intake_.file_closed(at("a"), make("a"));
+    ASSERT_EQ(next(), "a");
+    end("a", followed);
+    intake_.file_grew(at("a"), make("a", "12"));
+    intake_.file_closed(at("b"), make("b"));
+    intake_.file_gone(at("c"));
+    EXPECT_EQ(intake_.longest_wait(), seconds{0});
+    now_ += seconds{2};
+    EXPECT_EQ(intake_.longest_wait(), seconds{2});
+    const auto job = intake_.next_unregistered();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->path, at("b"));
+    EXPECT_FALSE(intake_.next_unregistered());
+    intake_.registered(*job);
+    EXPECT_EQ(intake_.pending().waiting, 3U);
+}
+
 TEST_F(IntakeTest, ScansOfferAFileOnceUntilItChanges) {
     const FileStamp stamp = make("a");
     intake_.begin_scan();

@@ -95,6 +95,13 @@ TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
         return is_living(grid) && grid.provenance.sweeps.size() > sweeps;
     })) << daemon_.log();
     EXPECT_EQ(daemon_.status()["ingested"], 0);
+    // What came of it is in the status before any volume is.
+    EXPECT_TRUE(daemon_.wait_for([](const json& s) {
+        const auto& stations = s["stations"];
+        return stations.size() == 1 && s["sweep_latency_s"]["count"] > 0 &&
+               stations[0]["living_grids"] == s["living_grids"] &&
+               stations[0]["sweep_latency_s"]["max"] > 0 && stations[0]["data_age_s"].is_number();
+    })) << daemon_.status().dump(1);
     file.append(pieces(40, ends_.size()));
     ASSERT_TRUE(wait_for_grid([](const cache::GridDescription& grid) {
         return !grid.provenance.partial && grid.provenance.notes.empty();

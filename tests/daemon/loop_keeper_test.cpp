@@ -161,18 +161,34 @@ TEST_F(LoopKeeperTest, WhatDoesNotListenIsKilled) {
     EXPECT_NE(::kill(process_of(starts()[0]), 0), 0);
 }
 
-// A watchdog goes by this: a thread that hangs does not move it.
-TEST_F(LoopKeeperTest, SaysUntilWhenItTurnsAgain) {
+// The watchdog goes by this: between its turns the thread rests, however long.
+TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     keep(program("sleep 100\n"));
-    EXPECT_FALSE(keeper_->turns_until()) << "no loops, no thread that could hang";
+    EXPECT_FALSE(keeper_->pulse().since()) << "no loops, no thread that could hang";
+    keeper_->set({loop("one", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
+    EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); }));
+}
+
+// Told of news in the middle of its turn, it is held there.
+TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
+    std::atomic<bool> hangs = true;
+    keeper_ = std::make_unique<LoopKeeper>(
+        "/the/cache",
+        [&] {
+            while (hangs)
+                std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        },
+        program("sleep 100\n"));
     const SteadyTime before = std::chrono::steady_clock::now();
     keeper_->set({loop("one", "KTLX")});
-    ASSERT_TRUE(wait_for([&] { return keeper_->turns_until().has_value(); }));
-    const auto first = *keeper_->turns_until();
-    EXPECT_GT(first, before);
-    EXPECT_LE(first, std::chrono::steady_clock::now() + std::chrono::seconds{60});
-    keeper_->set({loop("two", "KTLX")});
-    EXPECT_TRUE(wait_for([&] { return *keeper_->turns_until() > first; }));
+    ASSERT_TRUE(wait_for([&] { return starts().size() == 1; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    const auto since = keeper_->pulse().since();
+    hangs = false;
+    ASSERT_TRUE(since) << "it does not rest";
+    EXPECT_GE(*since, before);
+    EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); })) << "it goes on";
 }
 
 TEST(LoopArguments, SayWhatTheTableSays) {

@@ -119,6 +119,9 @@ TEST(Metrics, SayWhatTheBookCounted) {
     Finished rejected = finished("KOUN", IngestResult::rejected, 1);
     rejected.taken->ingest.rejected_with = ErrorCode::corrupt;
     book.add(rejected, now - seconds{5});
+    Finished sweep = finished("KTLX", IngestResult::incomplete, 600);
+    sweep.taken->ingest.living = {"/c/living.scg"};
+    book.add(sweep, now - seconds{10});
     Finished failed = finished("KTLX", IngestResult::gridded, 1);
     failed.taken = fail(ErrorCode::no_space, "full");
     book.add(failed, now);
@@ -146,6 +149,10 @@ TEST(Metrics, SayWhatTheBookCounted) {
     expect("stormcellar_close_to_cache_seconds", R"({quantile="0.5"})", 0.2);
     expect("stormcellar_close_to_cache_seconds", R"({quantile="1"})", 0.4);
     expect("stormcellar_antenna_to_cache_seconds", R"({quantile="0.95"})", 20);
+    expect("stormcellar_living_grids_total", "", 1);
+    expect("stormcellar_close_to_living_seconds", R"({quantile="0.95"})", 0.6);
+    expect("stormcellar_station_living_grids_total", R"({station="KTLX"})", 1);
+    expect("stormcellar_station_close_to_living_seconds", R"({quantile="1",station="KTLX"})", 0.6);
     expect("stormcellar_cache_bytes", "", 1000);
     expect("stormcellar_cache_budget_bytes", "", 5000);
     expect("stormcellar_cache_evicted_grids_total", "", 3);

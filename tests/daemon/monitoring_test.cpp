@@ -42,6 +42,7 @@ std::map<std::string, MetricFamily> all_families() {
                  .ended = {}};
     one.job.closed_at = one.ended;
     one.taken->ingest.newest_radial = now;
+    one.taken->ingest.living = {"/c/living.scg"};
     book.add(one, now);
     book.set_usage({.grids = 1, .pinned = 0, .bytes = 1, .budget_bytes = 2});
     book.set_loops({{"a", true, 0, 1, now, 24, ""}});

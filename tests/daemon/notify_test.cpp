@@ -48,24 +48,76 @@ TEST(Notify, TheWatchdogIsOnWhenItIsMeantForThisProcess) {
 }
 
 TEST(Watchdog, IsFedFourTimesAPeriod) {
-    WatchdogFeed feed(seconds{8});
+    WatchdogFeed watchdog(seconds{8});
     int fed = 0;
     for (int ms = 0; ms < 8000; ms += 100)
-        fed += feed.is_due(t0 + std::chrono::milliseconds{ms}, std::nullopt) ? 1 : 0;
+        fed += watchdog.is_due(t0 + std::chrono::milliseconds{ms}, std::nullopt) ? 1 : 0;
     EXPECT_EQ(fed, 4);
 }
 
-TEST(Watchdog, IsNotFedWhileAJobIsStuck) {
-    WatchdogFeed feed(seconds{8});
-    EXPECT_TRUE(feed.is_due(t0, t0 - seconds{8}));
-    EXPECT_FALSE(feed.is_due(t0 + seconds{3}, t0 - seconds{8})) << "11 s in one job";
-    EXPECT_TRUE(feed.is_due(t0 + seconds{6}, std::nullopt)) << "it ended after all";
+TEST(Watchdog, IsNotFedWhileAThreadIsStuck) {
+    WatchdogFeed watchdog(seconds{8});
+    const Step step{"caretaker", t0 - seconds{8}};
+    EXPECT_TRUE(watchdog.is_due(t0, step));
+    EXPECT_FALSE(watchdog.is_due(t0 + seconds{3}, step)) << "11 s at one step";
+    EXPECT_TRUE(watchdog.is_due(t0 + seconds{6}, std::nullopt)) << "it ended after all";
 }
 
 TEST(Watchdog, DoesNothingWhenThereIsNone) {
-    WatchdogFeed feed(std::nullopt);
-    EXPECT_FALSE(feed.is_due(t0, std::nullopt));
-    EXPECT_FALSE(feed.next_time());
+    WatchdogFeed watchdog(std::nullopt);
+    EXPECT_FALSE(watchdog.is_due(t0, std::nullopt));
+    EXPECT_FALSE(watchdog.next_time());
+}
+
+// Also where there is no watchdog: whoever looks at the log shall know.
+TEST(Watchdog, AHangIsNamedOnce) {
+    for (const auto period :
+         {std::optional<microseconds>{seconds{8}}, std::optional<microseconds>{}}) {
+        WatchdogFeed watchdog(period);
+        const auto limit = period.value_or(WatchdogFeed::without_watchdog);
+        EXPECT_FALSE(watchdog.hangs_now(t0, std::nullopt));
+        EXPECT_FALSE(watchdog.hangs_now(t0 + limit, Step{"cache", t0}));
+        EXPECT_TRUE(watchdog.hangs_now(t0 + limit + seconds{1}, Step{"cache", t0}));
+        EXPECT_FALSE(watchdog.hangs_now(t0 + limit + seconds{2}, Step{"cache", t0})) << "said";
+        EXPECT_FALSE(watchdog.hangs_now(t0 + limit + seconds{3}, std::nullopt)) << "it went on";
+        EXPECT_TRUE(watchdog.hangs_now(t0 + 3 * limit, Step{"cache", t0 + limit})) << "again";
+    }
+}
+
+TEST(Watchdog, LongWorkThatMovesOnIsNoHang) {
+    WatchdogFeed watchdog(seconds{8});
+    Pulses pulses;
+    Pulse pulse;
+    pulses.watch("caretaker", pulse);
+    for (int second = 0; second < 3600; ++second) {
+        if (second % 8 == 0) pulse.beat(t0 + seconds{second});
+        EXPECT_EQ(watchdog.is_due(t0 + seconds{second}, pulses.oldest()), second % 2 == 0);
+        EXPECT_FALSE(watchdog.hangs_now(t0 + seconds{second}, pulses.oldest()));
+    }
+    EXPECT_FALSE(watchdog.is_due(t0 + seconds{3602}, pulses.oldest()))
+        << "and then it stands still";
+}
+
+TEST(Watchdog, TheOldestStepOfAllCounts) {
+    Pulses pulses;
+    Pulse one;
+    Pulse two;
+    pulses.watch("one", one);
+    pulses.watch("two", two);
+    EXPECT_FALSE(pulses.oldest()) << "all rest";
+    one.beat(t0 + seconds{2});
+    two.beat(t0 + seconds{1});
+    EXPECT_EQ(pulses.oldest()->who, "two");
+    EXPECT_EQ(pulses.oldest()->since, t0 + seconds{1});
+    two.beat(t0 + seconds{3});
+    EXPECT_EQ(pulses.oldest()->who, "one");
+    one.rest();
+    EXPECT_EQ(pulses.oldest()->who, "two");
+    {
+        const AtWork at_work(two);
+        EXPECT_GT(*two.since(), t0 + seconds{3});
+    }
+    EXPECT_FALSE(pulses.oldest());
 }
 
 }  // namespace

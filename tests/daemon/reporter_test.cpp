@@ -46,6 +46,8 @@ TEST(LogLine, OfARejectedFileSaysWhy) {
     made.taken->ingest.volume_time.reset();
     made.taken->ingest.reason = "is empty";
     EXPECT_EQ(describe(made), "rejected ???? - /d/a\\x0ab (is empty)");
+    made.taken->ingest.reason = std::string(100'000, 'x');
+    EXPECT_LT(describe(made).size(), 600U) << "a line is not as long as a file likes";
 }
 
 TEST(LogLine, OfAFailureSaysWhenItIsTriedAgain) {
@@ -53,6 +55,36 @@ TEST(LogLine, OfAFailureSaysWhenItIsTriedAgain) {
     made.job.failures = 2;
     made.taken = fail(ErrorCode::no_space, "/c/x: full");
     EXPECT_EQ(describe(made), "cannot store /d/a\\x0ab: /c/x: full; trying again in 4 s");
+}
+
+TEST(LogLine, OfASweepThatEnteredAGrowingVolumesGrid) {
+    Finished made = finished(IngestResult::incomplete);
+    made.job.closed_at = made.started - milliseconds{5};
+    made.taken->ingest.living = {"/c/grid.scg"};
+    EXPECT_EQ(describe(made), "sweep of KTLX 2022-03-17T00:08:42Z /d/a\\x0ab: 85 ms after close");
+    const About subject = about(made);
+    EXPECT_EQ(subject.event, Event::living);
+    EXPECT_DOUBLE_EQ(subject.latency_s.value_or(0), 0.085);
+}
+
+TEST(LogLine, SaysWhatItIsAbout) {
+    Finished made = finished(IngestResult::gridded);
+    About subject = about(made);
+    EXPECT_EQ(subject.event, Event::gridded);
+    EXPECT_EQ(subject.station, "KTLX");
+    EXPECT_EQ(subject.volume, made.taken->ingest.volume_time);
+    EXPECT_EQ(subject.file, "/d/a\nb") << "as it is: whoever writes it escapes it";
+    EXPECT_FALSE(subject.latency_s) << "nobody saw the close";
+    EXPECT_DOUBLE_EQ(subject.took_s.value_or(0), 0.08);
+    made = finished(IngestResult::rejected);
+    made.taken->ingest.rejected_with = ErrorCode::truncated;
+    subject = about(made);
+    EXPECT_EQ(subject.event, Event::rejected);
+    EXPECT_EQ(subject.reason, "truncated");
+    made.taken = fail(ErrorCode::no_space, "/c/x: full");
+    subject = about(made);
+    EXPECT_EQ(subject.event, Event::store_failed);
+    EXPECT_EQ(subject.reason, "no_space");
 }
 
 TEST(LogLine, OfEveryResultIsOneLine) {

@@ -190,5 +190,61 @@ TEST(Schedule, AgreesWithAPlainListUnderRandomUse) {
     }
 }
 
+TEST(Schedule, WhatWaitsIsToBeRegisteredAfterAWhileAndOnce) {
+    Schedule schedule(10);
+    schedule.offer(job("a", 1), t0);
+    schedule.offer(job("b", 2), t0 + seconds{1});
+    Job known = job("c", 3);
+    known.is_registered = true;
+    schedule.offer(known, t0);
+    EXPECT_FALSE(schedule.next_unregistered(t0 + milliseconds{1999}));
+    const auto first = schedule.next_unregistered(t0 + seconds{2});
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->path, "a") << "the one that has waited for longest";
+    EXPECT_EQ(schedule.waiting_count(), 2U);
+    EXPECT_EQ(schedule.running_count(), 1U) << "not to be run meanwhile";
+    EXPECT_FALSE(schedule.next_unregistered(t0 + seconds{2}));
+    EXPECT_EQ(next_path(schedule, t0 + seconds{2}), "c");
+    schedule.registered("a");
+    EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "b");
+    EXPECT_FALSE(schedule.next_unregistered(t0 + seconds{9})) << "a is, and b runs";
+    EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "a");
+}
+
+TEST(Schedule, WhatIsOfferedWhileItIsRegisteredIsOneJob) {
+    Schedule schedule(10);
+    schedule.offer(job("a", 1), t0);
+    ASSERT_TRUE(schedule.next_unregistered(t0 + seconds{5}));
+    Job closed = job("a", 8);
+    closed.closed_at = t0 + seconds{5};
+    EXPECT_EQ(schedule.offer(closed, t0 + seconds{5}), Offered::merged);
+    schedule.registered("a");
+    const auto next = schedule.next(t0 + seconds{5});
+    ASSERT_TRUE(next);
+    EXPECT_EQ(next->closed_at, closed.closed_at);
+    schedule.finished("a");
+    EXPECT_EQ(schedule.waiting_count() + schedule.running_count(), 0U);
+}
+
+TEST(Schedule, SaysSinceWhenTheFirstWaits) {
+    Schedule schedule(10);
+    EXPECT_FALSE(schedule.oldest_offer());
+    Job later = job("later");
+    later.not_before = t0 + seconds{60};
+    schedule.offer(later, t0);
+    EXPECT_FALSE(schedule.oldest_offer()) << "it may not run yet";
+    schedule.offer(job("a", 1), t0 + seconds{1});
+    schedule.offer(job("b", 9), t0 + seconds{2});
+    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{1});
+    schedule.offer(job("a", 2), t0 + seconds{3});
+    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{1}) << "a merged offer waits as long";
+    EXPECT_EQ(next_path(schedule, t0 + seconds{4}), "b");
+    EXPECT_EQ(next_path(schedule, t0 + seconds{4}), "a");
+    EXPECT_FALSE(schedule.oldest_offer());
+    schedule.offer(job("a", 2), t0 + seconds{9});
+    schedule.finished("a");
+    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{9}) << "it waits since it was offered again";
+}
+
 }  // namespace
 }  // namespace stormcellar::daemon

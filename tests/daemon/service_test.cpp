@@ -1,8 +1,11 @@
 #include "daemon/service.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <memory>
 #include <thread>
 
@@ -38,6 +41,8 @@ class ServiceTest : public ::testing::Test {
 
     void start(FakeSink::Answer answer, std::unique_ptr<EventSource> events = nullptr) {
         sink_ = std::make_unique<FakeSink>(std::move(answer));
+        sink_->looks = looks_;
+        sink_->rolls = rolls_;
         events_ = events ? std::move(events) : *open_inotify();
         service_ = std::make_unique<Service>(
             config_, root_ / "stormcellard.toml",
@@ -60,6 +65,11 @@ class ServiceTest : public ::testing::Test {
         }
         return false;
     }
+    static bool wait_for(const std::function<bool()>& condition) {
+        for (int i = 0; i < 2000 && !condition(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        return condition();
+    }
     [[nodiscard]] nlohmann::json status() const {
         std::ifstream file(root_ / "state/status.json");
         return nlohmann::json::parse(file);
@@ -72,6 +82,7 @@ class ServiceTest : public ::testing::Test {
     Config config_;
     FakeNotifier notifier_;
     const Signals* signals_ = nullptr;
+    std::function<void(const Sink::OnStep&)> looks_, rolls_;
     std::unique_ptr<FakeSink> sink_;
     std::unique_ptr<EventSource> events_;
     std::unique_ptr<Service> service_;
@@ -92,6 +103,32 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
     EXPECT_EQ(status()["ingested"], 2);
     EXPECT_EQ(status()["latency_s"]["count"], 1) << "nobody saw the first one's close";
     EXPECT_TRUE(wait_for_message("STOPPING=1"));
+}
+
+// Both workers are held up by files that take long.
+TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
+    std::atomic<int> held = 0;
+    std::promise<void> go_on;
+    const std::shared_future<void> released = go_on.get_future().share();
+    start([&](const auto& path, bool) {
+        if (path.filename().native().starts_with("slow")) {
+            ++held;
+            released.wait();
+        }
+        return outcome_of(IngestResult::gridded);
+    });
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    write_file(config_.drop / "slow1", "1");
+    write_file(config_.drop / "slow2", "1");
+    ASSERT_TRUE(wait_for([&] { return held == 2; }));
+    write_file(config_.drop / "waits1", "1");
+    write_file(config_.drop / "waits2", "1");
+    EXPECT_EQ(sink_->wait_for_noted(2), (std::vector<std::string>{"waits1", "waits2"}));
+    EXPECT_TRUE(sink_->calls().empty());
+    go_on.set_value();
+    EXPECT_TRUE(sink_->wait_for_calls(4));
+    EXPECT_EQ(stop(), Stopped::cleanly);
+    EXPECT_EQ(sink_->wait_for_noted(2).size(), 2U) << "each once, the slow ones not at all";
 }
 
 TEST_F(ServiceTest, FinishesAnIncompleteFileThatStaysQuiet) {
@@ -229,6 +266,85 @@ TEST_F(ServiceTest, FeedsTheWatchdogWhenIdle) {
     start(always(IngestResult::gridded));
     EXPECT_TRUE(wait_for_message("WATCHDOG=1"));
 }
+
+// How often the watchdog was fed.
+std::ptrdiff_t meals(const FakeNotifier& notifier) {
+    const auto sent = notifier.sent();
+    return std::count(sent.begin(), sent.end(), "WATCHDOG=1");
+}
+
+// Each of the service's own threads in turn hangs until the test lets it go: the watchdog starves.
+// One that takes as long in steps does not starve it.
+class HangingThread : public ServiceTest, public ::testing::WithParamInterface<const char*> {
+  protected:
+    std::atomic<bool> hangs_{true};
+    std::atomic<bool> hung_{false};
+    void hold(const Sink::OnStep& step, bool moves_on) {
+        hung_ = true;
+        while (hangs_) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{5});
+            if (moves_on) step();
+        }
+    }
+};
+
+TEST_P(HangingThread, StarvesTheWatchdog) {
+    notifier_.period = std::chrono::milliseconds{200};
+    const std::string who = GetParam();
+    const bool ingests = who == "ingest";
+    if (ingests) write_file(config_.drop / "file", "1");
+    looks_ = [&](const Sink::OnStep& step) {
+        if (who == "missing") hold(step, false);
+    };
+    rolls_ = [&](const Sink::OnStep& step) {
+        if (who == "cache") hold(step, false);
+    };
+    start([&](const auto&, bool) {
+        if (ingests) hold([] {}, false);
+        return outcome_of(IngestResult::gridded);
+    });
+    while (!hung_)
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    std::this_thread::sleep_for(std::chrono::milliseconds{400});
+    const std::ptrdiff_t before = meals(notifier_);
+    std::this_thread::sleep_for(std::chrono::milliseconds{400});
+    EXPECT_EQ(meals(notifier_), before) << "two periods, and nobody says that all is well";
+    hangs_ = false;
+    for (int i = 0; i < 2000 && meals(notifier_) == before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    EXPECT_GT(meals(notifier_), before) << "it goes on";
+}
+
+// A file has no steps.
+class SteppingThread : public HangingThread {};
+
+TEST_P(SteppingThread, DoesNot) {
+    const std::string who = GetParam();
+    notifier_.period = std::chrono::milliseconds{1000};
+    looks_ = [&](const Sink::OnStep& step) {
+        if (who == "missing") hold(step, true);
+    };
+    rolls_ = [&](const Sink::OnStep& step) {
+        if (who == "cache") hold(step, true);
+    };
+    start(always(IngestResult::gridded));
+    while (!hung_)
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    std::this_thread::sleep_for(std::chrono::milliseconds{2200});
+    const std::ptrdiff_t before = meals(notifier_);
+    for (int i = 0; i < 2000 && meals(notifier_) == before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    EXPECT_GT(meals(notifier_), before) << "longer than two periods, and never at one step";
+    hangs_ = false;
+}
+
+std::string name_of_thread(const ::testing::TestParamInfo<const char*>& tested) {
+    return tested.param;
+}
+INSTANTIATE_TEST_SUITE_P(All, HangingThread, ::testing::Values("ingest", "missing", "cache"),
+                         name_of_thread);
+INSTANTIATE_TEST_SUITE_P(All, SteppingThread, ::testing::Values("missing", "cache"),
+                         name_of_thread);
 
 // Signals are blocked in this thread, so that the process-wide ones reach the service only.
 TEST_F(ServiceTest, ReloadsOnHangUpAndStopsOnTermination) {

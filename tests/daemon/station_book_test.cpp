@@ -50,6 +50,27 @@ TEST(StationBook, KeepsTheNewestVolumeWhateverComesLater) {
     EXPECT_EQ(state.close_to_cache.count(), 1U);
 }
 
+// Also data of which nothing is gridded yet: a feed whose volumes grow is not silent.
+TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
+    StationBook book;
+    IngestOutcome chunk = outcome_of(IngestResult::incomplete);
+    book.add(chunk, 0.1, t0 + seconds{10});
+    const StationState& state = book.stations().at("KTLX");
+    EXPECT_EQ(state.data_at, t0 + seconds{10});
+    EXPECT_EQ(state.living, 0U);
+    EXPECT_EQ(state.close_to_living.count(), 0U) << "no sweep was complete with it";
+    chunk.living = {"/c/living.scg"};
+    book.add(chunk, 0.3, t0 + seconds{15});
+    chunk.result = IngestResult::registered;  // one file a chunk
+    book.add(chunk, std::nullopt, t0 + seconds{20});
+    EXPECT_EQ(state.data_at, t0 + seconds{20});
+    EXPECT_EQ(state.living, 2U);
+    EXPECT_EQ(state.close_to_living.count(), 1U) << "nobody saw the other's close";
+    EXPECT_DOUBLE_EQ(state.close_to_living.sum_s(), 0.3);
+    EXPECT_EQ(state.close_to_cache.count(), 0U);
+    EXPECT_FALSE(state.ingested_at);
+}
+
 TEST(StationBook, AVolumeOfTheFutureHidesNothing) {
     StationBook book;
     book.add(gridded(t0, t0), std::nullopt, t0 + minutes{1});

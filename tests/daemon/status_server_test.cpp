@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <fstream>
+#include <optional>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,6 +59,43 @@ class StatusServerTest : public ::testing::Test {
     std::string metrics_ = "x 1\n";
     std::atomic<int> rendered_ = 0;
 };
+
+// The watchdog sees who answers when it stands still in the middle of an answer, and not when it
+// waits for a question.
+TEST_F(StatusServerTest, IsSeenToHang) {
+    std::atomic<bool> hangs = true;
+    const StatusServer server(quick(), [&](StatusPage) {
+        while (hangs)
+            std::this_thread::sleep_for(milliseconds{1});
+        return metrics_;
+    });
+    const SteadyTime before = std::chrono::steady_clock::now();
+    std::thread client;
+    while (!std::filesystem::exists(path()))
+        std::this_thread::sleep_for(milliseconds{1});
+    client = std::thread([&] {
+        for (int i = 0; i < 100 && hangs; ++i)
+            (void)ask(get("/metrics"));
+    });
+    // Two looks that see the same step are one at which it stands.
+    std::optional<SteadyTime> since;
+    for (int i = 0; i < 1000; ++i) {
+        const auto first = server.pulse().since();
+        std::this_thread::sleep_for(milliseconds{20});
+        since = server.pulse().since();
+        if (since && first == since) break;
+    }
+    ASSERT_TRUE(since);
+    EXPECT_GE(*since, before);
+    hangs = false;
+    client.join();
+    bool rests = false;
+    for (int i = 0; i < 1000 && !rests; ++i) {
+        rests = !server.pulse().since();
+        std::this_thread::sleep_for(milliseconds{1});
+    }
+    EXPECT_TRUE(rests);
+}
 
 // A port that nobody has, this moment.
 int free_port() {

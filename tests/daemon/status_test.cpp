@@ -62,6 +62,10 @@ TEST(StatusBook, CountsEachEnd) {
     book.add(failed);
     book.count_overflow();
     book.count_scan(3);
+    book.set_longest_wait(7.5);
+    Finished growing = finished("/d/g", IngestResult::incomplete, 1);
+    growing.taken->ingest.living_left_out = true;
+    book.add(growing);
     book.set_state("running");
 
     const auto status = nlohmann::json::parse(book.json({4, 2, 1}, now_utc()));
@@ -76,7 +80,10 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_EQ(status["failures"], 1);
     EXPECT_EQ(status["overflows"], 1);
     EXPECT_EQ(status["directories"], 3);
-    EXPECT_EQ(status["pending"], nlohmann::json({{"waiting", 4}, {"running", 2}, {"growing", 1}}));
+    EXPECT_EQ(
+        status["pending"],
+        nlohmann::json({{"waiting", 4}, {"running", 2}, {"growing", 1}, {"longest_wait_s", 7.5}}));
+    EXPECT_EQ(status["living_left_out"], 1);
     EXPECT_EQ(status["latency_s"]["count"], 3);
     EXPECT_NEAR(status["latency_s"]["median"], 0.2, 1e-9);
     EXPECT_NEAR(status["latency_s"]["max"], 0.3, 1e-9);
@@ -147,6 +154,23 @@ TEST(StatusBook, EachStationHasAgesLatenciesAndWhatIsMissing) {
     EXPECT_EQ(ktlx["missing_chunks"], 2);
     EXPECT_EQ(ktlx["missing"][0]["volume_number"], 17);
     EXPECT_EQ(ktlx["missing"][0]["numbers"], nlohmann::json({3, 9}));
+}
+
+TEST(StatusBook, SweepsOfGrowingVolumesAreCountedApart) {
+    StatusBook book("/d", "/c");
+    for (const int latency_ms : {100, 300}) {
+        Finished one = finished("/d/a", IngestResult::incomplete, latency_ms);
+        one.taken->ingest.living = {"/c/living.scg"};
+        book.add(one, now_utc());
+    }
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["ingested"], 0);
+    EXPECT_EQ(status["latency_s"]["count"], 0);
+    EXPECT_EQ(status["living_grids"], 2);
+    EXPECT_EQ(status["sweep_latency_s"]["count"], 2);
+    EXPECT_NEAR(status["sweep_latency_s"]["max"], 0.3, 1e-9);
+    EXPECT_EQ(status["stations"][0]["living_grids"], 2);
+    EXPECT_NEAR(status["stations"][0]["sweep_latency_s"]["median"], 0.1, 1e-9);
 }
 
 TEST(StatusBook, NothingYetIsNullAndNotZero) {

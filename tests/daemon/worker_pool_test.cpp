@@ -21,6 +21,10 @@ Job job(const std::string& path) {
     return made;
 }
 
+WorkerPool::Work work_of(Sink& sink) {
+    return [&sink](const Job& given) { return sink.take(given.path, given.finish_partial); };
+}
+
 // Waits until so many jobs have ended.
 std::vector<Finished> collect(WorkerPool& pool, std::size_t count) {
     std::vector<Finished> all;
@@ -36,7 +40,7 @@ std::vector<Finished> collect(WorkerPool& pool, std::size_t count) {
 TEST(WorkerPool, GivesBackEachJobWithItsResultAndTimes) {
     FakeSink sink([](const auto&, bool) { return outcome_of(IngestResult::gridded); });
     std::atomic<int> wakes = 0;
-    WorkerPool pool(sink, 2, [&] { ++wakes; });
+    WorkerPool pool(work_of(sink), "ingest", 2, [&] { ++wakes; });
     pool.submit(job("a"));
     const std::vector<Finished> ended = collect(pool, 1);
     ASSERT_EQ(ended.size(), 1U);
@@ -53,7 +57,7 @@ TEST(WorkerPool, AWorkerOutlivesWhatAFileThrows) {
         if (path == "bad") throw std::runtime_error("boom");
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(sink, 1, [] {});
+    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
     for (int i = 0; i < 3; ++i) {
         pool.submit(job("bad"));
         const std::vector<Finished> bad = collect(pool, 1);
@@ -74,7 +78,7 @@ TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {
         all_run.arrive_and_wait();  // would hang if they ran one after another
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(sink, 3, [] {});
+    WorkerPool pool(work_of(sink), "ingest", 3, [] {});
     for (const char* name : {"a", "b", "c"}) {
         EXPECT_TRUE(pool.has_free_worker());
         pool.submit(job(name));
@@ -83,23 +87,24 @@ TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {
     EXPECT_TRUE(pool.has_free_worker());
 }
 
-TEST(WorkerPool, SaysSinceWhenItsOldestJobRuns) {
+TEST(WorkerPool, SaysWhichJobRunsLongestAndSinceWhen) {
     std::latch release(1);
     FakeSink sink([&](const auto&, bool) {
         release.wait();
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(sink, 1, [] {});
-    EXPECT_FALSE(pool.oldest_start());
+    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
+    EXPECT_FALSE(pool.oldest());
     const SteadyTime before = std::chrono::steady_clock::now();
     pool.submit(job("a"));
     EXPECT_FALSE(pool.has_free_worker());
-    while (!pool.oldest_start())
+    while (!pool.oldest())
         std::this_thread::yield();
-    EXPECT_GE(*pool.oldest_start(), before);
+    EXPECT_GE(pool.oldest()->since, before);
+    EXPECT_EQ(pool.oldest()->path, job("a").path);
     release.count_down();
     EXPECT_EQ(collect(pool, 1).size(), 1U);
-    EXPECT_FALSE(pool.oldest_start());
+    EXPECT_FALSE(pool.oldest());
 }
 
 TEST(WorkerPool, CanGrowAndShrink) {
@@ -111,7 +116,7 @@ TEST(WorkerPool, CanGrowAndShrink) {
         --running;
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(sink, 1, [] {});
+    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
     const auto run = [&](int jobs) {
         most = 0;
         std::size_t ended = 0;
@@ -139,7 +144,7 @@ TEST(WorkerPool, DrainingEndsRunningJobsAndBeginsNone) {
         std::this_thread::sleep_for(milliseconds{50});
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(sink, 1, [] {});
+    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
     pool.submit(job("a"));
     begun.wait();
     EXPECT_TRUE(pool.drain(seconds{20}));
@@ -156,7 +161,7 @@ TEST(WorkerPool, DrainingGivesUpOnAJobThatHangs) {
         release.wait();
         return outcome_of(IngestResult::gridded);
     });
-    WorkerPool pool(sink, 1, [] {});
+    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
     pool.submit(job("a"));
     begun.wait();
     EXPECT_FALSE(pool.drain(milliseconds{20}));

@@ -20,6 +20,34 @@ using wire::Bytes;
 using Added = LiveVolume::Added;
 using std::chrono::seconds;
 
+// Takes every sweep but each `refuses`th; says that what it has is lost when `lost` is set.
+class MemoryDepot final : public SweepDepot {
+  public:
+    explicit MemoryDepot(std::size_t refuses = 0) : refuses_(refuses) {}
+    std::optional<std::uint64_t> put(const Sweep& sweep) override {
+        ++asked_;
+        if (refuses_ > 0 && asked_ % refuses_ == 0) return std::nullopt;
+        sweeps_.push_back(sweep);
+        return sweeps_.size() - 1;
+    }
+    Result<Sweep> get(std::uint64_t place) const override {
+        if (lost) return fail(ErrorCode::io, "lost");
+        return sweeps_.at(place);
+    }
+    [[nodiscard]] std::size_t count() const { return sweeps_.size(); }
+    bool lost = false;
+
+  private:
+    std::size_t refuses_, asked_ = 0;
+    std::vector<Sweep> sweeps_;
+};
+
+LiveOptions with(SweepDepot* depot) {
+    LiveOptions options;
+    options.depot = depot;
+    return options;
+}
+
 struct ChunkFile {
     ChunkName name;
     Bytes bytes;
@@ -103,7 +131,8 @@ std::vector<ChunkFile> arrive(LiveVolume& volume, const std::vector<ChunkFile>& 
 void expect_any_order_gives_the_same(const std::vector<ChunkFile>& chunks, unsigned rounds) {
     std::mt19937 random{20'260'811};
     for (unsigned round = 0; round < rounds; ++round) {
-        LiveVolume volume;
+        MemoryDepot depot{3};
+        LiveVolume volume{with(round % 2 == 0 ? &depot : nullptr)};
         const double lost = round % 3 == 0 ? 0 : 0.15;
         const auto arrived = arrive(volume, chunks, random, lost, 0.2);
         if (arrived.empty()) continue;
@@ -144,13 +173,14 @@ TEST(LiveVolumeReal, AnyOrderGivesTheSameForALargeVolume) {
 }
 
 // The last form in which each sweep came out is the one that stands in the volume.
-void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled) {
+void expect_sweeps_come_out(const std::vector<ChunkFile>& chunks, bool shuffled,
+                            SweepDepot* depot = nullptr) {
     std::mt19937 random{5};
     std::vector<const ChunkFile*> order;
     for (const ChunkFile& chunk : chunks)
         order.push_back(&chunk);
     if (shuffled) std::shuffle(order.begin(), order.end(), random);
-    LiveVolume volume;
+    LiveVolume volume{with(depot)};
     std::map<std::pair<int, std::int64_t>, Sweep> newest;  // by cut and first radial's time
     std::size_t handed_out = 0;
     for (const ChunkFile* chunk : order) {
@@ -187,7 +217,37 @@ TEST(LiveVolume, SweepsComeOutAsTheyClose) {
 TEST(LiveVolumeReal, SweepsComeOutAsTheyClose) {
     STORMCELLAR_NEED_DATA();
     expect_sweeps_come_out(real_chunks("KLOT_34"), false);
+    MemoryDepot depot;
+    expect_sweeps_come_out(real_chunks("KLOT_34"), true, &depot);
+    EXPECT_GT(depot.count(), 10U);
     expect_sweeps_come_out(real_chunks("L2D_185"), true);
+}
+
+TEST(LiveVolumeReal, WithADepotLittleIsHeldInMemory) {
+    STORMCELLAR_NEED_DATA();
+    MemoryDepot depot;
+    LiveVolume with_depot{with(&depot)};
+    LiveVolume without;
+    for (const ChunkFile& chunk : real_chunks("L2D_230")) {
+        ASSERT_TRUE(add(with_depot, chunk));
+        ASSERT_TRUE(add(without, chunk));
+    }
+    EXPECT_GT(without.held_bytes(), 10'000'000U);
+    EXPECT_LT(with_depot.held_bytes(), without.held_bytes() / 20);
+    EXPECT_EQ(difference(*with_depot.finish(), *without.finish()), "");
+}
+
+TEST(LiveVolume, WhatTheDepotLosesIsAnErrorOfItsOwn) {
+    MemoryDepot depot;
+    LiveVolume volume{with(&depot)};
+    for (const ChunkFile& chunk : simple_chunks(3))
+        ASSERT_TRUE(add(volume, chunk));
+    ASSERT_GT(depot.count(), 0U);
+    depot.lost = true;
+    EXPECT_TRUE(volume.take_sweeps().empty());
+    const auto finished = volume.finish();
+    ASSERT_FALSE(finished);
+    EXPECT_EQ(finished.error().code, ErrorCode::io);
 }
 
 TEST(LiveVolume, TheEndIsKnownByTheChunkTheRadialOrTheControlWord) {

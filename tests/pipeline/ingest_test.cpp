@@ -78,6 +78,28 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::unchanged);
 }
 
+TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
+    STORMCELLAR_NEED_DATA();
+    const fs::path path = directory_ / "KBGM20050822_024414.gz";
+    ASSERT_TRUE(ingestor_.note(path)) << "one that is gone again is no error";
+    EXPECT_TRUE(catalog_.station_names()->empty());
+    fs::copy_file(real("sequence-kbgm/KBGM20050822_024414.gz"), path);
+    ASSERT_TRUE(ingestor_.note(path));
+    EXPECT_EQ(only_entry("KBGM").state, FileState::seen);
+    EXPECT_EQ(only_entry("KBGM").size_bytes, fs::file_size(path));
+    EXPECT_FALSE(only_entry("KBGM").volume.start_time);
+    EXPECT_TRUE(*catalog_.is_known(path));
+    EXPECT_FALSE(*catalog_.is_known(directory_ / "other"));
+    ASSERT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(only_entry("KBGM").state, FileState::complete);
+    EXPECT_EQ(only_entry("KBGM").generation, 0);
+    ASSERT_TRUE(ingestor_.note(path));
+    EXPECT_EQ(only_entry("KBGM").state, FileState::complete) << "what is known stays";
+    fs::create_symlink(path, directory_ / "KBGM-link");
+    ASSERT_TRUE(ingestor_.note(directory_ / "KBGM-link"));
+    EXPECT_EQ(only_entry("KBGM").path, path);
+}
+
 // As message 2 of these files says.
 TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
     STORMCELLAR_NEED_DATA();

@@ -126,9 +126,11 @@ TEST_F(MendCache, WhatIsOfALaterVersionIsLeftAlone) {
 TEST_F(MendCache, AWipedCacheIsFilledNewestFirst) {
     take_in(3);
     fs::remove_all(directory_ / "cache/KBGM");
-    const auto missing = mender_.missing(hours{6});
+    int steps = 0;
+    const auto missing = mender_.missing(hours{6}, [&] { ++steps; });
     ASSERT_TRUE(missing);
     ASSERT_EQ(missing->size(), 3U);
+    EXPECT_EQ(steps, 1) << "for each station";
     EXPECT_GT(missing->at(0).time, missing->at(1).time);
     for (const MissingGrid& grid : *missing)
         EXPECT_EQ(mender_.make(grid)->result, IngestResult::gridded);

@@ -1,0 +1,61 @@
+// catalog/path_homes.h -- which database alone may have a row of a path, of the paths that were
+// looked at last.
+//
+// A new file is looked for in the databases of all stations, and should be once. Two paths with the
+// same 64-bit hash would be one: among 65,536 the odds are 1 in 9 billion. Used by Catalog alone.
+// Thread contract: any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "base/checksum.h"
+
+namespace stormcellar::catalog {
+
+class PathHomes {
+  public:
+    // No database but this one has the path. To be called after it was written there.
+    void set(const std::filesystem::path& path, const std::string& name) {
+        const std::scoped_lock lock(mutex_);
+        add(key_of(path), name);
+    }
+    // None had the path when all were asked. What somebody wrote meanwhile counts.
+    void set_none(const std::filesystem::path& path) {
+        const std::scoped_lock lock(mutex_);
+        if (find(key_of(path)) == nullptr) add(key_of(path), {});
+    }
+    // Empty: none has it. Nothing: unknown.
+    [[nodiscard]] std::optional<std::string> of(const std::filesystem::path& path) const {
+        const std::scoped_lock lock(mutex_);
+        const std::string* name = find(key_of(path));
+        return name == nullptr ? std::nullopt : std::optional{*name};
+    }
+
+  private:
+    static std::uint64_t key_of(const std::filesystem::path& path) {
+        return xxh3_64(std::as_bytes(std::span{path.native()}));
+    }
+    [[nodiscard]] const std::string* find(std::uint64_t key) const {
+        for (const auto* known : {&young_, &old_}) {
+            if (const auto found = known->find(key); found != known->end()) return &found->second;
+        }
+        return nullptr;
+    }
+    void add(std::uint64_t key, const std::string& name) {
+        if (young_.size() >= half) old_ = std::exchange(young_, {});
+        young_.insert_or_assign(key, name);
+    }
+    static constexpr std::size_t half = 32'768;
+    mutable std::mutex mutex_;
+    std::unordered_map<std::uint64_t, std::string> young_, old_;
+};
+
+}  // namespace stormcellar::catalog

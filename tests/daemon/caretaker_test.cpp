@@ -1,0 +1,82 @@
+#include "daemon/caretaker.h"
+
+#include <atomic>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "daemon/ingest_sink.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+class CaretakerTest : public ::testing::Test {
+  protected:
+    CaretakerTest() {
+        Config config;
+        config.drop = directory_ / "drop";
+        config.state = directory_ / "state";
+        config.cache = directory_ / "cache";
+        for (const fs::path& path : {config.drop, config.state, config.cache})
+            fs::create_directories(path);
+        auto sink = IngestSink::open(config);
+        if (sink) sink_ = std::move(*sink);
+    }
+    [[nodiscard]] CareOf all() {
+        return {sink_->catalog(), sink_->store(), sink_->mender(), sink_->site_watch()};
+    }
+    static bool wait_for(const std::function<bool()>& seen) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{60};
+        while (!seen())
+            if (std::chrono::steady_clock::now() > end) return false;
+        return true;
+    }
+
+    testing::TemporaryDirectory directory_;
+    std::unique_ptr<IngestSink> sink_;
+};
+
+// The watchdog sees it at work, and not while it waits: for files to be taken in, or an hour for
+// the next round.
+TEST_F(CaretakerTest, RestsWhileThereIsNothingToDo) {
+    ASSERT_TRUE(sink_);
+    std::atomic<bool> idle = false;
+    std::atomic<int> asked = 0;
+    const Caretaker keeper(all(), {.between_rounds = milliseconds{0}},
+                           {[&] {
+                                ++asked;
+                                return idle.load();
+                            },
+                            [](pipeline::PairReport) {}});
+    ASSERT_TRUE(wait_for([&] { return asked >= 3; }));
+    for (int i = 0; i < 1000; ++i)
+        EXPECT_FALSE(keeper.pulse().since()) << "files come first";
+    const SteadyTime before = std::chrono::steady_clock::now();
+    idle = true;
+    EXPECT_TRUE(wait_for([&] {
+        const auto since = keeper.pulse().since();
+        return since && *since >= before;
+    }));
+    idle = false;
+    EXPECT_TRUE(wait_for([&] { return !keeper.pulse().since(); }));
+}
+
+TEST_F(CaretakerTest, RestsBetweenItsRounds) {
+    ASSERT_TRUE(sink_);
+    std::atomic<int> asked = 0;
+    const Caretaker keeper(all(), {.between_looks = milliseconds{1}},
+                           {[&] {
+                                ++asked;
+                                return true;
+                            },
+                            [](pipeline::PairReport) {}});
+    ASSERT_TRUE(wait_for([&] { return asked >= 100; })) << "its first round is long over";
+    EXPECT_TRUE(wait_for([&] { return !keeper.pulse().since(); }));
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

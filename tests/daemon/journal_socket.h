@@ -1,0 +1,123 @@
+// tests/daemon/journal_socket.h -- the journal's end of its socket, and a reader of its entries
+// that is written after the protocol's description and knows nothing of our writer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace stormcellar::daemon {
+
+using JournalFields = std::map<std::string, std::string>;
+
+// None where the bytes break the protocol.
+inline std::optional<JournalFields> read_journal_entry(const std::string& bytes) {
+    JournalFields fields;
+    std::size_t at = 0;
+    while (at < bytes.size()) {
+        const std::size_t end = bytes.find_first_of("=\n", at);
+        if (end == std::string::npos || end == at) return std::nullopt;
+        const std::string name = bytes.substr(at, end - at);
+        if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") != std::string::npos)
+            return std::nullopt;
+        std::string value;
+        if (bytes[end] == '=') {
+            at = bytes.find('\n', end);
+            if (at == std::string::npos) return std::nullopt;
+            value = bytes.substr(end + 1, at - end - 1);
+        } else {
+            if (bytes.size() < end + 9) return std::nullopt;
+            std::uint64_t length = 0;
+            for (std::size_t byte = 8; byte-- > 0;)
+                length = length << 8 | static_cast<unsigned char>(bytes[end + 1 + byte]);
+            if (length >= bytes.size() || bytes.size() - end - 9 < length + 1) return std::nullopt;
+            value = bytes.substr(end + 9, length);
+            at = end + 9 + length;
+            if (bytes[at] != '\n') return std::nullopt;
+        }
+        fields[name] = value;
+        ++at;
+    }
+    return fields;
+}
+
+class JournalSocket {
+  public:
+    explicit JournalSocket(std::filesystem::path path)
+        : path_(std::move(path)), descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        if (path_.native().size() >= sizeof address.sun_path)
+            throw std::runtime_error("the path is too long for a socket");
+        std::memcpy(address.sun_path, path_.c_str(), path_.native().size());
+        if (::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+            throw std::runtime_error("bind failed");
+    }
+    JournalSocket(const JournalSocket&) = delete;
+    JournalSocket& operator=(const JournalSocket&) = delete;
+    ~JournalSocket() { ::close(descriptor_); }
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    // Whether the last entry came as a file.
+    [[nodiscard]] bool was_file() const { return was_file_; }
+
+    // The bytes of the next entry; none when none is there.
+    std::optional<std::string> receive() {
+        pollfd source{descriptor_, POLLIN, 0};
+        if (::poll(&source, 1, 0) <= 0) return std::nullopt;
+        std::string bytes(1 << 20, '\0');
+        alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+        iovec part{bytes.data(), bytes.size()};
+        msghdr message{};
+        message.msg_iov = &part;
+        message.msg_iovlen = 1;
+        message.msg_control = control.data();
+        message.msg_controllen = control.size();
+        const ssize_t got = ::recvmsg(descriptor_, &message, MSG_CMSG_CLOEXEC);
+        if (got < 0) return std::nullopt;
+        bytes.resize(static_cast<std::size_t>(got));
+        const cmsghdr* header = CMSG_FIRSTHDR(&message);
+        was_file_ = header != nullptr;
+        if (!was_file_) return bytes;
+        int file = -1;
+        std::memcpy(&file, CMSG_DATA(header), sizeof file);
+        std::optional<std::string> contents = read_sealed(file);
+        ::close(file);
+        return contents;
+    }
+    std::optional<JournalFields> receive_fields() {
+        const auto bytes = receive();
+        return bytes ? read_journal_entry(*bytes) : std::nullopt;
+    }
+
+  private:
+    // As the journal does: what somebody could still change it does not take.
+    static std::optional<std::string> read_sealed(int file) {
+        constexpr int needed = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
+        if ((::fcntl(file, F_GET_SEALS) & needed) != needed) return std::nullopt;
+        struct stat facts {};
+        if (::fstat(file, &facts) != 0) return std::nullopt;
+        std::string bytes(static_cast<std::size_t>(facts.st_size), '\0');
+        if (::pread(file, bytes.data(), bytes.size(), 0) != facts.st_size) return std::nullopt;
+        return bytes;
+    }
+
+    std::filesystem::path path_;
+    int descriptor_;
+    bool was_file_ = false;
+};
+
+}  // namespace stormcellar::daemon

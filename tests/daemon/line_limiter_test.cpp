@@ -1,0 +1,133 @@
+#include "daemon/line_limiter.h"
+
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace stormcellar::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
+
+TEST(RateLimit, LetsSoManyThroughAndCountsTheRest) {
+    RateLimit limit(3, seconds{10});
+    int allowed = 0;
+    for (int i = 0; i < 100; ++i)
+        allowed += limit.allow(t0) ? 1 : 0;
+    EXPECT_EQ(allowed, 3);
+    EXPECT_FALSE(limit.is_idle(t0 + seconds{60}));
+    EXPECT_FALSE(limit.take_held_back(t0 + seconds{9})) << "the period is not over";
+    EXPECT_EQ(limit.take_held_back(t0 + seconds{10}), 97U);
+    EXPECT_FALSE(limit.take_held_back(t0 + seconds{10}));
+    EXPECT_TRUE(limit.is_idle(t0 + seconds{10}));
+    EXPECT_TRUE(limit.allow(t0 + seconds{10}));
+    EXPECT_FALSE(limit.is_idle(t0 + seconds{11}));
+}
+
+TEST(RateLimit, ASlowTrickleIsNeverHeldBack) {
+    RateLimit limit(1, seconds{10});
+    for (int i = 0; i < 5; ++i)
+        EXPECT_TRUE(limit.allow(t0 + i * seconds{10}));
+    EXPECT_FALSE(limit.take_held_back(t0 + seconds{1000}));
+}
+
+int allowed_of(LineLimiter& limiter, Event event, const std::string& subject, int lines,
+               SteadyTime now) {
+    int allowed = 0;
+    for (int i = 0; i < lines; ++i)
+        allowed += limiter.allow(event, subject, Severity::warning, now) ? 1 : 0;
+    return allowed;
+}
+
+TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
+    LineLimiter limiter;
+    EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 1254, t0), 20);
+    EXPECT_EQ(allowed_of(limiter, Event::rejected, "KBGM", 5, t0), 5);
+    EXPECT_EQ(allowed_of(limiter, Event::no_moment, "KTLX", 5, t0), 5) << "another kind";
+    EXPECT_TRUE(limiter.take_held_back(t0 + milliseconds{59'999}).empty());
+    const auto held = limiter.take_held_back(t0 + seconds{60});
+    ASSERT_EQ(held.size(), 1U);
+    EXPECT_EQ(held[0].event, Event::rejected);
+    EXPECT_EQ(held[0].subject, "KTLX");
+    EXPECT_EQ(held[0].severity, Severity::warning);
+    EXPECT_EQ(held[0].lines, 1234U);
+    EXPECT_TRUE(limiter.take_held_back(t0 + seconds{61}).empty()) << "said once";
+    EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 30, t0 + seconds{62}), 20)
+        << "a new minute";
+}
+
+// Names are the feed's to choose: 100,000 of them make no more lines, and take no more memory,
+// than a few do. An hour of it, each line once a minute.
+TEST(LineLimiter, AFloodOfManyStationsIsHeldToo) {
+    LineLimiter limiter;
+    std::uint64_t written = 0;
+    std::uint64_t held_back = 0;
+    const int minutes = 60;
+    const int a_minute = 2000;
+    for (int minute = 0; minute < minutes; ++minute) {
+        const SteadyTime now = t0 + minute * seconds{60};
+        for (const LineLimiter::HeldBack& held : limiter.take_held_back(now)) {
+            held_back += held.lines;
+            ++written;
+        }
+        for (int i = 0; i < a_minute; ++i) {
+            written += allowed_of(limiter, Event::rejected,
+                                  fmt::format("{}", minute * a_minute + i), 1, now);
+        }
+        EXPECT_LE(limiter.subjects(), LineLimiter::most_subjects + 1);
+    }
+    for (const LineLimiter::HeldBack& held : limiter.take_held_back(t0 + minutes * seconds{60})) {
+        held_back += held.lines;
+        ++written;
+    }
+    EXPECT_LE(written, minutes * (120U + 2U));
+    EXPECT_GE(written, minutes * 120U);
+    const std::uint64_t shown = minutes * 120U;
+    EXPECT_EQ(held_back, minutes * a_minute - shown) << "none is lost uncounted";
+}
+
+TEST(LineLimiter, TheGravestOfWhatIsHeldBackCounts) {
+    LineLimiter limiter;
+    for (int i = 0; i < 30; ++i) {
+        (void)limiter.allow(Event::loop_said, "a", i == 25 ? Severity::warning : Severity::info,
+                            t0);
+    }
+    const auto held = limiter.take_held_back(t0 + seconds{60});
+    ASSERT_EQ(held.size(), 1U);
+    EXPECT_EQ(held[0].severity, Severity::warning);
+}
+
+// The heaviest feed there is: 160 sites, a volume every four minutes each, and a backlog of one of
+// them.
+TEST(LineLimiter, AFeedAsItShouldBeIsNotHeldBack) {
+    LineLimiter limiter;
+    for (int second = 0; second < 3600; ++second) {
+        const SteadyTime now = t0 + seconds{second};
+        EXPECT_TRUE(limiter.take_held_back(now).empty());
+        for (int site = 0; site < 160; ++site) {
+            if ((second + site) % 240 != 0) continue;
+            EXPECT_TRUE(
+                limiter.allow(Event::gridded, fmt::format("K{}", site), Severity::info, now));
+        }
+    }
+}
+
+TEST(LogEvent, EachHasANameOfItsOwn) {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < event_count; ++i) {
+        const std::string_view name = name_of(static_cast<Event>(i));
+        EXPECT_FALSE(name.empty());
+        EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string_view::npos);
+        EXPECT_TRUE(names.insert(name).second) << name;
+    }
+    EXPECT_EQ(name_of(Event::ready), "ready");
+    EXPECT_EQ(name_of(Event::overflow), "overflow");
+    EXPECT_EQ(name_of(Event::status_unwritten), "status_unwritten");
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

@@ -1,0 +1,31 @@
+#include "daemon/signals.h"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::daemon {
+namespace {
+
+// They stay blocked in this thread, as in that of the service.
+TEST(Signals, AreTakenOneAfterTheOther) {
+    const Result<Signals> signals = Signals::open();
+    ASSERT_TRUE(signals);
+    int reloads = 0;
+    const auto reload = [&] { ++reloads; };
+    EXPECT_FALSE(take_signals(&*signals, reload)) << "none has come";
+    ::pthread_kill(::pthread_self(), SIGHUP);
+    EXPECT_FALSE(take_signals(&*signals, reload));
+    EXPECT_EQ(reloads, 1);
+    for (const int ending : {SIGTERM, SIGINT}) {
+        ::pthread_kill(::pthread_self(), SIGHUP);
+        ::pthread_kill(::pthread_self(), ending);
+        EXPECT_TRUE(take_signals(&*signals, reload)) << ending;
+        EXPECT_FALSE(take_signals(&*signals, reload)) << "taken";
+    }
+    EXPECT_EQ(reloads, 3) << "a reload beside it is not lost";
+    EXPECT_FALSE(take_signals(nullptr, reload));
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon

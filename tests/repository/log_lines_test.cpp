@@ -1,0 +1,177 @@
+// The manual explains every line that the daemon logs.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::map<std::string, std::string> daemon_sources() {
+    std::map<std::string, std::string> sources;
+    for (const auto& entry : fs::directory_iterator(testing::source_directory() / "daemon")) {
+        const auto ending = entry.path().extension();
+        if (ending == ".h" || ending == ".cpp")
+            sources[entry.path().filename().string()] = read(entry.path());
+    }
+    return sources;
+}
+
+std::vector<std::string> matches(const std::string& text, const std::regex& what) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
+        found.push_back((*at)[1]);
+    return found;
+}
+
+// What stands between one text and the next that follows it.
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+    const std::size_t begin = text.find(from);
+    if (begin == std::string::npos) return {};
+    return text.substr(begin, text.find(to, begin + from.size()) - begin);
+}
+
+// The names of daemon/log_event.h.
+std::vector<std::string> events() {
+    const std::string header = read(testing::source_directory() / "daemon/log_event.h");
+    static const std::regex name(R"(\n    ([a-z_]+),)");
+    return matches(between(header, "enum class Event {", "};"), name);
+}
+
+std::string chapter() {
+    const std::string manual = read(testing::source_directory() / "docs/operations.md");
+    return between(manual, "\n## What the log lines mean", "\n## ");
+}
+
+// The table's rows, each with its event: one without takes that of the row above.
+std::map<std::string, std::string> rows_by_event() {
+    static const std::regex row(R"(\n(\|[^\n]*))");
+    static const std::regex first(R"(^\| `([a-z_]+)` \|)");
+    std::map<std::string, std::string> rows;
+    std::string event;
+    for (const std::string& line : matches(chapter(), row)) {
+        std::smatch named;
+        if (std::regex_search(line, named, first)) event = named[1];
+        if (!event.empty()) rows[event] += line + "\n";
+    }
+    return rows;
+}
+
+TEST(LogLines, EveryEventIsExplainedAndNoOther) {
+    const std::vector<std::string> named = events();
+    ASSERT_GT(named.size(), 30U);
+    const auto rows = rows_by_event();
+    for (const std::string& event : named)
+        EXPECT_TRUE(rows.contains(event)) << event << " is not explained";
+    for (const auto& [event, row] : rows)
+        EXPECT_EQ(std::count(named.begin(), named.end(), event), 1) << event << " is none of ours";
+}
+
+TEST(LogLines, EveryEventIsLogged) {
+    std::string all;
+    for (const auto& [name, text] : daemon_sources())
+        if (!name.starts_with("log_event")) all += text;
+    // The results of files are named by event_of().
+    all += between(read(testing::source_directory() / "daemon/log_event.cpp"), "event_of(", "\n}");
+    for (const std::string& event : events())
+        EXPECT_TRUE(std::regex_search(all, std::regex("Event::" + event + R"(\b)"))) << event;
+}
+
+// Whoever went around daemon/log.h would be neither limited nor explained.
+TEST(LogLines, NobodyLogsAnyOtherWay) {
+    for (const auto& [name, text] : daemon_sources()) {
+        if (name == "log.cpp") continue;
+        EXPECT_EQ(text.find("spdlog::"), std::string::npos) << name;
+        EXPECT_EQ(text.find("std::cerr"), std::string::npos) << name;
+    }
+}
+
+// The text of string literals from here to the end of the statement; those that stand side by side
+// are one.
+std::vector<std::string> literals(const std::string& text, std::size_t at) {
+    std::vector<std::string> found;
+    bool joins = false;
+    for (; at < text.size() && text[at] != ';'; ++at) {
+        if (text[at] == '"') {
+            std::string literal;
+            for (++at; at < text.size() && text[at] != '"'; ++at) {
+                if (text[at] == '\\') ++at;
+                literal += text[at];
+            }
+            if (joins) {
+                found.back() += literal;
+            } else {
+                found.push_back(literal);
+            }
+            joins = true;
+        } else if (std::isspace(static_cast<unsigned char>(text[at])) == 0) {
+            joins = false;
+        }
+    }
+    return found;
+}
+
+// The longest piece of a format between what is put in.
+std::string longest_piece(const std::string& format) {
+    static const std::regex gap(R"(\{[^}]*\})");
+    std::string longest;
+    for (std::sregex_token_iterator at(format.begin(), format.end(), gap, -1), end; at != end; ++at)
+        if (at->length() > static_cast<std::ptrdiff_t>(longest.size())) longest = *at;
+    return longest;
+}
+
+std::string squeezed(const std::string& text) {
+    static const std::regex blank(R"(\s+)");
+    return std::regex_replace(text, blank, " ");
+}
+
+// Each format of a log call, or of the lines that the reporter makes, is in the table with its own
+// words.
+TEST(LogLines, TheManualHasTheirWords) {
+    constexpr std::size_t too_short = 6;  // " ({})", "SIGINT": no words of a line
+    static const std::regex call(R"((\blog_(?:debug|info|warning|error|line|problem)\())");
+    static const std::regex made(R"((\bfmt::format\())");
+    const std::string manual = squeezed(chapter());
+    std::size_t checked = 0;
+    const auto check = [&](const std::string& name, const std::string& text,
+                           const std::regex& where) {
+        for (std::sregex_iterator at(text.begin(), text.end(), where), end; at != end; ++at) {
+            const auto start = static_cast<std::size_t>(at->position() + at->length());
+            for (const std::string& literal : literals(text, start)) {
+                std::string words = squeezed(longest_piece(literal));
+                words.erase(0, words.find_first_not_of(" :;"));
+                words.erase(words.find_last_not_of(" :;(") + 1);
+                if (words.size() <= too_short) continue;
+                ++checked;
+                EXPECT_NE(manual.find(words), std::string::npos)
+                    << name << " logs \"" << literal << "\", and the manual does not say it";
+            }
+        }
+    };
+    for (const auto& [name, text] : daemon_sources()) {
+        if (name.starts_with("log.")) continue;
+        check(name, text, call);
+        if (name == "reporter.cpp") check(name, text, made);
+    }
+    EXPECT_GT(checked, 50U);
+}
+
+}  // namespace
+}  // namespace stormcellar
