@@ -7,6 +7,7 @@
 
 #include <sys/stat.h>
 
+#include "base/beneath.h"
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "catalog/path_homes.h"
@@ -310,9 +311,8 @@ Result<int> Catalog::mark_missing(const fs::path& directory, const std::function
         std::size_t looked_at = 0;
         for (const fs::path& path : *paths) {
             if (step && ++looked_at % files_a_step == 0) step();
-            std::error_code error;
-            const fs::file_status status = fs::symlink_status(path, error);
-            if (status.type() == fs::file_type::not_found) gone.push_back(path);
+            const auto found = look_beneath(directory, path);
+            if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
         }
         if (gone.empty()) continue;
         const auto here = impl_->with(

@@ -115,8 +115,9 @@ class Catalog {
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
 
-    // The same for every row below the directory: what went while nobody watched. `step` is called
-    // after each station and every 1,000 files, for whoever watches that it moves on.
+    // The same for every row below the directory: what went while nobody watched, or lies behind a
+    // symbolic link by now. `step` is called after each station and every 1,000 files, for whoever
+    // watches that it moves on.
     Result<int> mark_missing(const std::filesystem::path& directory,
                              const std::function<void()>& step = {});
 

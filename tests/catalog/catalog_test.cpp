@@ -416,5 +416,18 @@ TEST_F(CatalogTest, FilesThatWentWhileNobodyWatchedAreMarked) {
     }
 }
 
+// What a link leads to is none of the raw files, whatever its name.
+TEST_F(CatalogTest, FilesBehindADirectoryThatBecameALinkAreGone) {
+    const testing::TemporaryDirectory place;
+    const std::filesystem::path drop = place / "drop";
+    std::filesystem::create_directories(drop / "day");
+    std::ofstream(drop / "day/a") << "x";
+    ASSERT_TRUE(catalog_.register_file(file(drop / "day/a", {volume("2022-03-17T00:00")})));
+    EXPECT_EQ(*catalog_.mark_missing(drop), 0);
+    std::filesystem::rename(drop / "day", place / "elsewhere");
+    std::filesystem::create_directory_symlink(place / "elsewhere", drop / "day");
+    EXPECT_EQ(*catalog_.mark_missing(drop), 1);
+}
+
 }  // namespace
 }  // namespace stormcellar::catalog
