@@ -1,0 +1,92 @@
+#include "tests/fault/faulty_daemon.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+namespace stormcellar::fault {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Grids of 100 cells, and little patience.
+constexpr const char* quick =
+    "[watch]\nrescan_seconds = 2\n[cache]\npercent = 0\n[ingest]\nquiet_seconds = 1\n"
+    "reread_seconds = 0.05\nspacing_km = 10\nextent_km = [100, 100]\nlevels_km = [1, 3, 6]\n"
+    "workers = 2\n";
+
+std::size_t settled_in(const fs::path& database) {
+    try {
+        const SQLite::Database opened(database.native(), SQLite::OPEN_READONLY, 1000);
+        SQLite::Statement count(opened, "SELECT count(*) FROM file WHERE state <> 'seen'");
+        count.executeStep();
+        return static_cast<std::size_t>(count.getColumn(0).getInt64());
+    } catch (const SQLite::Exception&) {
+        return 0;  // just being made, or damaged on purpose: asked again
+    }
+}
+
+}  // namespace
+
+int number_of(const char* variable, int usual) {
+    const char* text = std::getenv(variable);
+    return text == nullptr ? usual : std::atoi(text);
+}
+
+void FaultyDaemon::start(const std::map<std::string, std::string>& environment,
+                         const std::string& more) {
+    fs::remove(running_.root() / "state/status.json");
+    running_.start(quick + more, environment);
+}
+
+void FaultyDaemon::kill() {
+    running_.signal(SIGKILL);
+    if (running_.wait() != -SIGKILL) throw std::runtime_error("it ended before:\n" + log_end());
+}
+
+pid_t FaultyDaemon::id() const {
+    return running_.status().at("pid").get<pid_t>();
+}
+
+std::size_t FaultyDaemon::settled() const {
+    std::size_t all = 0;
+    std::error_code error;
+    for (fs::directory_iterator at(running_.catalog(), error), end; !error && at != end;
+         at.increment(error)) {
+        if (at->path().extension() == ".sqlite") all += settled_in(at->path());
+    }
+    return all;
+}
+
+bool FaultyDaemon::catches_up(std::size_t files, int seconds) const {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds{seconds};
+    while (std::chrono::steady_clock::now() < limit) {
+        const json now = running_.status();
+        if (!now.is_null() && now["state"] == "running" && now["pending"]["waiting"] == 0 &&
+            now["pending"]["running"] == 0 && now["pending"]["growing"] == 0 &&
+            settled() >= files) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
+    return false;
+}
+
+std::string FaultyDaemon::log_end() const {
+    const std::string log = running_.log();
+    return log.size() > 6000 ? log.substr(log.size() - 6000) : log;
+}
+
+std::size_t files_of(const std::vector<Delivered>& delivered) {
+    std::size_t files = 0;
+    for (const Delivered& one : delivered)
+        files += one.files.size();
+    return files;
+}
+
+}  // namespace stormcellar::fault

@@ -1,0 +1,268 @@
+#include "tests/fault/load.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/file_system.h"
+#include "level2/decode.h"
+#include "level2/encode.h"
+#include "synth/observe.h"
+#include "synth/replay_pieces.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::fault {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int gates = 160;  // of 250 m
+constexpr std::array<const char*, 6> stations = {"XFAA", "XFAB", "XFAC", "XFAD", "XFAE", "XFAF"};
+
+level2::Volume pattern_of(const char* station, double longitude_deg) {
+    const std::string text = fmt::format(R"([radar]
+station = "{}"
+latitude_deg = 35
+longitude_deg = {}
+altitude_m = 380
+[volumes]
+count = 1
+start = "2024-06-01T00:00:00Z"
+[[cut]]
+elevation_deg = 0.5
+azimuth_rate_deg_s = 36
+waveform = "surveillance"
+[[cut]]
+elevation_deg = 4
+azimuth_rate_deg_s = 36
+waveform = "surveillance"
+[[storm]]
+position_km = [12, 9]
+velocity_mps = [10, 5]
+radii_km = [9, 6]
+orientation_deg = 40
+core_km = 2
+top_km = 9
+peak_dbz = 55
+)",
+                                         station, longitude_deg);
+    const auto scene = synth::parse_scene(text, station);
+    if (!scene) throw std::runtime_error(scene.error().message);
+    level2::Volume volume = synth::observe(*scene, 0);
+    for (level2::Sweep& sweep : volume.sweeps) {
+        for (level2::SweepMoment& moment : sweep.moments) {
+            std::vector<std::uint8_t> codes;
+            for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
+                for (int gate = 0; gate < gates; ++gate)
+                    codes.push_back(static_cast<std::uint8_t>(moment.code(radial, gate)));
+                moment.gate_counts[radial] = gates;
+            }
+            moment.codes8 = std::move(codes);
+            moment.gate_stride = gates;
+        }
+    }
+    return volume;
+}
+
+void move_to(level2::Volume& volume, UtcTime start) {
+    const auto by = start - volume.header->time();
+    const NexradTime time = nexrad_from_time(start);
+    volume.header->date = time.day;
+    volume.header->ms = time.milliseconds;
+    for (level2::Sweep& sweep : volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.time += by;
+    }
+}
+
+std::vector<std::vector<std::byte>> pieces_of(const std::vector<std::byte>& bytes) {
+    std::vector<std::vector<std::byte>> pieces;
+    std::size_t begin = 0;
+    for (const std::size_t end : synth::piece_ends(bytes)) {
+        pieces.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+                            bytes.begin() + static_cast<std::ptrdiff_t>(end));
+        begin = end;
+    }
+    return pieces;
+}
+
+void expect(const Status& done) {
+    if (!done) throw std::runtime_error(done.error().message);
+}
+
+// As a script does it: under a dot-name, then renamed.
+void put_whole(const Shipment& shipment) {
+    const fs::path& file = shipment.delivered.files.front();
+    const fs::path hidden = file.parent_path() / ("." + file.filename().native());
+    synth::PieceWriter writer(0);
+    for (const auto& piece : shipment.pieces)
+        expect(writer.append(hidden, piece));
+    fs::rename(hidden, file);
+}
+
+}  // namespace
+
+Shipments::Shipments(fs::path drop, std::uint32_t seed) : drop_(std::move(drop)), random_(seed) {
+    double longitude_deg = -99;
+    for (const char* station : stations)
+        patterns_.push_back(pattern_of(station, longitude_deg += 1));
+    const auto data = testing::data_directory();
+    if (!data) return;
+    for (const auto& entry : fs::directory_iterator(*data / "sequence-kbgm")) {
+        auto bytes = read_file(entry.path());
+        const auto decoded = bytes ? level2::decode(*bytes) : tl::unexpected(bytes.error());
+        if (!decoded) throw std::runtime_error(decoded.error().message);
+        real_.push_back({entry.path(), decoded->volume.station, *decoded->volume.start_time(),
+                         std::move(*bytes)});
+    }
+}
+
+Shipment Shipments::laid_out(Way way, const std::string& station, UtcTime start,
+                             std::vector<std::vector<std::byte>> pieces) {
+    Shipment shipment{way, std::move(pieces), {{}, Contents::whole_volume, station, start}};
+    const std::string time = format_compact(start);
+    if (way != Way::chunks) {
+        shipment.delivered.files = {drop_ / station / (station + time + "_V06")};
+        return shipment;
+    }
+    const std::size_t count = shipment.pieces.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const char kind = i == 0 ? 'S' : i + 1 == count ? 'E' : 'I';
+        shipment.delivered.files.push_back(
+            drop_ / station / fmt::format("{}", number_ % 1000) /
+            fmt::format("{}-{}-{:03}-{}", time.substr(0, 8), time.substr(9), i + 1, kind));
+    }
+    return shipment;
+}
+
+Shipment Shipments::volume(Way way) {
+    const auto index = static_cast<std::size_t>(number_) % patterns_.size();
+    level2::Volume& pattern = patterns_[index];
+    const UtcTime start = UtcTime{std::chrono::seconds{1717200000}} +
+                          std::chrono::seconds{60 * (number_ / static_cast<int>(patterns_.size()))};
+    ++number_;
+    move_to(pattern, start);
+    const auto encoded = level2::encode(pattern);
+    if (!encoded) throw std::runtime_error(encoded.error().message);
+    return laid_out(way, pattern.station, start, pieces_of(encoded->joined()));
+}
+
+// Without its last pieces.
+Shipment Shipments::part(Way way) {
+    Shipment shipment = volume(way == Way::chunks ? Way::growing : way);
+    shipment.pieces.resize(3 + random_() % 3);
+    shipment.delivered.contents = Contents::part;
+    return shipment;
+}
+
+Shipment Shipments::junk() {
+    Shipment shipment;
+    shipment.pieces.emplace_back(random_() % 3000);
+    for (std::byte& byte : shipment.pieces.back())
+        byte = static_cast<std::byte>(random_());
+    shipment.delivered.contents = Contents::junk;
+    shipment.delivered.files = {drop_ / "misc" / fmt::format("junk-{}", number_++)};
+    return shipment;
+}
+
+std::optional<Shipment> Shipments::real(Way way) {
+    if (real_.empty()) return std::nullopt;
+    const Real& real = real_[static_cast<std::size_t>(number_) % real_.size()];
+    Shipment shipment;
+    shipment.way = way == Way::chunks ? Way::growing : way;
+    shipment.pieces = pieces_of(real.bytes);
+    shipment.delivered = {
+        {drop_ / "real" / fmt::format("{}-{}", number_++, real.source.filename().native())},
+        Contents::whole_volume,
+        real.station,
+        real.time};
+    return shipment;
+}
+
+Shipment Shipments::next() {
+    const auto way = static_cast<Way>(random_() % 4);
+    switch (random_() % 40) {
+        case 0:
+        case 1:
+            return part(way);
+        case 2:
+        case 3:
+            return junk();
+        case 4:
+            if (auto shipment = real(way)) return std::move(*shipment);
+            break;
+        default:
+            break;
+    }
+    return volume(way);
+}
+
+void deliver(const Shipment& shipment) {
+    const auto& files = shipment.delivered.files;
+    fs::create_directories(files.front().parent_path());
+    if (shipment.way == Way::whole) {
+        put_whole(shipment);
+        return;
+    }
+    synth::PieceWriter writer(shipment.way == Way::open ? 1 : 0);
+    for (std::size_t i = 0; i < shipment.pieces.size(); ++i)
+        expect(writer.append(files[std::min(i, files.size() - 1)], shipment.pieces[i]));
+    expect(writer.close());
+}
+
+Feed::Feed(fs::path drop, std::uint32_t seed, std::chrono::microseconds pause)
+    : shipments_(std::move(drop), seed),
+      random_(seed + 1),
+      pause_(pause),
+      thread_([this] { run(); }) {}
+
+Feed::~Feed() {
+    stopping_ = true;
+    if (thread_.joinable()) thread_.join();
+}
+
+void Feed::write_piece(Growing& growing) {
+    const Shipment& shipment = growing.shipment;
+    const auto& files = shipment.delivered.files;
+    if (growing.next == 0) fs::create_directories(files.front().parent_path());
+    if (shipment.way == Way::whole) {
+        put_whole(shipment);
+        growing.next = shipment.pieces.size();
+        return;
+    }
+    auto& writer = shipment.way == Way::open ? open_ : closing_;
+    expect(writer.append(files[std::min(growing.next, files.size() - 1)],
+                         shipment.pieces[growing.next]));
+    ++growing.next;
+}
+
+void Feed::run() {
+    while (!growing_.empty() || !stopping_) {
+        const bool begin = !stopping_ && begun_ < allowed_ && growing_.size() < most_at_a_time;
+        if (begin) {
+            growing_.push_back({shipments_.next()});
+            delivered_.push_back(growing_.back().shipment.delivered);
+            ++begun_;
+        }
+        if (!growing_.empty()) {
+            const std::size_t index = random_() % growing_.size();
+            write_piece(growing_[index]);
+            if (growing_[index].next >= growing_[index].shipment.pieces.size())
+                growing_.erase(growing_.begin() + static_cast<std::ptrdiff_t>(index));
+        }
+        std::this_thread::sleep_for(growing_.empty() ? std::chrono::milliseconds{2} : pause_);
+    }
+    expect(open_.close());
+}
+
+std::vector<Delivered> Feed::finish() {
+    stopping_ = true;
+    thread_.join();
+    return delivered_;
+}
+
+}  // namespace stormcellar::fault

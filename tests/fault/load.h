@@ -1,0 +1,103 @@
+// tests/fault/load.h -- what is written into a drop directory while things go wrong.
+//
+// Small simulated volumes (message 31, two cuts of 360 radials) of several stations, each at a time
+// of its own; some of them cut short; junk; and, where there are any, real volumes under names of
+// their own. In all four ways: whole by rename, growing and closed after each piece, kept open, one
+// file a chunk.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "level2/volume.h"
+#include "synth/replay_writer.h"
+#include "tests/fault/aftermath.h"
+
+namespace stormcellar::fault {
+
+enum class Way { whole, growing, open, chunks };
+
+// One file, or one volume of chunks, ready to be written.
+struct Shipment {
+    Way way = Way::whole;
+    std::vector<std::vector<std::byte>> pieces;
+    Delivered delivered;  // files: that of each piece for chunks, else one
+};
+
+class Shipments {
+  public:
+    Shipments(std::filesystem::path drop, std::uint32_t seed);
+
+    // The next one: a volume as a rule, now and then a part of one, junk or a real volume.
+    Shipment next();
+    // A whole simulated volume.
+    Shipment volume(Way way);
+    Shipment junk();
+    Shipment part(Way way);
+    // A real volume that comes whole or grows; none where there are no data.
+    std::optional<Shipment> real(Way way);
+
+  private:
+    struct Real {
+        std::filesystem::path source;
+        std::string station;
+        UtcTime time;
+        std::vector<std::byte> bytes;
+    };
+    std::vector<std::vector<std::byte>> make_volume(const std::string& station, UtcTime start);
+    Shipment laid_out(Way way, const std::string& station, UtcTime start,
+                      std::vector<std::vector<std::byte>> pieces);
+
+    std::filesystem::path drop_;
+    std::mt19937 random_;
+    int number_ = 0;  // of all shipments
+    std::vector<level2::Volume> patterns_;
+    std::vector<Real> real_;
+};
+
+// Writes all of it at once. Throws where that cannot be.
+void deliver(const Shipment& shipment);
+
+// A thread that writes one piece after another, of several shipments at a time.
+class Feed {
+  public:
+    // `pause`: after each piece. It begins no more than allow() has allowed in all.
+    Feed(std::filesystem::path drop, std::uint32_t seed, std::chrono::microseconds pause);
+    Feed(const Feed&) = delete;
+    Feed& operator=(const Feed&) = delete;
+    ~Feed();
+
+    void allow(int shipments) { allowed_ = shipments; }
+    // Finishes what has begun, closes all, and gives all that was delivered.
+    std::vector<Delivered> finish();
+    [[nodiscard]] int begun() const { return begun_; }
+
+  private:
+    struct Growing {
+        Shipment shipment;
+        std::size_t next = 0;
+    };
+    void run();
+    void write_piece(Growing& growing);
+
+    static constexpr std::size_t most_at_a_time = 6;
+    Shipments shipments_;
+    std::mt19937 random_;
+    std::chrono::microseconds pause_;
+    std::atomic<int> allowed_ = 0, begun_ = 0;
+    std::atomic<bool> stopping_ = false;
+    std::vector<Growing> growing_;
+    std::vector<Delivered> delivered_;
+    synth::PieceWriter closing_{0}, open_{64};
+    std::thread thread_;
+};
+
+}  // namespace stormcellar::fault
