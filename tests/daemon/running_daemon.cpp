@@ -84,13 +84,16 @@ void RunningDaemon::signal(int number) const {
     ::kill(child_, number);
 }
 
+std::optional<int> RunningDaemon::ended() {
+    int status = 0;
+    if (child_ == 0 || ::waitpid(child_, &status, WNOHANG) != child_) return std::nullopt;
+    child_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
 int RunningDaemon::wait() {
     for (int i = 0; i < steps_a_minute; ++i) {
-        int status = 0;
-        if (::waitpid(child_, &status, WNOHANG) == child_) {
-            child_ = 0;
-            return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-        }
+        if (const auto status = ended()) return *status;
         std::this_thread::sleep_for(step);
     }
     throw std::runtime_error("stormcellard does not end");

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ class RunningDaemon {
     void signal(int number) const;
     // The exit status, or minus the signal that ended it. Throws after 60 s.
     int wait();
+    // The same at once; none while it runs.
+    std::optional<int> ended();
     int terminate();
 
     [[nodiscard]] std::filesystem::path root() const { return root_.path(); }

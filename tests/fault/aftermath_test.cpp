@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class AftermathTest : public ::testing::Test {
@@ -22,12 +23,11 @@ class AftermathTest : public ::testing::Test {
         daemon_ = new FaultyDaemon;
         Shipments shipments(daemon_->drop(), 7);
         for (const Shipment& shipment :
-             {shipments.volume(Way::whole), shipments.volume(Way::chunks), shipments.junk(),
-              shipments.part(Way::whole)}) {
+             {shipments.volume(Way::whole), shipments.volume(Way::chunks), shipments.junk()}) {
             deliver(shipment);
             delivered_->push_back(shipment.delivered);
         }
-        daemon_->start({}, "living = false\n");
+        daemon_->start();
         ASSERT_TRUE(daemon_->catches_up(files_of(*delivered_))) << daemon_->log_end();
         ASSERT_EQ(daemon_->stop(), 0);
     }
@@ -74,11 +74,11 @@ TEST_F(AftermathTest, HasNothingToSayOfWhatIsSound) {
     const Aftermath after = look();
     EXPECT_TRUE(after.holds()) << after.problem_text();
     EXPECT_EQ(after.files, after.rows);
-    EXPECT_EQ(after.files, 3 + delivered_->at(1).files.size());
+    EXPECT_EQ(after.files, 2 + delivered_->at(1).files.size());
     EXPECT_EQ(after.volumes, 2U);
     EXPECT_EQ(after.gridded, 2U);
-    EXPECT_EQ(after.grids, 3U) << "that of a part, too";
-    EXPECT_EQ(after.with_reason, 2U);
+    EXPECT_EQ(after.grids, 2U);
+    EXPECT_EQ(after.with_reason, 1U);
 }
 
 TEST_F(AftermathTest, NamesARowThatIsMissing) {
@@ -108,12 +108,20 @@ TEST_F(AftermathTest, NamesARowThatIsNotSettledOrSaysNoReason) {
 TEST_F(AftermathTest, NamesWhatIsToldWrongly) {
     change("XFAA.sqlite", "UPDATE file SET state = 'partial', reason = 'x'");
     expect_problem("is partial (x)");
-    change("XFAD.sqlite", "UPDATE file SET state = 'complete'");
-    expect_problem("is a part, and registered as complete");
     change("XFAA.sqlite", "UPDATE file SET size_bytes = 1");
     expect_problem("registered with 1 bytes");
     change("XFAA.sqlite", "UPDATE file SET path = 'nowhere'");
     expect_problem("nowhere: was never delivered");
+}
+
+TEST_F(AftermathTest, NamesAPartThatIsCalledCompleteAndJunkThatIsNotRejected) {
+    std::vector<Delivered> other = *delivered_;
+    other[0].contents = Contents::part;
+    EXPECT_THAT(look_at_aftermath(places_, other).problems,
+                ElementsAre(HasSubstr("is a part, and registered as complete")));
+    other[0].contents = Contents::junk;
+    EXPECT_THAT(look_at_aftermath(places_, other).problems,
+                ElementsAre(HasSubstr("is complete ()")));
 }
 
 TEST_F(AftermathTest, NamesAGridThatIsMissingOrDamaged) {

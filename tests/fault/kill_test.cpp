@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file_system.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/load.h"
 
@@ -19,21 +20,33 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Leftovers of kills before are swept at the start.
+bool is_in_a_write(const std::filesystem::path& cache) {
+    if (!std::filesystem::exists(cache)) return false;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))
+        if (entry.path().filename().native().starts_with(temporary_prefix)) return true;
+    return false;
+}
+
 // The window reaches from before main() to the midst of work. More comes the longer it lasts, and
 // never so much that the daemon, which is killed before it has caught up, falls behind for good.
 TEST(Kill, AtRandomMomentsUnderLoad) {
     const int kills = number_of("STORMCELLAR_KILLS", 15);
     const auto seed = static_cast<std::uint32_t>(number_of("STORMCELLAR_SEED", 1));
     std::mt19937 random(seed);
-    std::uniform_int_distribution<int> window_us(0, 300'000);
+    std::uniform_int_distribution<int> start_us(0, 40'000), work_us(0, 300'000);
     const auto began = Clock::now();
     FaultyDaemon daemon;
-    Feed feed(daemon.drop(), seed, std::chrono::milliseconds{4});
+    int at_start = 0, in_a_write = 0;
+    Feed feed(daemon.drop(), seed, std::chrono::milliseconds{2});
     for (int kill = 0; kill < kills; ++kill) {
-        feed.allow(5 + 2 * kill);
+        feed.allow(10 + 4 * kill);
         daemon.start();
-        std::this_thread::sleep_for(std::chrono::microseconds{window_us(random)});
+        std::this_thread::sleep_for(
+            std::chrono::microseconds{kill % 3 == 0 ? start_us(random) : work_us(random)});
         daemon.kill();
+        if (!std::filesystem::exists(daemon.places().state / "status.json")) ++at_start;
+        if (is_in_a_write(daemon.places().cache)) ++in_a_write;
     }
     const double killing_s = seconds_since(began);
     const std::size_t settled_before = daemon.settled();
@@ -45,8 +58,11 @@ TEST(Kill, AtRandomMomentsUnderLoad) {
     EXPECT_TRUE(after.holds()) << after.problem_text() << daemon.log_end();
     EXPECT_EQ(after.gridded, after.volumes);
     EXPECT_EQ(after.set_aside, 0U);
-    std::printf("kills: %d in %.0f s, %zu of %zu files settled by then; %s\n", kills, killing_s,
-                settled_before, after.files, after.summary().c_str());
+    std::printf(
+        "kills: %d in %.0f s, %d before it was ready, %d in the midst of a grid's file, %zu of %zu "
+        "files settled by then; %s\n",
+        kills, killing_s, at_start, in_a_write, settled_before, after.files,
+        after.summary().c_str());
 }
 
 }  // namespace

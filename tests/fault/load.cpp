@@ -1,7 +1,6 @@
 #include "tests/fault/load.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -21,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int gates = 160;  // of 250 m
-constexpr std::array<const char*, 6> stations = {"XFAA", "XFAB", "XFAC", "XFAD", "XFAE", "XFAF"};
+const std::vector<std::string> usual_stations = {"XFAA", "XFAB", "XFAC", "XFAD", "XFAE", "XFAF"};
 
-level2::Volume pattern_of(const char* station, double longitude_deg) {
+level2::Volume pattern_of(const std::string& station, double longitude_deg) {
     const std::string text = fmt::format(R"([radar]
 station = "{}"
 latitude_deg = 35
@@ -106,10 +105,12 @@ void put_whole(const Shipment& shipment) {
 
 }  // namespace
 
-Shipments::Shipments(fs::path drop, std::uint32_t seed) : drop_(std::move(drop)), random_(seed) {
+Shipments::Shipments(fs::path drop, std::uint32_t seed, const std::vector<std::string>& stations)
+    : drop_(std::move(drop)), random_(seed) {
     double longitude_deg = -99;
-    for (const char* station : stations)
+    for (const std::string& station : stations.empty() ? usual_stations : stations)
         patterns_.push_back(pattern_of(station, longitude_deg += 1));
+    if (!stations.empty()) return;
     const auto data = testing::data_directory();
     if (!data) return;
     for (const auto& entry : fs::directory_iterator(*data / "sequence-kbgm")) {

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -34,7 +35,9 @@ struct Shipment {
 
 class Shipments {
   public:
-    Shipments(std::filesystem::path drop, std::uint32_t seed);
+    // Of six stations and with real volumes, or of these stations alone.
+    Shipments(std::filesystem::path drop, std::uint32_t seed,
+              const std::vector<std::string>& stations = {});
 
     // The next one: a volume as a rule, now and then a part of one, junk or a real volume.
     Shipment next();

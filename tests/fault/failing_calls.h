@@ -1,0 +1,38 @@
+// tests/fault/failing_calls.h -- what steers failing_calls.so, a library that is loaded into the
+// daemon (LD_PRELOAD) and makes its system calls fail.
+//
+// The file that $STORMCELLAR_FAILING_CALLS names holds one Steering, mapped by both: the test may
+// change it while the daemon runs. Calls on files below one of the directories of `below` count,
+// if their kind is in `kinds`; of these the ones from `from` on (the first is 1), before `to`,
+// fail.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace stormcellar::fault {
+
+enum Kind : std::uint32_t {
+    kind_write = 1,     // write, pwrite, writev, and the same of 64 bits
+    kind_truncate = 2,  // ftruncate, posix_fallocate
+    kind_sync = 4,      // fsync, fdatasync
+    kind_rename = 8,
+    kind_create = 16,  // open with O_CREAT or O_TMPFILE, mkdir
+    kind_open = 32,    // any other open
+    kind_read = 64,    // read, pread
+    kind_remove = 128,
+};
+
+inline constexpr int short_write = -1;  // instead of an errno: half of it is written, no error
+
+struct Steering {
+    std::atomic<std::uint64_t> calls{0}, failed{0};
+    std::atomic<std::uint64_t> from{UINT64_MAX}, to{UINT64_MAX};
+    std::atomic<std::uint32_t> kinds{0};
+    std::atomic<int> error_number{0};
+    std::array<std::array<char, 256>, 3> below{};  // absolute; empty: none
+    std::array<char, 256> last_failed{};           // what was called on which file
+};
+
+}  // namespace stormcellar::fault
