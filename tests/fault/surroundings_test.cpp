@@ -1,0 +1,274 @@
+// What the machine around the daemon may do: a full disk, no descriptors, a busy or damaged
+// database, a drop directory that goes and comes back, too many files, lost events.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+#include "tests/daemon/write_file.h"
+#include "tests/fault/faulty_daemon.h"
+#include "tests/fault/load.h"
+
+namespace stormcellar::fault {
+namespace {
+
+namespace fs = std::filesystem;
+using daemon::write_file;
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr Way ways[] = {Way::whole, Way::growing, Way::open, Way::chunks};
+
+class Surroundings : public ::testing::Test {
+  protected:
+    // So many volumes, in all ways in turn, and a real one and junk with every eighth.
+    void deliver_some(int volumes) {
+        for (int i = 0; i < volumes; ++i) {
+            put(shipments_.volume(ways[i % 4]));
+            if (i % 8 != 7) continue;
+            put(shipments_.junk());
+            if (auto real = shipments_.real(ways[i / 8 % 4])) put(*real);
+        }
+    }
+    void put(const Shipment& shipment) {
+        deliver(shipment);
+        delivered_.push_back(shipment.delivered);
+    }
+    void expect_to_catch_up(int seconds = 60) {
+        began_ = Clock::now();
+        EXPECT_TRUE(daemon_.catches_up(files_of(delivered_), seconds)) << daemon_.log_end();
+        seconds_ = std::chrono::duration<double>(Clock::now() - began_).count();
+    }
+    Aftermath stop_and_look() {
+        EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
+        Aftermath after = look_at_aftermath(daemon_.places(), delivered_);
+        EXPECT_TRUE(after.holds()) << after.problem_text() << daemon_.log_end();
+        EXPECT_EQ(after.gridded, after.volumes);
+        std::printf("%s: caught up %.1f s after it ended; %s\n",
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name(), seconds_,
+                    after.summary().c_str());
+        return after;
+    }
+    bool log_says(const std::string& text) { return daemon_.running().wait_for_log(text); }
+
+    FaultyDaemon daemon_;
+    Shipments shipments_{daemon_.drop(), 11};
+    std::vector<Delivered> delivered_;
+    Clock::time_point began_;
+    double seconds_ = 0;
+};
+
+// A file system of its own below a directory; gone with the object.
+class SmallDisk {
+  public:
+    SmallDisk(fs::path directory, const char* size) : directory_(std::move(directory)) {
+        fs::create_directory(directory_);
+        mounted_ = ::mount("tmpfs", directory_.c_str(), "tmpfs", 0, size) == 0;
+    }
+    SmallDisk(const SmallDisk&) = delete;
+    SmallDisk& operator=(const SmallDisk&) = delete;
+    ~SmallDisk() {
+        if (mounted_) ::umount2(directory_.c_str(), MNT_DETACH);
+    }
+    [[nodiscard]] bool is_mounted() const { return mounted_; }
+    void fill() const {
+        std::ofstream file(directory_ / "ballast", std::ios::binary);
+        const std::string block(4096, 'x');
+        while (file.write(block.data(), 4096).flush()) {
+        }
+    }
+    void free() const { fs::remove(directory_ / "ballast"); }
+
+  private:
+    fs::path directory_;
+    bool mounted_ = false;
+};
+
+TEST_F(Surroundings, AFullDisk) {
+    const fs::path root = daemon_.running().root();
+    const SmallDisk disk(root / "disk", "size=24m");
+    if (!disk.is_mounted()) GTEST_SKIP() << "may not mount a tmpfs: needs root";
+    for (const char* name : {"state", "cache"}) {
+        fs::create_directory(root / "disk" / name);
+        fs::create_directory_symlink(root / "disk" / name, root / name);
+    }
+    deliver_some(4);
+    daemon_.start();
+    expect_to_catch_up();
+    disk.fill();
+    deliver_some(8);
+    EXPECT_TRUE(log_says("No space left") || log_says("is full")) << daemon_.log_end();
+    std::this_thread::sleep_for(milliseconds{1500});
+    EXPECT_FALSE(daemon_.running().ended()) << daemon_.log_end();
+    disk.free();
+    expect_to_catch_up();
+    // Full at a start, too.
+    EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
+    disk.fill();
+    deliver_some(8);
+    daemon_.start();
+    std::this_thread::sleep_for(milliseconds{1500});
+    disk.free();
+    if (daemon_.running().ended()) daemon_.start();
+    expect_to_catch_up();
+    stop_and_look();
+}
+
+// As when another part of the process, or a small ulimit, has taken all.
+TEST_F(Surroundings, NoDescriptorsLeft) {
+    deliver_some(2);
+    daemon_.start();
+    expect_to_catch_up();
+    rlimit before{};
+    const pid_t id = daemon_.id();
+    ASSERT_EQ(::prlimit(id, RLIMIT_NOFILE, nullptr, &before), 0);
+    const rlimit few{3, before.rlim_max};
+    ASSERT_EQ(::prlimit(id, RLIMIT_NOFILE, &few, nullptr), 0);
+    deliver_some(8);
+    EXPECT_TRUE(log_says("Too many open files")) << daemon_.log_end();
+    std::this_thread::sleep_for(milliseconds{2500});
+    EXPECT_FALSE(daemon_.running().ended()) << daemon_.log_end();
+    ASSERT_EQ(::prlimit(id, RLIMIT_NOFILE, &before, nullptr), 0);
+    expect_to_catch_up();
+    stop_and_look();
+}
+
+// Longer than the ten seconds that a statement waits (catalog/station_opening.cpp).
+TEST_F(Surroundings, ADatabaseThatAnotherProcessKeepsBusy) {
+    deliver_some(6);
+    daemon_.start();
+    expect_to_catch_up();
+    {
+        SQLite::Database other((daemon_.places().state / "catalog/XFAA.sqlite").native(),
+                               SQLite::OPEN_READWRITE, 5000);
+        other.exec("BEGIN EXCLUSIVE");
+        deliver_some(8);
+        EXPECT_TRUE(log_says("database is locked")) << daemon_.log_end();
+        std::this_thread::sleep_for(milliseconds{2000});
+        other.exec("ROLLBACK");
+    }
+    expect_to_catch_up();
+    stop_and_look();
+}
+
+// After a clean stop all is in the databases themselves, not in their write-ahead logs.
+TEST_F(Surroundings, DatabasesThatAreDamagedUnderWay) {
+    deliver_some(8);
+    daemon_.start();
+    expect_to_catch_up();
+    EXPECT_EQ(daemon_.stop(), 0) << daemon_.log_end();
+    daemon_.start();
+    expect_to_catch_up();
+    const fs::path catalog = daemon_.places().state / "catalog";
+    write_file(catalog / "XFAA.sqlite", std::string(40'000, 'x'));
+    deliver_some(8);
+    fs::resize_file(catalog / "XFAB.sqlite", 5000);
+    fs::remove(catalog / "XFAD.sqlite");
+    deliver_some(8);
+    expect_to_catch_up();
+    // A log that is overwritten is met when it is read: after a crash.
+    write_file(catalog / "XFAC.sqlite-wal", std::string(9000, 'x'));
+    deliver_some(8);
+    expect_to_catch_up();
+    daemon_.kill();
+    daemon_.start();
+    expect_to_catch_up();
+    const Aftermath after = stop_and_look();
+    EXPECT_GE(after.set_aside, 2U);
+}
+
+TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
+    deliver_some(4);
+    daemon_.start();
+    deliver_some(4);
+    const fs::path away = daemon_.running().root() / "away";
+    fs::rename(daemon_.drop(), away);
+    EXPECT_TRUE(log_says("; looking again every")) << daemon_.log_end();
+    std::this_thread::sleep_for(milliseconds{300});
+    fs::rename(away, daemon_.drop());
+    deliver_some(4);
+    expect_to_catch_up();
+    deliver_some(4);  // seen by its events again
+    expect_to_catch_up();
+    // Another directory in its place, into which the files come again.
+    fs::rename(daemon_.drop(), away);
+    fs::create_directory(daemon_.drop());
+    deliver_some(4);
+    std::this_thread::sleep_for(milliseconds{300});
+    for (const auto& entry : fs::recursive_directory_iterator(away)) {
+        const fs::path target = daemon_.drop() / fs::relative(entry.path(), away);
+        if (entry.is_directory()) fs::create_directories(target);
+        if (entry.is_regular_file()) fs::rename(entry.path(), target);
+    }
+    expect_to_catch_up();
+    stop_and_look();
+}
+
+TEST_F(Surroundings, EventsThatTheKernelDropped) {
+    deliver_some(2);
+    daemon_.start();
+    expect_to_catch_up();
+    std::ifstream limit("/proc/sys/fs/inotify/max_queued_events");
+    int most = 16'384;
+    limit >> most;
+    daemon_.running().signal(SIGSTOP);
+    const fs::path noise = daemon_.drop() / ".noise";
+    for (int events = 0; events <= most; events += 4) {  // made, written, closed, removed
+        write_file(noise, "x");
+        fs::remove(noise);
+    }
+    deliver_some(16);
+    daemon_.running().signal(SIGCONT);
+    expect_to_catch_up();
+    EXPECT_TRUE(daemon_.running().wait_for([](const json& s) { return s["overflows"] > 0; }));
+    stop_and_look();
+}
+
+std::size_t peak_memory_mib(pid_t id) {
+    std::ifstream status("/proc/" + std::to_string(id) + "/status");
+    std::string word;
+    while (status >> word) {
+        std::size_t kib = 0;
+        if (word == "VmHWM:" && status >> kib) return kib / 1024;
+    }
+    return 0;
+}
+
+// They come by one rename of a directory, while as many are being written, with volumes between.
+TEST_F(Surroundings, ManyFilesAtOnce) {
+    const int files = number_of("STORMCELLAR_FAULT_FILES", 4000);
+    const fs::path prepared = daemon_.running().root() / "prepared";
+    const auto junk = [&](const fs::path& directory, int number) {
+        const fs::path name = std::to_string(number / 1000) + "/f" + std::to_string(number);
+        fs::create_directories((directory / name).parent_path());
+        write_file(directory / name, "no radar data " + std::to_string(number));
+        return name;
+    };
+    const fs::path many = daemon_.drop() / "many";
+    for (int i = 0; i < files / 2; ++i)
+        delivered_.push_back({{many / junk(prepared, i)}, Contents::junk, {}, {}});
+    deliver_some(16);
+    daemon_.start();
+    EXPECT_TRUE(daemon_.running().wait_for([](const json& s) { return s["state"] == "running"; }));
+    const auto began = Clock::now();
+    fs::rename(prepared, many);
+    for (int i = files / 2; i < files; ++i)
+        delivered_.push_back({{many / junk(many, i)}, Contents::junk, {}, {}});
+    deliver_some(16);
+    const double written_s = std::chrono::duration<double>(Clock::now() - began).count();
+    expect_to_catch_up(1800);
+    const std::size_t peak_mib = peak_memory_mib(daemon_.id());
+    std::printf("%d files, written within %.1f s: peak %zu MiB\n", files, written_s, peak_mib);
+    EXPECT_LT(peak_mib, 400U);
+    stop_and_look();
+}
+
+}  // namespace
+}  // namespace stormcellar::fault
