@@ -88,7 +88,7 @@ void check_row(const fs::path& file, const Row& row, Contents contents, Aftermat
 void check_files(const std::vector<Delivered>& delivered, const Rows& rows, Aftermath& after) {
     std::set<fs::path> known;
     for (const Delivered& one : delivered) {
-        bool any_complete = false;
+        bool all_complete = true;
         for (const fs::path& file : one.files) {
             known.insert(file);
             ++after.files;
@@ -100,9 +100,9 @@ void check_files(const std::vector<Delivered>& delivered, const Rows& rows, Afte
                          begin->second.database, std::next(begin)->second.database);
             }
             if (count > 0) check_row(file, begin->second, one.contents, after);
-            any_complete = any_complete || (count > 0 && begin->second.state == "complete");
+            all_complete = all_complete && count > 0 && begin->second.state == "complete";
         }
-        if (one.contents == Contents::part && one.files.size() == 1 && any_complete) {
+        if (one.contents == Contents::part && all_complete) {
             complain(after, "{}: is a part, and registered as complete",
                      one.files.front().native());
         }

@@ -14,6 +14,13 @@
 
 namespace stormcellar::fault {
 
+// Built with a sanitizer, which has to be loaded first and takes memory of its own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
 // The number in the environment, or what is usual: `STORMCELLAR_KILLS=1000`.
 [[nodiscard]] int number_of(const char* variable, int usual);
 

@@ -38,7 +38,9 @@ TEST(Kill, AtRandomMomentsUnderLoad) {
     const auto began = Clock::now();
     FaultyDaemon daemon;
     int at_start = 0, in_a_write = 0;
-    Feed feed(daemon.drop(), seed, std::chrono::milliseconds{2});
+    Shipments shipments(daemon.drop(), seed);
+    if (kills >= 100) shipments.have_patience();
+    Feed feed(std::move(shipments), seed, std::chrono::milliseconds{2});
     for (int kill = 0; kill < kills; ++kill) {
         feed.allow(10 + 4 * kill);
         daemon.start();

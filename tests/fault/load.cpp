@@ -113,12 +113,16 @@ Shipments::Shipments(fs::path drop, std::uint32_t seed, const std::vector<std::s
     if (!stations.empty()) return;
     const auto data = testing::data_directory();
     if (!data) return;
-    for (const auto& entry : fs::directory_iterator(*data / "sequence-kbgm")) {
-        auto bytes = read_file(entry.path());
+    std::vector<fs::path> sources = {*data / "volumes/Level2_TSTL_20220213_2357.ar2v",
+                                     *data / "volumes/KTLX20170101_030027_V06"};
+    for (const auto& entry : fs::directory_iterator(*data / "sequence-kbgm"))
+        sources.push_back(entry.path());
+    for (const fs::path& source : sources) {
+        auto bytes = read_file(source);
         const auto decoded = bytes ? level2::decode(*bytes) : tl::unexpected(bytes.error());
         if (!decoded) throw std::runtime_error(decoded.error().message);
-        real_.push_back({entry.path(), decoded->volume.station, *decoded->volume.start_time(),
-                         std::move(*bytes)});
+        real_.push_back(
+            {source, decoded->volume.station, *decoded->volume.start_time(), std::move(*bytes)});
     }
 }
 
@@ -134,7 +138,7 @@ Shipment Shipments::laid_out(Way way, const std::string& station, UtcTime start,
     for (std::size_t i = 0; i < count; ++i) {
         const char kind = i == 0 ? 'S' : i + 1 == count ? 'E' : 'I';
         shipment.delivered.files.push_back(
-            drop_ / station / fmt::format("{}", number_ % 1000) /
+            drop_ / station / fmt::format("{}", number_) /
             fmt::format("{}-{}-{:03}-{}", time.substr(0, 8), time.substr(9), i + 1, kind));
     }
     return shipment;
@@ -152,11 +156,17 @@ Shipment Shipments::volume(Way way) {
     return laid_out(way, pattern.station, start, pieces_of(encoded->joined()));
 }
 
-// Without its last pieces.
+// Without its last pieces; of chunks without one in its midst.
 Shipment Shipments::part(Way way) {
-    Shipment shipment = volume(way == Way::chunks ? Way::growing : way);
-    shipment.pieces.resize(3 + random_() % 3);
+    Shipment shipment = volume(way);
     shipment.delivered.contents = Contents::part;
+    const auto at = static_cast<std::ptrdiff_t>(3 + random_() % 3);
+    if (way == Way::chunks) {
+        shipment.pieces.erase(shipment.pieces.begin() + at);
+        shipment.delivered.files.erase(shipment.delivered.files.begin() + at);
+    } else {
+        shipment.pieces.resize(static_cast<std::size_t>(at));
+    }
     return shipment;
 }
 
@@ -173,6 +183,10 @@ Shipment Shipments::junk() {
 std::optional<Shipment> Shipments::real(Way way) {
     if (real_.empty()) return std::nullopt;
     const Real& real = real_[static_cast<std::size_t>(number_) % real_.size()];
+    if (way == Way::chunks && synth::has_ldm_records(real.bytes)) {
+        ++number_;  // of the directory: no two shipments have one
+        return laid_out(way, real.station, real.time, pieces_of(real.bytes));
+    }
     Shipment shipment;
     shipment.way = way == Way::chunks ? Way::growing : way;
     shipment.pieces = pieces_of(real.bytes);
@@ -189,7 +203,8 @@ Shipment Shipments::next() {
     switch (random_() % 40) {
         case 0:
         case 1:
-            return part(way);
+            // A lost chunk is waited for half a minute.
+            return part(way == Way::chunks && !has_patience_ ? Way::growing : way);
         case 2:
         case 3:
             return junk();
@@ -215,8 +230,8 @@ void deliver(const Shipment& shipment) {
     expect(writer.close());
 }
 
-Feed::Feed(fs::path drop, std::uint32_t seed, std::chrono::microseconds pause)
-    : shipments_(std::move(drop), seed),
+Feed::Feed(Shipments shipments, std::uint32_t seed, std::chrono::microseconds pause)
+    : shipments_(std::move(shipments)),
       random_(seed + 1),
       pause_(pause),
       thread_([this] { run(); }) {}

@@ -41,11 +41,14 @@ class Shipments {
 
     // The next one: a volume as a rule, now and then a part of one, junk or a real volume.
     Shipment next();
+    // Chunks of a part are lost only where there is time: the daemon waits for them.
+    void have_patience() { has_patience_ = true; }
     // A whole simulated volume.
     Shipment volume(Way way);
     Shipment junk();
     Shipment part(Way way);
-    // A real volume that comes whole or grows; none where there are no data.
+    // A real volume; one that has no LDM records grows where chunks are asked for. None where there
+    // are no data.
     std::optional<Shipment> real(Way way);
 
   private:
@@ -55,13 +58,13 @@ class Shipments {
         UtcTime time;
         std::vector<std::byte> bytes;
     };
-    std::vector<std::vector<std::byte>> make_volume(const std::string& station, UtcTime start);
     Shipment laid_out(Way way, const std::string& station, UtcTime start,
                       std::vector<std::vector<std::byte>> pieces);
 
     std::filesystem::path drop_;
     std::mt19937 random_;
     int number_ = 0;  // of all shipments
+    bool has_patience_ = false;
     std::vector<level2::Volume> patterns_;
     std::vector<Real> real_;
 };
@@ -73,7 +76,7 @@ void deliver(const Shipment& shipment);
 class Feed {
   public:
     // `pause`: after each piece. It begins no more than allow() has allowed in all.
-    Feed(std::filesystem::path drop, std::uint32_t seed, std::chrono::microseconds pause);
+    Feed(Shipments shipments, std::uint32_t seed, std::chrono::microseconds pause);
     Feed(const Feed&) = delete;
     Feed& operator=(const Feed&) = delete;
     ~Feed();
