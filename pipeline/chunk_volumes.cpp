@@ -84,13 +84,17 @@ level2::LiveOptions ChunkVolume::with_depot(level2::LiveOptions live) const {
     return live;
 }
 
-ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
+Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
     const auto known = files_.find(chunk.path);
     if (known != files_.end() && known->second.stamp == stamp) {
         return known->second.is_whole ? Added::added : Added::unfinished;
     }
     const auto bytes = read_beneath(beneath_, chunk.path, most_chunk_bytes);
-    if (!bytes) return Added::not_ours;
+    if (!bytes) {
+        const ErrorCode code = bytes.error().code;
+        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
+        return Added::not_ours;
+    }
     File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
     const auto added =
         live_.add(chunk.name.number, chunk.name.kind, *bytes, level2::LiveVolume::Clock::now());
@@ -108,12 +112,16 @@ ChunkVolume::Added ChunkVolume::add(const ChunkPath& chunk, const FileStamp& sta
     return Added::added;
 }
 
-void ChunkVolume::add_siblings(const ChunkPath& of) {
+Status ChunkVolume::add_siblings(const ChunkPath& of) {
     waiter_ = of.path;
     std::vector<ChunkPath> found;
     const fs::path directory = of.path.parent_path();
     const auto names = names_beneath(beneath_, directory);
-    if (!names) return;
+    if (!names) {
+        const ErrorCode code = names.error().code;
+        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(names);
+        return {};
+    }
     for (const std::string& name : *names) {
         if (!name.starts_with(of.prefix) || is_temporary_name(name)) continue;
         auto chunk = ChunkPath::of(directory / name);
@@ -127,9 +135,11 @@ void ChunkVolume::add_siblings(const ChunkPath& of) {
     });
     for (const ChunkPath& chunk : found) {
         const auto stamp = stamp_of(chunk.path, beneath_);
-        if (stamp && stamp->regular) (void)add(chunk, *stamp);
+        if (!stamp || !stamp->regular) continue;
+        if (const auto added = add(chunk, *stamp); !added) return pass_on(added);
     }
     waiter_ = of.path;
+    return {};
 }
 
 fs::path ChunkVolume::first_file() const {

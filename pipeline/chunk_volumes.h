@@ -45,10 +45,12 @@ class ChunkVolume {
         unfinished,  // nothing in it is whole yet
         not_ours,    // no chunk of this volume, whatever its name says: to be taken by itself
     };
-    // Reads the file unless it is known with this stamp.
-    [[nodiscard]] Added add(const ChunkPath& chunk, const FileStamp& stamp);
-    // All others that lie beside this one, which waits in their names.
-    void add_siblings(const ChunkPath& of);
+    // Reads the file unless it is known with this stamp. io, no_space: it cannot be read now, as
+    // when descriptors run out, and is to be asked for again.
+    [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
+    // All others that lie beside this one, which waits in their names. Errors as add(): some may be
+    // missing.
+    [[nodiscard]] Status add_siblings(const ChunkPath& of);
 
     // Whether it is the one that came last, which is asked again when nothing has come for a while.
     [[nodiscard]] bool waits(const ChunkPath& chunk) const { return chunk.path == waiter_; }

@@ -133,16 +133,19 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         lock = std::unique_lock(volume->mutex);
     }
     const auto start = Clock::now();
-    const ChunkVolume::Added added = volume->add(chunk, before);
-    if (added == ChunkVolume::Added::not_ours) {
+    const auto added = volume->add(chunk, before);
+    if (!added) return pass_on(added);
+    if (*added == ChunkVolume::Added::not_ours) {
         if (volume->files().empty()) chunks->forget(chunk, volume.get());
         return std::nullopt;
     }
-    if (!volume->is_loaded) volume->add_siblings(chunk);
+    if (!volume->is_loaded) {
+        if (const Status all = volume->add_siblings(chunk); !all) return pass_on(all);
+    }
     volume->is_loaded = true;
     outcome.decode_s = seconds_since(start);
     outcome.result = IngestResult::incomplete;
-    if (added == ChunkVolume::Added::unfinished) {
+    if (*added == ChunkVolume::Added::unfinished) {
         if (finish != Finish::when_it_ends) return std::nullopt;
         return outcome;
     }
@@ -157,10 +160,12 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
     outcome.station = facts.station;
     if (volume->is_whole() || finish == Finish::as_it_is ||
         (finish == Finish::when_quiet && volume->is_due())) {
-        // A volume that could not be stored is put together again.
+        // A volume that could not be stored is put together again. Until then it is found, and
+        // waited for: two of one volume would overwrite each other's rows.
         volume->is_finished = true;
+        auto finished = finish_chunks(*volume, facts.station, std::move(outcome));
         chunks->forget(chunk, volume.get());
-        return finish_chunks(*volume, facts.station, std::move(outcome));
+        return finished;
     }
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "base/checksum.h"
@@ -419,6 +420,61 @@ TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
     EXPECT_EQ(house_.ingestor->ingest_again(drop_ / names_[0])->result, IngestResult::gridded);
     EXPECT_EQ(house_.grids("KLOT").size(), 1U);
     EXPECT_EQ(house_.catalog->list("KLOT", {})->size(), 1U);
+}
+
+// 2026-11-22: the volume was forgotten before it was finished, so that one who came meanwhile made
+// another, and what failed of the one undid rows of the other.
+TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i)
+        take(house_, i);
+    append_to(drop_ / names_.back(), parts_.back());
+    std::atomic<int> gridded = 0;
+    std::vector<std::thread> workers;
+    for (std::size_t i = 0; i < 20; ++i) {
+        workers.emplace_back([&, i] {
+            const fs::path& name = i == 0 ? names_.back() : names_[i];
+            std::this_thread::sleep_for(std::chrono::milliseconds{10 * i});
+            const auto outcome = house_.ingestor->ingest(drop_ / name, false);
+            EXPECT_TRUE(outcome);
+            gridded += outcome && outcome->result == IngestResult::gridded ? 1 : 0;
+        });
+    }
+    for (std::thread& worker : workers)
+        worker.join();
+    EXPECT_EQ(gridded, 1);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+// 2026-11-22: a chunk that could not be read counted as none, and what lay beside the first one as
+// not there: the volume was finished without them.
+TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
+    take(house_, 0);  // opens the database
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    for (std::size_t i = 1; i < names_.size(); ++i)
+        append_to(drop_ / names_[i], parts_[i]);
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    for (rlim_t most = 3; most < 40; ++most) {
+        const rlimit few{most, before.rlim_max};
+        ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+        const auto outcome = house_.ingestor->ingest(drop_ / names_.back(), false);
+        ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+        if (outcome) {
+            EXPECT_EQ(outcome->result, IngestResult::gridded) << most;
+            break;
+        }
+        EXPECT_EQ(outcome.error().code, ErrorCode::io) << outcome.error().message;
+        EXPECT_NE(outcome.error().message.find("Too many open files"), std::string::npos)
+            << outcome.error().message;
+    }
+    expect_same_cells(house_);
+    expect_one_volume(house_);
 }
 
 TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
