@@ -145,6 +145,7 @@ TEST_P(FailingCalls, NothingIsLost) {
         "%s: %lu calls, %zu tried, %zu of them came to fail, %zu ended the daemon, at most "
         "%.1f s until all was there\n",
         GetParam().name, calls, places.size(), failed, ended, longest_s);
+    std::fflush(stdout);
     EXPECT_GT(failed, 0U);
 }
 

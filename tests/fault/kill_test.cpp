@@ -65,6 +65,7 @@ TEST(Kill, AtRandomMomentsUnderLoad) {
         "files settled by then; %s\n",
         kills, killing_s, at_start, in_a_write, settled_before, after.files,
         after.summary().c_str());
+    std::fflush(stdout);
 }
 
 }  // namespace

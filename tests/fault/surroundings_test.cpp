@@ -54,6 +54,7 @@ class Surroundings : public ::testing::Test {
         std::printf("%s: caught up %.1f s after it ended; %s\n",
                     ::testing::UnitTest::GetInstance()->current_test_info()->name(), seconds_,
                     after.summary().c_str());
+        std::fflush(stdout);
         return after;
     }
     bool log_says(const std::string& text) { return daemon_.running().wait_for_log(text); }
@@ -266,6 +267,7 @@ TEST_F(Surroundings, ManyFilesAtOnce) {
     expect_to_catch_up(1800);
     const std::size_t peak_mib = peak_memory_mib(daemon_.id());
     std::printf("%d files, written within %.1f s: peak %zu MiB\n", files, written_s, peak_mib);
+    std::fflush(stdout);
     if (!is_sanitized) {
         EXPECT_LT(peak_mib, 400U);
     }
