@@ -128,7 +128,9 @@ struct Catalog::Impl {
             if (is_snapshot) place.database.reset();
             return done;
         } catch (const SQLite::Exception& error) {
-            if (is_snapshot) place.database.reset();
+            // Where a file cannot be opened for writing, SQLite opens it for reading, and stays so.
+            const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
+            if (is_snapshot || is_stuck) place.database.reset();
             return fail(code_of(error), "{}: {}", path.native(), error.what());
         }
     }

@@ -1,10 +1,13 @@
 #include "catalog/catalog.h"
 
+#include <cerrno>
 #include <fstream>
 #include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "tests/testing/temporary_directory.h"
 
@@ -63,6 +66,31 @@ TEST_F(CatalogTest, SeveralFilesAreRegisteredTogether) {
     EXPECT_EQ(catalog_.list("KTLX", {std::nullopt, std::nullopt, true})->size(), 2U);
     ASSERT_TRUE(catalog_.register_files("KTLX", {first, second})) << "and again";
     ASSERT_TRUE(catalog_.register_files("KTLX", {}));
+}
+
+// Opens nothing for writing, as when descriptors run out or a disk fails.
+int open_for_reading_alone(const char* path, int flags, int mode) {
+    if ((flags & O_ACCMODE) == O_RDONLY) return ::open(path, flags, mode);
+    errno = EIO;
+    return -1;
+}
+
+// 2026-11-22: a database that was opened in such a moment could not be written until the next
+// start.
+TEST_F(CatalogTest, WhatCouldOnlyBeOpenedForReadingIsOpenedAgain) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
+    Catalog second = *Catalog::open_for_writing(directory_ / "catalog");
+    sqlite3_vfs* const vfs = sqlite3_vfs_find("unix");
+    ASSERT_EQ(vfs->xSetSystemCall(vfs, "open",
+                                  reinterpret_cast<sqlite3_syscall_ptr>(&open_for_reading_alone)),
+              SQLITE_OK);
+    const auto refused = second.register_file(file("/d/b", {volume("2022-03-17T00:10")}));
+    ASSERT_EQ(vfs->xSetSystemCall(vfs, "open", nullptr), SQLITE_OK);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::permission) << refused.error().message;
+    const auto taken = second.register_file(file("/d/b", {volume("2022-03-17T00:10")}));
+    EXPECT_TRUE(taken) << taken.error().message;
+    EXPECT_EQ(second.list("KTLX", {})->size(), 2U);
 }
 
 TEST_F(CatalogTest, KeepsEveryFact) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <future>
 #include <mutex>
+#include <ostream>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,10 @@ struct Failure {
     bool in_drop;        // also of the files that come
     bool needs_restart;  // what stays meanwhile goes at the next start
 };
+
+void PrintTo(const Failure& failure, std::ostream* out) {
+    *out << failure.name;
+}
 
 constexpr std::uint32_t changes =
     kind_write | kind_truncate | kind_sync | kind_rename | kind_create;
