@@ -21,6 +21,16 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// The chunk, and with the first one all that lie beside it.
+Result<ChunkVolume::Added> add_to(ChunkVolume& volume, const ChunkPath& chunk,
+                                  const FileStamp& stamp) {
+    auto added = volume.add(chunk, stamp);
+    if (!added || *added == ChunkVolume::Added::not_ours || volume.is_loaded) return added;
+    if (const Status all = volume.add_siblings(chunk); !all) return pass_on(all);
+    volume.is_loaded = true;
+    return added;
+}
+
 }  // namespace
 
 Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news,
@@ -133,16 +143,12 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         lock = std::unique_lock(volume->mutex);
     }
     const auto start = Clock::now();
-    const auto added = volume->add(chunk, before);
+    const auto added = add_to(*volume, chunk, before);
     if (!added) return pass_on(added);
     if (*added == ChunkVolume::Added::not_ours) {
         if (volume->files().empty()) chunks->forget(chunk, volume.get());
         return std::nullopt;
     }
-    if (!volume->is_loaded) {
-        if (const Status all = volume->add_siblings(chunk); !all) return pass_on(all);
-    }
-    volume->is_loaded = true;
     outcome.decode_s = seconds_since(start);
     outcome.result = IngestResult::incomplete;
     if (*added == ChunkVolume::Added::unfinished) {

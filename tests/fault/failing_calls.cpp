@@ -76,9 +76,12 @@ int fail_with(int error_number) {
     return -1;
 }
 
+constexpr bool has_mode(int flags) {
+    return (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
+}
+
 int fate_of_open(const char* path, int flags, const char* call) {
-    const bool makes = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
-    return fate(makes ? kind_create : kind_open, call, path);
+    return fate(has_mode(flags) ? kind_create : kind_open, call, path);
 }
 
 template <class Write>
@@ -88,17 +91,12 @@ ssize_t write_or_fail(const char* call, int descriptor, std::size_t size, Write 
     return write(what == short_write && size > 1 ? size / 2 : size);
 }
 
-mode_t mode_of(int flags, std::va_list& more) {
-    const bool has_mode = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
-    return has_mode ? va_arg(more, mode_t) : 0;
-}
-
 }  // namespace
 
-#define STORMCELLAR_MODE(flags)               \
-    std::va_list more;                        \
-    va_start(more, flags);                    \
-    const mode_t mode = mode_of(flags, more); \
+#define STORMCELLAR_MODE(flags)                                     \
+    std::va_list more;                                              \
+    va_start(more, flags);                                          \
+    const mode_t mode = has_mode(flags) ? va_arg(more, mode_t) : 0; \
     va_end(more)
 
 extern "C" {

@@ -35,7 +35,7 @@ std::size_t settled_in(const fs::path& database) {
 
 int number_of(const char* variable, int usual) {
     const char* text = std::getenv(variable);
-    return text == nullptr ? usual : std::atoi(text);
+    return text == nullptr ? usual : static_cast<int>(std::strtol(text, nullptr, 10));
 }
 
 void FaultyDaemon::start(const std::map<std::string, std::string>& environment,

@@ -247,7 +247,7 @@ TEST_F(Surroundings, ManyFilesAtOnce) {
     const int files = number_of("STORMCELLAR_FAULT_FILES", 4000);
     const fs::path prepared = daemon_.running().root() / "prepared";
     const auto junk = [&](const fs::path& directory, int number) {
-        const fs::path name = std::to_string(number / 1000) + "/f" + std::to_string(number);
+        fs::path name = std::to_string(number / 1000) + "/f" + std::to_string(number);
         fs::create_directories((directory / name).parent_path());
         write_file(directory / name, "no radar data " + std::to_string(number));
         return name;
