@@ -31,6 +31,19 @@ Result<ChunkVolume::Added> add_to(ChunkVolume& volume, const ChunkPath& chunk,
     return added;
 }
 
+// Of a chunk that was added.
+FileFacts facts_of(const ChunkVolume& volume, const ChunkPath& chunk, const FileStamp& stamp) {
+    FileFacts facts;
+    facts.path = chunk.path;
+    facts.size_bytes = stamp.size_bytes;
+    facts.modified_ns = stamp.modified_ns;
+    facts.content_hash = volume.files().at(chunk.path).content_hash;
+    facts.station = volume.station();
+    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
+    facts.state = FileState::seen;
+    return facts;
+}
+
 }  // namespace
 
 Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news,
@@ -155,14 +168,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         if (finish != Finish::when_it_ends) return std::nullopt;
         return outcome;
     }
-    FileFacts facts;
-    facts.path = chunk.path;
-    facts.size_bytes = before.size_bytes;
-    facts.modified_ns = before.modified_ns;
-    facts.content_hash = volume->files().at(chunk.path).content_hash;
-    facts.station = volume->station();
-    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
-    facts.state = FileState::seen;
+    const FileFacts facts = facts_of(*volume, chunk, before);
     outcome.station = facts.station;
     if (volume->is_whole() || finish == Finish::as_it_is ||
         (finish == Finish::when_quiet && volume->is_due())) {
