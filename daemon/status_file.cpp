@@ -22,11 +22,9 @@ Status StatusFile::write(const std::string& text) {
     if (!descriptor) return pass_on(descriptor);
     Status written = file_system_.write_at(*descriptor, 0, std::as_bytes(std::span{text}));
     file_system_.close(*descriptor);
-    if (!written) {
-        (void)file_system_.remove(temporary_);
-        return written;
-    }
-    return file_system_.rename(temporary_, path_);
+    if (written) written = file_system_.rename(temporary_, path_);
+    if (!written) (void)file_system_.remove(temporary_);
+    return written;
 }
 
 bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyTime now,
@@ -42,6 +40,7 @@ bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyT
                   printable(written.error().message));
     }
     failing_ = !written;
+    changed_ = failing_;  // to be tried again
     return true;
 }
 

@@ -113,6 +113,7 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
 }
 
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
+    waiter_ = of.path;
     std::vector<ChunkPath> found;
     const fs::path directory = of.path.parent_path();
     const auto names = names_beneath(beneath_, directory);

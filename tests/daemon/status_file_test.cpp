@@ -76,5 +76,18 @@ TEST_F(StatusFileTest, AFullDiskLeavesTheLastWholeDocument) {
     EXPECT_EQ(entries(), 1U);
 }
 
+// 2026-11-22: the temporary file stayed, and nothing was written until the next change.
+TEST_F(StatusFileTest, WhatCannotBePutInPlaceIsTakenAwayAndTriedAgain) {
+    std::filesystem::create_directory(state_ / "status.json");
+    StatusFile file(real_file_system(), state_.path(), notifier_);
+    file.publish(book_, {}, t0, true);
+    EXPECT_EQ(entries(), 1U) << "no temporary file is left";
+    std::filesystem::remove(state_ / "status.json");
+    ASSERT_TRUE(file.next_time());
+    file.publish(book_, {}, *file.next_time(), false);
+    EXPECT_EQ(state_on_disk(), "starting");
+    EXPECT_FALSE(file.next_time());
+}
+
 }  // namespace
 }  // namespace stormcellar::daemon

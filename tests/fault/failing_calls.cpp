@@ -61,14 +61,27 @@ int fate(Kind kind, const char* call, const char* path) {
     return steer->error_number;
 }
 
-int fate_of(Kind kind, const char* call, int descriptor) {
-    if (steering() == nullptr || (steering()->kinds & kind) == 0) return 0;
-    char link[64], path[PATH_MAX];
+// Where the descriptor leads; false where that cannot be said.
+bool find_path(int descriptor, char (&path)[PATH_MAX]) {
+    char link[64];
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
     const ssize_t length = ::readlink(link, path, sizeof path - 1);
-    if (length <= 0) return 0;
-    path[length] = '\0';
-    return fate(kind, call, path);
+    path[length < 0 ? 0 : length] = '\0';
+    return length > 0;
+}
+
+int fate_of(Kind kind, const char* call, int descriptor) {
+    if (steering() == nullptr || (steering()->kinds & kind) == 0) return 0;
+    char path[PATH_MAX];
+    return find_path(descriptor, path) ? fate(kind, call, path) : 0;
+}
+
+// What openat() means by it.
+const char* path_below(int directory, const char* path, char (&whole)[2 * PATH_MAX]) {
+    char parent[PATH_MAX];
+    if (steering() == nullptr || path[0] == '/' || !find_path(directory, parent)) return path;
+    std::snprintf(whole, sizeof whole, "%s/%s", parent, path);
+    return whole;
 }
 
 int fail_with(int error_number) {
@@ -197,7 +210,8 @@ int open64(const char* path, int flags, ...) {
 int openat(int directory, const char* path, int flags, ...) {
     STORMCELLAR_MODE(flags);
     static const auto real = next<int (*)(int, const char*, int, ...)>("openat");
-    const int what = fate_of_open(path, flags, "openat");
+    char whole[2 * PATH_MAX];
+    const int what = fate_of_open(path_below(directory, path, whole), flags, "openat");
     return what > 0 ? fail_with(what) : real(directory, path, flags, mode);
 }
 

@@ -68,7 +68,13 @@ bool ends_before(FaultyDaemon& daemon, SteeringFile& steering, bool lasts, std::
     while (Clock::now() < limit) {
         if (lasts && steering->failed > 0 && !first) first = Clock::now();
         if (first && Clock::now() - *first > std::chrono::milliseconds{200}) steering.end();
-        if (daemon.running().ended()) return true;
+        if (const auto status = daemon.running().ended()) {
+            EXPECT_EQ(*status, 1) << daemon.log_end();
+            EXPECT_EQ(daemon.log_end().find("ready: watching"), std::string::npos)
+                << "it may give up at its start alone\n"
+                << daemon.log_end();
+            return true;
+        }
         if (daemon.settled() >= files) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds{20});
     }
