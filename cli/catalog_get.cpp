@@ -10,6 +10,8 @@
 #include "cli/commands.h"
 #include "cli/volume_export.h"
 #include "level2/decode.h"
+#include "pipeline/chunk_path.h"
+#include "pipeline/drop_names.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -59,7 +61,48 @@ class Targets {
     std::map<fs::path, fs::path> taken_;  // and the source of each
 };
 
+// The chunks of a volume in one file are a volume's file: what is joined is theirs, in the order of
+// their numbers, of each number one.
+Result<std::vector<std::byte>> read_chunks(const pipeline::ChunkPath& first) {
+    auto chunks = pipeline::chunks_beside(first);
+    if (!chunks) return pass_on(chunks);
+    chunks->insert(chunks->begin(), first);
+    std::vector<std::byte> joined;
+    int due = 1;
+    for (const pipeline::ChunkPath& chunk : *chunks) {
+        if (chunk.name.number < due) continue;  // a second one of its number
+        if (chunk.name.number > due) {
+            fmt::print(stderr, "{}: chunks are missing before this one\n",
+                       printable(chunk.path.native()));
+        }
+        due = chunk.name.number + 1;
+        const auto bytes = read_file(chunk.path);
+        if (!bytes) return pass_on(bytes);
+        joined.insert(joined.end(), bytes->begin(), bytes->end());
+    }
+    return joined;
+}
+
+// Where a volume came as one file a chunk, its row is that of the first.
+bool is_of_chunks(const CatalogEntry& entry) {
+    return entry.volume.start_time && pipeline::is_chunk_name(entry.path);
+}
+
+// As the archives name a volume's file: "KLOT20220317_000842".
+std::string name_of_file(const CatalogEntry& entry) {
+    if (!is_of_chunks(entry)) return entry.path.filename().string();
+    const std::string time = format_utc(*entry.volume.start_time);  // 2022-03-17T00:08:42Z
+    std::string name = entry.station;
+    for (const char letter : time.substr(0, 19)) {
+        if (letter == 'T') name += '_';
+        if (letter >= '0' && letter <= '9') name += letter;
+    }
+    return name;
+}
+
 Result<std::vector<std::byte>> read_raw(const CatalogEntry& entry) {
+    const auto chunk = pipeline::ChunkPath::of(entry.path);
+    if (chunk && is_of_chunks(entry)) return read_chunks(*chunk);
     auto bytes = read_file(entry.path);
     if (bytes && bytes->size() != entry.size_bytes) {
         return fail(ErrorCode::corrupt, "{}: has {} bytes and not the {} of the catalog",
@@ -69,7 +112,7 @@ Result<std::vector<std::byte>> read_raw(const CatalogEntry& entry) {
 }
 
 Status copy_raw(const MatchedFile& file, Targets& targets) {
-    const auto to = targets.claim(file.entry.path.filename().string(), file.entry.path);
+    const auto to = targets.claim(name_of_file(file.entry), file.entry.path);
     if (!to) return pass_on(to);
     const auto bytes = read_raw(file.entry);
     if (!bytes) return pass_on(bytes);
@@ -105,7 +148,7 @@ Status write_decoded(const MatchedFile& file, Targets& targets) {
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
-    const std::string name = name_without_compression(file.entry.path);
+    const std::string name = name_without_compression(name_of_file(file.entry));
     const bool alone = volumes.size() == 1;
     bool any = false;
     for (std::size_t i = 0; i < volumes.size(); ++i) {

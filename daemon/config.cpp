@@ -79,6 +79,13 @@ void read_seconds(TomlTable& table, std::string_view key, TomlRange range,
     }
 }
 
+void read_whole_seconds(TomlTable& table, std::string_view key, std::pair<int, int> range,
+                        std::chrono::seconds& value) {
+    if (const auto seconds = table.whole_number(key, {range.first, range.second})) {
+        value = std::chrono::seconds{*seconds};
+    }
+}
+
 void read_levels(TomlTable& ingest, Config& config) {
     if (const auto levels_m = pipeline::read_levels_m(ingest)) config.ingest.levels_m = *levels_m;
 }
@@ -137,6 +144,9 @@ void read_ingest(TomlTable ingest, Config& config) {
     config.ingest.grid_threads = config.ingest.decode_threads;
     if (const auto living = ingest.flag("living")) config.living = *living;
     read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
+    read_whole_seconds(ingest, "chunk_timeout_seconds", {1, 86400},
+                       config.ingest.living.chunk_timeout);
+    read_whole_seconds(ingest, "chunk_grace_seconds", {0, 86400}, config.ingest.living.chunk_grace);
     read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
     if (const auto name = ingest.text("moment")) {
         if (const auto moment = pipeline::read_moment(ingest, "moment", *name)) {

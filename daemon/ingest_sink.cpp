@@ -16,10 +16,9 @@ pipeline::IngestOptions IngestSink::options_of(const Config& config,
                                                std::shared_ptr<const std::atomic<bool>> pressed) {
     pipeline::IngestOptions options = config.ingest;
     options.beneath = config.drop;
-    if (config.living) {
-        options.living.scratch = config.state;
-        options.living.has_time = [pressed = std::move(pressed)] { return !*pressed; };
-    }
+    options.living.scratch = config.state;
+    options.living.make = config.living;
+    options.living.has_time = [pressed = std::move(pressed)] { return !*pressed; };
     return options;
 }
 

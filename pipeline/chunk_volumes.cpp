@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 constexpr std::size_t most_volumes = 320;  // each has a descriptor
-constexpr std::size_t most_siblings = 2000;
 
 // The pieces of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
@@ -51,26 +50,6 @@ std::unique_ptr<KeptVolume> kept_volume_in(const fs::path& directory) {
 }
 
 }  // namespace
-
-// The key has all of the name but the chunk's number and kind.
-std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
-    const std::string file = path.filename().string();
-    auto name = level2::parse_chunk_name(file);
-    if (!name) return std::nullopt;
-    for (std::size_t at = file.find(name->volume); at != std::string::npos;
-         at = file.find(name->volume, at + 1)) {
-        const std::size_t number = at + name->volume.size() + 1;
-        const std::size_t kind = file.find('-', number);
-        const bool is_it = kind != std::string::npos && kind + 1 < file.size() &&
-                           file[number - 1] == '-' &&
-                           level2::parse_chunk_name(file.substr(at, kind + 2 - at)) == name;
-        if (!is_it) continue;
-        std::string prefix = file.substr(0, number);
-        std::string key = (path.parent_path() / (prefix + file.substr(kind + 2))).native();
-        return ChunkPath{path, std::move(prefix), std::move(key), std::move(*name)};
-    }
-    return std::nullopt;
-}
 
 ChunkVolume::ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live)
     : moment_(options.moment),
@@ -114,26 +93,13 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
 
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     waiter_ = of.path;
-    std::vector<ChunkPath> found;
-    const fs::path directory = of.path.parent_path();
-    const auto names = names_beneath(beneath_, directory);
-    if (!names) {
-        const ErrorCode code = names.error().code;
-        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(names);
+    const auto found = chunks_beside(of, beneath_);
+    if (!found) {
+        const ErrorCode code = found.error().code;
+        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(found);
         return {};
     }
-    for (const std::string& name : *names) {
-        if (!name.starts_with(of.prefix) || is_temporary_name(name)) continue;
-        auto chunk = ChunkPath::of(directory / name);
-        if (chunk && chunk->key == of.key && chunk->path != of.path &&
-            found.size() < most_siblings) {
-            found.push_back(std::move(*chunk));
-        }
-    }
-    std::sort(found.begin(), found.end(), [](const ChunkPath& a, const ChunkPath& b) {
-        return std::tie(a.name.number, a.path) < std::tie(b.name.number, b.path);
-    });
-    for (const ChunkPath& chunk : found) {
+    for (const ChunkPath& chunk : *found) {
         const auto stamp = stamp_of(chunk.path, beneath_);
         if (!stamp || !stamp->regular) continue;
         if (const auto added = add(chunk, *stamp); !added) return pass_on(added);

@@ -6,8 +6,9 @@
 // volume is put together again from the files.
 // What is decoded lies on the shelf (pipeline/sweep_shelf.h) until it is wanted.
 // Bounded: beyond so many bytes or volumes the volume to which nothing has come for longest is
-// forgotten, and put together again with its next chunk. Inside the
-// pipeline room only. Thread contract: find() by many threads; a volume by whoever holds its mutex.
+// forgotten, and put together again with its next chunk.
+// Inside the pipeline room only. Thread contract: find() by many threads; a volume by whoever holds
+// its mutex.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +20,12 @@
 #include <string>
 #include <vector>
 
-#include "level2/chunk_name.h"
 #include "level2/live_volume.h"
+#include "pipeline/chunk_path.h"
 #include "pipeline/file_facts.h"
 #include "pipeline/living_file.h"
 
 namespace stormcellar::pipeline {
-
-// A path that is named as a chunk.
-struct ChunkPath {
-    std::filesystem::path path;
-    std::string prefix;  // of the names of all chunks of its volume
-    std::string key;     // the same for all chunks of its volume, and for no others
-    level2::ChunkName name;
-
-    [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);
-};
 
 class ChunkVolume {
   public:

@@ -52,9 +52,7 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
       store(its_store),
       options(std::move(its_options)),
       mosaics(store, options.domains, options.frames) {
-    if (store == nullptr) return;
-    site_grids.emplace(*store, options);
-    if (options.living.scratch.empty()) return;
+    if (store != nullptr) site_grids.emplace(*store, options);
     const LivingFile::Options follow{
         .selection = {moments_of(options), {}},
         .moment = options.moment,
@@ -64,8 +62,10 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
         .chunk_timeout = options.living.chunk_timeout,
         .chunk_grace = options.living.chunk_grace,
     };
-    living.emplace(follow);
     chunks.emplace(follow);
+    if (store != nullptr && options.living.make && !options.living.scratch.empty()) {
+        living.emplace(follow);
+    }
 }
 
 Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
@@ -221,9 +221,11 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     }
     const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
     if (chunk) {
-        if (auto taken = impl_->take_chunk(
-                *chunk, *before, finish_partial ? Finish::when_quiet : Finish::when_it_ends,
-                outcome)) {
+        // Nobody who has nowhere to put things aside comes again when it has been quiet.
+        const Finish finish = !finish_partial                         ? Finish::when_it_ends
+                              : impl_->options.living.scratch.empty() ? Finish::as_it_is
+                                                                      : Finish::when_quiet;
+        if (auto taken = impl_->take_chunk(*chunk, *before, finish, outcome)) {
             return std::move(*taken);
         }
     }

@@ -30,8 +30,10 @@ namespace stormcellar::pipeline {
 // Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
 // theirs has come.
 struct LivingGrids {
-    // A directory for what they put aside, in files without names; empty: none are made.
+    // A directory for what is put aside, in files without names; empty: none are made, and of
+    // volumes that come as one file a chunk all that lies there is a volume when it is finished.
     std::filesystem::path scratch;
+    bool make = true;  // false: none are made, and chunks are put together all the same
     // Asked before each: false while there is more urgent work. The sweeps are in the next one.
     // Not asked for what shows a new low sweep. Empty: there is always time.
     std::function<bool()> has_time;

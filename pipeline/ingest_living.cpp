@@ -51,7 +51,7 @@ Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news
                                          IngestOutcome& outcome) {
     // A grid is named by the start in the header: without it, it would stay beside the whole one.
     if (!kept.facts.header) return false;
-    if (!options.own_grids) return false;
+    if (!living || !options.own_grids) return false;
     // With the next sweep, or when the volume has ended. Low sweeps are what is looked at first.
     if (!news.low && options.living.has_time && !options.living.has_time()) {
         outcome.living_left_out = true;
@@ -227,7 +227,7 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     if (Status settled = catalog.register_files(station, others); !settled) {
         return pass_on(settled);
     }
-    living->keep_last(volume.take_kept());
+    if (living) living->keep_last(volume.take_kept());
     return taken;
 }
 

@@ -71,7 +71,8 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     const Result<Config> config =
         load(std::string(paths) +
              "[ingest]\nworkers = 3\nthreads = 2\nquiet_seconds = 1.5\n"
-             "reread_seconds = 0\nliving = false\nmoment = \"VEL\"\nspacing_km = 0.5\n"
+             "reread_seconds = 0\nchunk_timeout_seconds = 300\nchunk_grace_seconds = 0\nliving = "
+             "false\nmoment = \"VEL\"\nspacing_km = 0.5\n"
              "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
              "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
              "[watch]\nrescan_seconds = 7\npoll_seconds = 2\nqueue_limit = 99\n"
