@@ -100,7 +100,8 @@ Status check_drop(const std::filesystem::path& drop) {
 std::unique_ptr<EventSource> open_events() {
     Result<std::unique_ptr<EventSource>> events = open_inotify();
     if (events) return std::move(*events);
-    log_warning({Event::watch_failed}, "{}; until then the drop directory is polled ([watch] poll_seconds)",
+    log_warning({Event::watch_failed},
+                "{}; until then the drop directory is polled ([watch] poll_seconds)",
                 printable(events.error().message));
     return no_events();
 }

@@ -114,7 +114,7 @@ class Service {
     // The earliest next scan, the regular one, and the next that looks for rows of missing files
     // when the regular ones are polls.
     SteadyTime rested_{}, next_scan_{}, next_rescan_{};
-    bool is_behind_ = false;             // and it stands in the log
+    bool is_behind_ = false;  // and it stands in the log
     SteadyTime next_backlog_{}, next_behind_line_{};
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
