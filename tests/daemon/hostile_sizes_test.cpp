@@ -31,7 +31,7 @@ TEST_F(HostileSizes, HugeSparseFilesAreRefusedBySize) {
     start();
     put(drop() / "KTLX/7/20220317-000842-001-S", begun);
     put(drop() / "KTLX_growing", begun);
-    ASSERT_TRUE(daemon_.wait_for_log("waiting for the rest of KTLX")) << daemon_.log();
+    ASSERT_TRUE(daemon_.wait_for_log("drop/KTLX_growing")) << daemon_.log();
     fs::resize_file(drop() / "KTLX/7/20220317-000842-001-S", tebibyte);
     for (std::uintmax_t size = 1U << 20U; size <= tebibyte; size *= 4)
         fs::resize_file(drop() / "KTLX_growing", size);
@@ -103,7 +103,7 @@ TEST_F(HostileSizes, BombsOfBzip2AreRejectedAndAGoodVolumeBesideIsGridded) {
 TEST_F(HostileSizes, BombsThatGrowOrComeAsChunksAreGivenUp) {
     start();
     put(drop() / "KTLX_growing", first_record());
-    ASSERT_TRUE(daemon_.wait_for_log("waiting for the rest of KTLX")) << daemon_.log();
+    ASSERT_TRUE(daemon_.wait_for_log("drop/KTLX_growing")) << daemon_.log();
     const Bytes record = bomb_records(1);
     for (int i = 0; i < 20; ++i) {
         append_to_file(drop() / "KTLX_growing",
