@@ -79,9 +79,9 @@ void read_seconds(TomlTable& table, std::string_view key, TomlRange range,
     }
 }
 
-void read_whole_seconds(TomlTable& table, std::string_view key, std::pair<int, int> range,
+void read_whole_seconds(TomlTable& table, std::string_view key, TomlRange range,
                         std::chrono::seconds& value) {
-    if (const auto seconds = table.whole_number(key, {range.first, range.second})) {
+    if (const auto seconds = table.whole_number(key, range)) {
         value = std::chrono::seconds{*seconds};
     }
 }

@@ -94,6 +94,37 @@ TEST_F(QueryTest, GetCopiesRawBytesAndLeavesWhatIsThere) {
     EXPECT_EQ(run(forced).status, 0);
 }
 
+// What came as one file a chunk goes as one file, which holds what the chunks hold.
+TEST_F(QueryTest, GetJoinsTheChunksOfAVolume) {
+    const std::filesystem::path drop = directory_ / "drop/KLOT";
+    std::filesystem::create_directories(drop.parent_path());
+    std::filesystem::copy(*testing::data_directory() / "chunks/OPENRADAR_KLOT", drop);
+    ASSERT_EQ(run({"catalog", "rebuild", "--drop", drop.parent_path()}).status, 0);
+    const std::string out = directory_ / "out";
+    const std::vector<std::string> get = {"catalog", "get", "--station", "KLOT", "-o", out};
+    const auto ran = run(get);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    ASSERT_EQ(ran.out, out + "/KLOT20260328_201457\n");
+    const auto described = [](const std::string& path) {
+        const auto told = testing::run_program(STORMCELLAR_PROGRAM, {"info", path, "--json"});
+        EXPECT_EQ(told.status, 0) << told.err;
+        return json::parse(told.out)["sweeps"];
+    };
+    EXPECT_EQ(described(out + "/KLOT20260328_201457"), described(drop));
+    EXPECT_FALSE(described(drop).empty());
+    auto decode = get;
+    decode.emplace_back("--decode");
+    EXPECT_EQ(run(decode).out, out + "/KLOT20260328_201457.nc\n");
+    // One is gone meanwhile: the rest, and a word about it.
+    std::filesystem::remove(drop / "20260328-201457-007-I");
+    auto forced = get;
+    forced.emplace_back("--force");
+    const auto lacking = run(forced);
+    EXPECT_EQ(lacking.status, 0);
+    EXPECT_NE(lacking.err.find("008-I: chunks are missing before this one"), std::string::npos)
+        << lacking.err;
+}
+
 TEST_F(QueryTest, GetDecodesEachVolumeToNetcdf) {
     const std::string out = directory_ / "out";
     const std::vector<std::string> get = {"catalog", "get", "--station", "KBGM",
