@@ -195,6 +195,9 @@ void Intake::job_ended(const Finished& finished) {
             } else if (finished.taken->ingest.followed) {
                 followed_.insert(path);
             }
+            if (finished.taken->ingest.instead_of != path) {
+                growing_.forget(finished.taken->ingest.instead_of);
+            }
             break;
         case pipeline::IngestResult::vanished:
             seen_.forget(path);

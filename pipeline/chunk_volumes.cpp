@@ -86,7 +86,7 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
     }
     if (*added == level2::LiveVolume::Added::another_volume) return Added::not_ours;
     files_.insert_or_assign(chunk.path, file);
-    waiter_ = chunk.path;
+    former_waiter_ = std::exchange(waiter_, chunk.path);
     shelve_new_sweeps();
     return Added::added;
 }
@@ -105,6 +105,7 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
         if (const auto added = add(chunk, *stamp); !added) return pass_on(added);
     }
     waiter_ = of.path;
+    former_waiter_.clear();  // nobody was told to ask for it
     return {};
 }
 

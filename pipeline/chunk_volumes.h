@@ -18,6 +18,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "level2/live_volume.h"
@@ -45,6 +46,10 @@ class ChunkVolume {
 
     // Whether it is the one that came last, which is asked again when nothing has come for a while.
     [[nodiscard]] bool waits(const ChunkPath& chunk) const { return chunk.path == waiter_; }
+    // The one that did before, once; empty: none.
+    [[nodiscard]] std::filesystem::path take_former_waiter() {
+        return std::exchange(former_waiter_, {});
+    }
     [[nodiscard]] bool is_whole() const { return live_.is_whole(); }
     [[nodiscard]] bool is_due() const { return live_.is_due(level2::LiveVolume::Clock::now()); }
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
@@ -83,7 +88,7 @@ class ChunkVolume {
     std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
-    std::filesystem::path waiter_;
+    std::filesystem::path waiter_, former_waiter_;
     LivingNews news_;
 };
 

@@ -91,6 +91,8 @@ struct IngestOutcome {
     std::vector<int> missing_chunks;              // of a volume of chunks that was finished
     std::vector<std::filesystem::path> living;    // of volumes that have not ended
     bool living_left_out = false;                 // for want of time
+    // Of a volume of chunks, incomplete: the one that was to be asked again until this one came.
+    std::filesystem::path instead_of;
     int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };

@@ -191,7 +191,11 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         if (*shown) volume->set_shown();
     }
     // One of a volume is waited for in the name of all.
-    if (!volume->waits(chunk)) outcome.result = IngestResult::registered;
+    if (volume->waits(chunk)) {
+        outcome.instead_of = volume->take_former_waiter();
+    } else {
+        outcome.result = IngestResult::registered;
+    }
     return outcome;
 }
 

@@ -62,7 +62,7 @@ TEST_P(EachBenchmark, SaysThatADirectoryIsMissing) {
 INSTANTIATE_TEST_SUITE_P(All, EachBenchmark,
                          ::testing::Values("bench_beam", "bench_decode", "bench_feed",
                                            "bench_frame", "bench_grid", "bench_merge",
-                                           "bench_mosaic", "bench_plan"));
+                                           "bench_mosaic", "bench_plan", "bench_sweep"));
 
 TEST(Benchmark, WithoutVolumesThereIsNothingToMeasure) {
     const testing::TemporaryDirectory empty;

@@ -201,6 +201,23 @@ TEST_F(IntakeTest, WhatIsClosedNowGoesBeforeTheBacklog) {
     EXPECT_EQ(next(), "old");
 }
 
+TEST_F(IntakeTest, OneChunkOfAVolumeIsWaitedForTheNewest) {
+    intake_.file_closed(at("a"), make("a"));
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    EXPECT_EQ(intake_.pending().growing, 1U);
+    pipeline::IngestOutcome newer = outcome_of(IngestResult::incomplete);
+    newer.instead_of = at("a");
+    intake_.file_closed(at("b"), make("b"));
+    ASSERT_EQ(next(), "b");
+    end("b", newer);
+    EXPECT_EQ(intake_.pending().growing, 1U);
+    now_ += seconds{30};
+    intake_.poll_growing();
+    EXPECT_EQ(next(), "b!");
+    EXPECT_EQ(next(), "");
+}
+
 TEST_F(IntakeTest, WhatAScanFindsIsLiveWhenItIsYoung) {
     FileStamp young = make("KTLX20240101_000000");
     young.modified_ns = wall_ns_ - 599 * second_ns;

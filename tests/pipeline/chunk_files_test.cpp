@@ -61,9 +61,16 @@ TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
     options.living.make = false;
     Ingestor ingestor(catalog, store, options);
     int gridded = 0;
-    for (const fs::path& path : paths_) {
+    fs::remove_all(drop_);
+    fs::create_directories(drop_);
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        const fs::path& path = paths_[i];
+        fs::copy_file(*testing::data_directory() / "chunks/OPENRADAR_KLOT" / path.filename(), path);
         const auto outcome = ingestor.ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
+        if (outcome->result == IngestResult::incomplete) {
+            EXPECT_EQ(outcome->instead_of, i == 0 ? fs::path{} : paths_[i - 1]);
+        }
         EXPECT_TRUE(outcome->living.empty());
         gridded += outcome->result == IngestResult::gridded ? 1 : 0;
     }
