@@ -18,7 +18,9 @@ class IngestSink final : public Sink {
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override;
-    Status note(const std::filesystem::path& path) override { return ingestor_.note(path); }
+    Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
+        return ingestor_.note(path);
+    }
     void set_pressed(bool pressed) override { *pressed_ = pressed; }
     Result<int> mark_missing(const OnStep& step) override {
         return catalog_.mark_missing(drop_, step);

@@ -114,7 +114,6 @@ void Intake::file_gone(const std::filesystem::path& path) {
     seen_.forget(path);
     Job job;
     job.path = path;
-    job.is_registered = true;
     schedule_.offer(std::move(job), clock_.steady());
 }
 
@@ -206,6 +205,15 @@ void Intake::job_ended(const Finished& finished) {
             break;
     }
     schedule_.finished(path, again);
+}
+
+// What could not be written will be when the file is taken in.
+void Intake::registered(const Finished& noted) {
+    if (noted.taken && noted.taken->ingest.result == pipeline::IngestResult::vanished) {
+        job_ended(noted);
+    } else {
+        schedule_.registered(noted.job.path);
+    }
 }
 
 void Intake::begin_scan() {

@@ -63,7 +63,7 @@ class Intake final : public WatchListener {
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
     // One that has waited for some time without standing in the catalog.
     std::optional<Job> next_unregistered() { return schedule_.next_unregistered(clock_.steady()); }
-    void registered(const Job& job) { schedule_.registered(job.path); }
+    void registered(const Finished& noted);
     void job_ended(const Finished& finished);
 
     // Around a scan of the watcher; `whole`: the drop directory could be read.

@@ -28,8 +28,11 @@ bool same_listening(const Config& fresh, const Config& running) {
 }
 
 Result<Taken> note(Sink& sink, const Job& job) {
-    if (Status noted = sink.note(job.path); !noted) return pass_on(noted);
-    return Taken{};
+    const auto noted = sink.note(job.path);
+    if (!noted) return pass_on(noted);
+    Taken taken;
+    taken.ingest.result = *noted;
+    return taken;
 }
 
 }  // namespace
@@ -179,9 +182,12 @@ void Service::collect() {
         intake_.job_ended(finished);
         status_file_.changed();
     }
-    // What could not be written will be when the file is taken in.
-    for (const Finished& noted : registrar_.collect())
-        intake_.registered(noted.job);
+    for (const Finished& noted : registrar_.collect()) {
+        const bool is_gone =
+            noted.taken && noted.taken->ingest.result == pipeline::IngestResult::vanished;
+        if (is_gone) status_.add(noted);
+        intake_.registered(noted);
+    }
 }
 
 void Service::scan_if_due() {

@@ -36,9 +36,12 @@ class Sink {
 
     // An error is ours alone (catalog or cache cannot be written): the file is tried again later.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial) = 0;
-    // Writes the file into the catalog as it is there, unread; for one that has to wait. May run
-    // beside take() of other paths.
-    virtual Status note(const std::filesystem::path& /*path*/) { return {}; }
+    // For one that has to wait: writes the file into the catalog as it is there, unread
+    // (registered), or marks its rows when it is gone (vanished: there is nothing left to do). May
+    // run beside take() of other paths.
+    virtual Result<pipeline::IngestResult> note(const std::filesystem::path& /*path*/) {
+        return pipeline::IngestResult::registered;
+    }
     // Whether more waits than workers can soon take: what may be left out is left out.
     virtual void set_pressed(bool /*pressed*/) {}
     // Called now and then by what may last long, from its own thread: it moves on.

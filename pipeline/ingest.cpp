@@ -196,6 +196,13 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
     return grid_all(facts, volumes, reading, std::move(outcome));
 }
 
+Status Ingestor::Impl::mark_gone(const fs::path& path) {
+    if (living) living->forget(path);
+    const auto marked = catalog.mark_gone(path);
+    if (!marked) return pass_on(marked);
+    return {};
+}
+
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
     const Running running(impl_->running);
     IngestOutcome outcome;
@@ -204,8 +211,7 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         const ErrorCode code = before.error().code;
         if (code == ErrorCode::permission) return impl_->reject_unread(path, before.error());
         if (code != ErrorCode::not_found) return pass_on(before);
-        if (impl_->living) impl_->living->forget(path);
-        if (const auto marked = impl_->catalog.mark_gone(path); !marked) return pass_on(marked);
+        if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
         outcome.result = IngestResult::vanished;
         return outcome;
     }
@@ -235,12 +241,16 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
 }
 
-Status Ingestor::note(const fs::path& path) {
+Result<IngestResult> Ingestor::note(const fs::path& path) {
     const auto stamp = stamp_of(path, impl_->options.beneath);
-    if (!stamp) return {};  // gone, or to be rejected when it is taken in
+    if (!stamp && stamp.error().code == ErrorCode::not_found) {
+        if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
+        return IngestResult::vanished;
+    }
+    if (!stamp || !stamp->regular) return IngestResult::registered;  // refused when it is taken in
     const auto known = impl_->catalog.is_known(path);
     if (!known) return pass_on(known);
-    if (*known || !stamp->regular) return {};
+    if (*known) return IngestResult::registered;
     FileFacts facts;
     facts.path = path;
     facts.station = station_by_name(path);
@@ -249,7 +259,7 @@ Status Ingestor::note(const fs::path& path) {
     facts.state = FileState::seen;
     const auto registered = impl_->catalog.register_file(facts);
     if (!registered) return pass_on(registered);
-    return {};
+    return IngestResult::registered;
 }
 
 Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {

@@ -110,8 +110,9 @@ class Ingestor {
 
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
-    // The file is there: writes it into the catalog as seen, unread, unless it stands there.
-    Status note(const std::filesystem::path& path);
+    // Writes a file into the catalog as seen, unread, unless it stands there (registered), or marks
+    // its rows when it is gone (vanished).
+    Result<IngestResult> note(const std::filesystem::path& path);
     // The same as ingest() for a file that was settled before: its volumes are gridded again, as
     // they are.
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path);

@@ -67,6 +67,7 @@ struct Ingestor::Impl {
     Result<IngestOutcome> read_and_take_in(const std::filesystem::path& path,
                                            const FileStamp& before, bool finish_partial,
                                            IngestOutcome outcome);
+    Status mark_gone(const std::filesystem::path& path);
     Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
     Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why);
     Result<IngestOutcome> take_in(catalog::FileFacts facts, level2::Decoded decoded,

@@ -34,13 +34,14 @@ class FakeSink final : public Sink {
         return taken;
     }
 
-    Status note(const std::filesystem::path& path) override {
+    Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
         {
             const std::lock_guard lock(mutex_);
             noted_.push_back(path.filename().native());
         }
         called_.notify_all();
-        return {};
+        return std::filesystem::exists(path) ? pipeline::IngestResult::registered
+                                             : pipeline::IngestResult::vanished;
     }
     Result<int> mark_missing(const OnStep& step) override {
         ++missing_looks_;

@@ -252,7 +252,7 @@ TEST_F(IntakeTest, TheEndOfAVolumeWaitsForOneTurnOfItsStation) {
     EXPECT_EQ(next(), "KFWS20240101_000000");
 }
 
-TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedOrGoneNeedNot) {
+TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedNeedNot) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
     followed.followed = true;
     intake_.file_closed(at("a"), make("a"));
@@ -267,9 +267,19 @@ TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedOrGoneNeedNot) {
     const auto job = intake_.next_unregistered();
     ASSERT_TRUE(job);
     EXPECT_EQ(job->path, at("b"));
+    const auto noted = [&](const Job& of, IngestResult result) {
+        Finished finished{.job = of, .taken = Taken{}, .started = now_, .ended = now_};
+        finished.taken->ingest.result = result;
+        intake_.registered(finished);
+    };
+    noted(*job, IngestResult::registered);
+    EXPECT_EQ(intake_.pending().waiting, 3U) << "it still has to be taken in";
+    const auto gone = intake_.next_unregistered();
+    ASSERT_TRUE(gone);
+    EXPECT_EQ(gone->path, at("c"));
+    noted(*gone, IngestResult::vanished);
+    EXPECT_EQ(intake_.pending().waiting + intake_.pending().running, 2U) << "it is done with";
     EXPECT_FALSE(intake_.next_unregistered());
-    intake_.registered(*job);
-    EXPECT_EQ(intake_.pending().waiting, 3U);
 }
 
 TEST_F(IntakeTest, ScansOfferAFileOnceUntilItChanges) {

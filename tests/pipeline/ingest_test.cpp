@@ -81,10 +81,10 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
 TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     STORMCELLAR_NEED_DATA();
     const fs::path path = directory_ / "KBGM20050822_024414.gz";
-    ASSERT_TRUE(ingestor_.note(path)) << "one that is gone again is no error";
+    EXPECT_EQ(ingestor_.note(path).value(), IngestResult::vanished);
     EXPECT_TRUE(catalog_.station_names()->empty());
     fs::copy_file(real("sequence-kbgm/KBGM20050822_024414.gz"), path);
-    ASSERT_TRUE(ingestor_.note(path));
+    EXPECT_EQ(ingestor_.note(path).value(), IngestResult::registered);
     EXPECT_EQ(only_entry("KBGM").state, FileState::seen);
     EXPECT_EQ(only_entry("KBGM").size_bytes, fs::file_size(path));
     EXPECT_FALSE(only_entry("KBGM").volume.start_time);
@@ -98,6 +98,9 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     fs::create_symlink(path, directory_ / "KBGM-link");
     ASSERT_TRUE(ingestor_.note(directory_ / "KBGM-link"));
     EXPECT_EQ(only_entry("KBGM").path, path);
+    fs::remove(path);
+    EXPECT_EQ(ingestor_.note(path).value(), IngestResult::vanished);
+    EXPECT_EQ(only_entry("KBGM").state, FileState::gone);
 }
 
 // As message 2 of these files says.
