@@ -179,8 +179,10 @@ Result<std::vector<std::string>> names_beneath(const fs::path& root, const fs::p
     if (!entries) return failure(directory, errno);
     (void)opened.release();
     std::vector<std::string> names;
-    errno = 0;
-    while (const struct dirent* entry = ::readdir(entries.get())) {
+    for (;;) {
+        errno = 0;
+        const struct dirent* entry = ::readdir(entries.get());
+        if (entry == nullptr) break;
         const std::string_view name = entry->d_name;
         if (name != "." && name != "..") names.emplace_back(name);
     }

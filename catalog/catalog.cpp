@@ -235,23 +235,40 @@ Result<Catalog> Catalog::open_for_reading(fs::path directory) {
 
 // Called after the path was written into the database of that name.
 Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) {
-    const auto home = impl_->homes.of(path);
+    const auto home = impl_->homes.exchange(path, name);
+    if (home && (home->empty() || *home == name)) return {};
+    Status outcome;
     bool is_alone = true;
-    if (!home || (!home->empty() && *home != name)) {
-        const auto names = impl_->names();
-        if (!names) return pass_on(names);
-        for (const std::string& other : *names) {
-            if (other == name) continue;
-            const auto forgotten = impl_->with(other, false, [&](StationDatabase& database) {
-                database.forget(path);
-                return true;
-            });
-            // A damaged database of another station must not hold this file up.
-            if (!forgotten && is_ours_to_solve(forgotten.error())) return pass_on(forgotten);
-            is_alone = is_alone && forgotten;
-        }
+    const auto names = impl_->names();
+    if (!names) outcome = pass_on(names);
+    for (const std::string& other : names ? *names : std::vector<std::string>{}) {
+        if (other == name) continue;
+        const auto forgotten = impl_->with(other, false, [&](StationDatabase& database) {
+            database.forget(path);
+            return true;
+        });
+        // A damaged database of another station must not hold this file up.
+        if (!forgotten && is_ours_to_solve(forgotten.error())) outcome = pass_on(forgotten);
+        is_alone = is_alone && forgotten;
     }
-    if (is_alone) impl_->homes.set(path, name);
+    if (!is_alone || !outcome) impl_->homes.forget(path);
+    return outcome;
+}
+
+Status Catalog::note_file(const FileFacts& facts) {
+    const std::string name = database_name(facts.station);
+    const auto noted = impl_->with(name, true, [&](StationDatabase& database) {
+        if (!database.is_settled(facts.path, 0, 0)) database.register_file(facts);
+        return true;
+    });
+    if (!noted) return pass_on(noted);
+    if (impl_->homes.set_if_free(facts.path, name)) return {};
+    // Somebody who has read it has put it where it belongs meanwhile.
+    const auto forgotten = impl_->with(name, false, [&](StationDatabase& database) {
+        database.forget(facts.path);
+        return true;
+    });
+    if (!forgotten) return pass_on(forgotten);
     return {};
 }
 

@@ -110,7 +110,10 @@ class Catalog {
 
     // On success a power cut does not undo it, but for a state of `seen`, which may be lost.
     Result<Registered> register_file(const FileFacts& facts);
-    // The same of several files of one station, all of them or none.
+    // A file of which is_known() said that it has no row, as seen; what somebody else has written
+    // of it meanwhile stays.
+    Status note_file(const FileFacts& facts);
+    // The same as register_file() of several files of one station, all of them or none.
     Status register_files(const std::string& station, const std::vector<FileFacts>& files);
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);

@@ -22,10 +22,29 @@ namespace stormcellar::catalog {
 
 class PathHomes {
   public:
-    // No database but this one has the path. To be called after it was written there.
-    void set(const std::filesystem::path& path, const std::string& name) {
+    // No database but this one has the path, once the caller has seen to what was known before,
+    // which it gets. To be called after it was written there.
+    std::optional<std::string> exchange(const std::filesystem::path& path,
+                                        const std::string& name) {
         const std::scoped_lock lock(mutex_);
+        const std::string* known = find(key_of(path));
+        std::optional<std::string> before;
+        if (known != nullptr) before = *known;
         add(key_of(path), name);
+        return before;
+    }
+    // The same where no other one is known to have it; else false.
+    [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
+        const std::scoped_lock lock(mutex_);
+        const std::string* known = find(key_of(path));
+        if (known != nullptr && !known->empty() && *known != name) return false;
+        add(key_of(path), name);
+        return true;
+    }
+    void forget(const std::filesystem::path& path) {
+        const std::scoped_lock lock(mutex_);
+        young_.erase(key_of(path));
+        old_.erase(key_of(path));
     }
     // None had the path when all were asked. What somebody wrote meanwhile counts.
     void set_none(const std::filesystem::path& path) {

@@ -23,7 +23,11 @@ FileFound look_at(const std::filesystem::path& path) {
 
 FileFound look_at(const std::filesystem::path& path, const std::filesystem::path& beneath) {
     const auto facts = look_beneath(beneath, path);
-    if (!facts) return {};
+    if (!facts) {
+        const ErrorCode code = facts.error().code;
+        const bool is_sure = code == ErrorCode::not_found || code == ErrorCode::permission;
+        return {is_sure ? Standing::missing : Standing::unknown, {}, 0};
+    }
     const mode_t mode = facts->st_mode;
     const Standing standing = S_ISREG(mode)   ? Standing::regular
                               : S_ISDIR(mode) ? Standing::directory

@@ -21,13 +21,14 @@ struct FileStamp {
 [[nodiscard]] FileStamp stamp_of(const struct stat& facts);
 
 // What stands at a path. Symbolic links are never followed.
-enum class Standing { regular, directory, other, missing };
+enum class Standing { regular, directory, other, missing, unknown };
 struct FileFound {
     Standing standing = Standing::missing;
     FileStamp stamp;
     mode_t mode = 0;
 };
-// A path that may not be looked at counts as missing.
+// A path that may not be looked at counts as missing; one that cannot be now, as when descriptors
+// run out, is unknown.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
 // The same below a directory: what lies behind links is missing too (base/beneath.h).
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path,

@@ -48,6 +48,10 @@ std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& lo
     for (auto entry = files_.begin(); entry != files_.end();) {
         auto& [path, file] = *entry;
         const FileFound found = look(path);
+        if (found.standing == Standing::unknown) {
+            ++entry;
+            continue;
+        }
         if (found.standing != Standing::regular) {
             entry = files_.erase(entry);
             continue;

@@ -46,7 +46,6 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.is_begun = is_followed || pipeline::is_chunk_name(path);
     job.is_registered = is_followed;
     job.station = pipeline::station_by_name(path);
-    if (job.station.empty()) job.station = path.parent_path().native();
     return job;
 }
 
@@ -230,7 +229,8 @@ void Intake::end_scan(bool whole) {
     // Those of which no event came: lost, or never sent.
     const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
     for (const std::filesystem::path& path : followed) {
-        if (look(path).standing != Standing::regular) file_gone(path);
+        const Standing standing = look(path).standing;
+        if (standing != Standing::regular && standing != Standing::unknown) file_gone(path);
     }
 }
 
@@ -238,11 +238,14 @@ bool Intake::needs_scan() const {
     return lost_ || (refused_ && schedule_.waiting_count() < schedule_.limit() / 2);
 }
 
-std::optional<SteadyTime> Intake::next_time(bool can_start) const {
-    const auto job = can_start ? schedule_.next_time() : std::nullopt;
-    const auto poll = growing_.next_time();
-    if (!job || !poll) return job ? job : poll;
-    return std::min(*job, *poll);
+std::optional<SteadyTime> Intake::next_time(bool can_start, bool can_register) const {
+    std::optional<SteadyTime> time;
+    if (can_register) time = schedule_.next_unregistered_time();
+    for (const auto& other :
+         {can_start ? schedule_.next_time() : std::nullopt, growing_.next_time()}) {
+        if (other) time = time ? std::min(*time, *other) : *other;
+    }
+    return time;
 }
 
 SteadyTime::duration Intake::longest_wait() const {

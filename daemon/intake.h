@@ -73,7 +73,7 @@ class Intake final : public WatchListener {
     [[nodiscard]] bool needs_scan() const;
 
     // When there is something to do: growing files to poll and, if a job can start, a job.
-    [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start) const;
+    [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
     [[nodiscard]] Pending pending() const;
     // How long the job that has waited for longest has been able to run.
     [[nodiscard]] SteadyTime::duration longest_wait() const;

@@ -1,4 +1,5 @@
 // stormcellard: the service. Its usage is the text below.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -7,6 +8,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "base/memory.h"
 #include "base/printable.h"
@@ -73,6 +75,15 @@ std::optional<Arguments> parse(int argc, char** argv) {
     return arguments;
 }
 
+// Volumes that grow and databases of all stations are some 1,000 descriptors, which is where the
+// soft limit stands that old programs need. What cannot be had comes out where it is missing.
+void raise_descriptor_limit() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = std::max<rlim_t>(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 16'384));
+    (void)::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 int complain(const Error& error) {
     fmt::print(stderr, "stormcellard: {}\n", printable(error.message));
     return exit_failed;
@@ -133,6 +144,7 @@ void know_stations(catalog::Catalog& catalog, Service& service) {
 int serve(const Config& config, const std::filesystem::path& file, bool keeps_loops) {
     keep_freed_memory();
     cache::install_map_guard();
+    raise_descriptor_limit();
     set_up_logging(config.log_level, usual_outlet());
     const Status ready = check_drop(config.drop)
                              .and_then([&] { return make_directory(config.state); })

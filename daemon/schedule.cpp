@@ -76,6 +76,16 @@ Offered Schedule::offer(Job job, SteadyTime now) {
     return Offered::queued;
 }
 
+// It waits for us since then, and not since it first failed.
+void Schedule::wait_since(Entry& entry, SteadyTime time) {
+    const bool was_unregistered = unregistered_.erase(entry.place) > 0;
+    waiting_.erase(entry.place);
+    entry.offered_at = time;
+    entry.place = next_place_++;
+    waiting_.emplace(entry.place, &entry);
+    if (was_unregistered) unregistered_.emplace(entry.place, &entry);
+}
+
 void Schedule::run(Entry& entry) {
     entry.running = true;
     waiting_.erase(entry.place);
@@ -87,6 +97,7 @@ std::optional<Job> Schedule::next(SteadyTime now) {
     while (!delayed_.empty() && delayed_.begin()->first.first <= now) {
         Entry& entry = *delayed_.begin()->second;
         delayed_.erase(delayed_.begin());
+        if (entry.job.not_before > entry.offered_at) wait_since(entry, entry.job.not_before);
         entry.job.not_before = SteadyTime{};
         ready_.add(key_of(entry), &entry);
     }
@@ -153,6 +164,11 @@ std::optional<SteadyTime> Schedule::next_time() const {
     }
     if (time) time = std::max(*time, held_until_);
     return time;
+}
+
+std::optional<SteadyTime> Schedule::next_unregistered_time() const {
+    if (unregistered_.empty()) return std::nullopt;
+    return std::max(unregistered_.begin()->second->offered_at + register_after, held_until_);
 }
 
 std::optional<SteadyTime> Schedule::oldest_offer() const {

@@ -67,6 +67,8 @@ class Schedule {
 
     // When the next waiting job may run; none when nothing waits. May lie in the past.
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
+    // When there is one to be registered; none when all are.
+    [[nodiscard]] std::optional<SteadyTime> next_unregistered_time() const;
     // Since when the one waits that has waited for longest, of those that may run.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
     [[nodiscard]] std::size_t waiting_count() const { return ready_.count() + delayed_.size(); }
@@ -91,6 +93,7 @@ class Schedule {
     void enqueue(Entry& entry);
     void wait_again(Entry& entry, const Job& job);
     void run(Entry& entry);
+    void wait_since(Entry& entry, SteadyTime time);
     static void merge(Job& into, const Job& job);
 
     std::size_t limit_;

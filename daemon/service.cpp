@@ -109,8 +109,8 @@ void Service::turn() {
 SteadyTime Service::next_time() const {
     SteadyTime time =
         std::min({parts_.clock.steady() + longest_sleep, next_scan_, cache_keeper_.next_time()});
-    for (const auto& due : {intake_.next_time(pool_.has_free_worker()), status_file_.next_time(),
-                            watchdog_.next_time()}) {
+    const auto work = intake_.next_time(pool_.has_free_worker(), registrar_.has_free_worker());
+    for (const auto& due : {work, status_file_.next_time(), watchdog_.next_time()}) {
         if (due) time = std::min(time, *due);
     }
     if (intake_.needs_scan()) time = std::min(time, rested_);
@@ -359,7 +359,12 @@ Stopped Service::stop() {
     status_.set_state("stopping");
     publish(true);
     loop_keeper_.stop();
-    const bool drained = pool_.drain(time_to_drain) && registrar_.drain(time_to_drain);
+    const auto until = std::chrono::steady_clock::now() + time_to_drain;
+    bool drained = pool_.drain(time_to_drain);
+    drained = registrar_.drain(std::max(std::chrono::milliseconds{0},
+                                        std::chrono::duration_cast<std::chrono::milliseconds>(
+                                            until - std::chrono::steady_clock::now()))) &&
+              drained;
     loop_keeper_.wait();
     if (auto loops = loop_keeper_.news()) status_.set_loops(std::move(*loops));
     collect();

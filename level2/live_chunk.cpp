@@ -109,7 +109,7 @@ void put_aside(LiveChunk& chunk, SweepDepot& depot) {
             if (!place) continue;
             chunk.away_bytes += bytes_of(sweep);
             sweep.moments = {};
-            sweep.radials = {sweep.radials.front(), sweep.radials.back()};
+            sweep.radials = std::vector<Radial>{sweep.radials.front(), sweep.radials.back()};
         }
     }
     chunk.away_bytes = std::min(chunk.away_bytes, chunk.held_bytes);

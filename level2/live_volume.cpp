@@ -50,7 +50,7 @@ Result<LiveVolume::Added> LiveVolume::keep_better(int number, LiveChunk chunk,
     }
     const auto there = chunks_.find(number);
     if (there == chunks_.end()) {
-        last_arrival_ = now;
+        last_arrival_ = std::max(last_arrival_, now);
         chunk.serial = next_serial_++;
         chunks_.emplace(number, std::move(chunk));
         return Added::added;
@@ -61,7 +61,7 @@ Result<LiveVolume::Added> LiveVolume::keep_better(int number, LiveChunk chunk,
     if (old.bytes == chunk.bytes && old.checksum == chunk.checksum) return Added::repeated;
     const auto worth = [](const LiveChunk& c) { return std::tie(c.radials, c.bytes, c.checksum); };
     if (worth(chunk) < worth(old)) return Added::worse;
-    last_arrival_ = now;
+    last_arrival_ = std::max(last_arrival_, now);
     chunk.serial = next_serial_++;
     if (old.kind == ChunkKind::end) chunk.kind = ChunkKind::end;
     old = std::move(chunk);

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 // No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
+constexpr std::chrono::minutes longest_failing{2};
 constexpr std::size_t most_volumes = 320;  // each has a descriptor
 
 // The pieces of chunks beside the sweeps that they make.
@@ -39,6 +40,17 @@ class ShelfDepot final : public level2::SweepDepot {
     SweepShelf& shelf_;
     std::vector<SweepShelf::Place> places_;
 };
+
+// A volume that is put together again after a restart, or after it was given up for others, has
+// waited since its files came.
+level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp) {
+    const std::int64_t wall_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                     std::chrono::system_clock::now().time_since_epoch())
+                                     .count();
+    const std::chrono::nanoseconds age{std::max<std::int64_t>(0, wall_ns - stamp.changed_ns)};
+    return level2::LiveVolume::Clock::now() -
+           std::chrono::duration_cast<level2::LiveVolume::Clock::duration>(age);
+}
 
 // Null where there is no room for one.
 std::unique_ptr<KeptVolume> kept_volume_in(const fs::path& directory) {
@@ -75,8 +87,7 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
         return Added::not_ours;
     }
     File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
-    const auto added =
-        live_.add(chunk.name.number, chunk.name.kind, *bytes, level2::LiveVolume::Clock::now());
+    const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
     if (!added) {
         const ErrorCode code = added.error().code;
         if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
@@ -99,14 +110,26 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
         if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(found);
         return {};
     }
+    Status all;
     for (const ChunkPath& chunk : *found) {
         const auto stamp = stamp_of(chunk.path, beneath_);
+        if (!stamp && stamp.error().code == ErrorCode::io) all = pass_on(stamp);
         if (!stamp || !stamp->regular) continue;
-        if (const auto added = add(chunk, *stamp); !added) return pass_on(added);
+        if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
     }
     waiter_ = of.path;
     former_waiter_.clear();  // nobody was told to ask for it
+    const auto now = level2::LiveVolume::Clock::now();
+    if (!all && !fails_since_) fails_since_ = now;
+    // One bad sector must not keep the rest of the volume from everybody.
+    if (!all && now - *fails_since_ < longest_failing) return all;
     return {};
+}
+
+bool ChunkVolume::waits(const ChunkPath& chunk) {
+    const auto waiter = files_.find(waiter_);
+    if (waiter == files_.end() || !waiter->second.is_whole) waiter_ = chunk.path;
+    return chunk.path == waiter_;
 }
 
 fs::path ChunkVolume::first_file() const {

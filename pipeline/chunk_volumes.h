@@ -41,11 +41,12 @@ class ChunkVolume {
     // when descriptors run out, and is to be asked for again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
     // All others that lie beside this one, which waits in their names. Errors as add(): some may be
-    // missing.
+    // missing; for two minutes, then the volume goes without them.
     [[nodiscard]] Status add_siblings(const ChunkPath& of);
 
     // Whether it is the one that came last, which is asked again when nothing has come for a while.
-    [[nodiscard]] bool waits(const ChunkPath& chunk) const { return chunk.path == waiter_; }
+    // Where that one is no good this one, which is whole, takes its place.
+    [[nodiscard]] bool waits(const ChunkPath& chunk);
     // The one that did before, once; empty: none.
     [[nodiscard]] std::filesystem::path take_former_waiter() {
         return std::exchange(former_waiter_, {});
@@ -90,6 +91,7 @@ class ChunkVolume {
     std::map<std::filesystem::path, File> files_;
     std::filesystem::path waiter_, former_waiter_;
     LivingNews news_;
+    std::optional<level2::LiveVolume::Clock::time_point> fails_since_;
 };
 
 class ChunkVolumes {

@@ -12,10 +12,11 @@ Result<FileStamp> stamp_of(const std::filesystem::path& path,
                            const std::filesystem::path& beneath) {
     const auto facts = look_beneath(beneath, path);
     if (!facts) return pass_on(facts);
-    return FileStamp{
-        static_cast<std::uint64_t>(facts->st_size),
-        std::int64_t{facts->st_mtim.tv_sec} * 1'000'000'000 + std::int64_t{facts->st_mtim.tv_nsec},
-        S_ISREG(facts->st_mode), facts->st_mode & S_IFMT};
+    const auto nanoseconds = [](const timespec& time) {
+        return std::int64_t{time.tv_sec} * 1'000'000'000 + std::int64_t{time.tv_nsec};
+    };
+    return FileStamp{static_cast<std::uint64_t>(facts->st_size), nanoseconds(facts->st_mtim),
+                     S_ISREG(facts->st_mode), facts->st_mode & S_IFMT, nanoseconds(facts->st_ctim)};
 }
 
 catalog::VolumeFacts facts_of(const level2::Volume& volume) {

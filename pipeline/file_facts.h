@@ -22,7 +22,13 @@ struct FileStamp {
     std::int64_t modified_ns = 0;
     bool regular = false;  // symbolic links are not followed, so they are not regular
     mode_t kind = 0;       // S_IFMT's part of the mode
-    bool operator==(const FileStamp&) const = default;
+    // When it came to stand here or was changed last, whatever its writer says of its time: by the
+    // clock on the wall. A new hard link counts, too, so it tells no two states apart.
+    std::int64_t changed_ns = 0;
+    bool operator==(const FileStamp& other) const {
+        return size_bytes == other.size_bytes && modified_ns == other.modified_ns &&
+               regular == other.regular && kind == other.kind;
+    }
 };
 // not_found when there is no such file below `beneath` (base/beneath.h), else permission or io.
 [[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path,

@@ -257,8 +257,7 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     facts.size_bytes = stamp->size_bytes;
     facts.modified_ns = stamp->modified_ns;
     facts.state = FileState::seen;
-    const auto registered = impl_->catalog.register_file(facts);
-    if (!registered) return pass_on(registered);
+    if (Status noted = impl_->catalog.note_file(facts); !noted) return pass_on(noted);
     return IngestResult::registered;
 }
 

@@ -113,7 +113,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     facts.station = station_of_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
-    if (!file && !finish_partial && LivingFile::is_growing(path)) {
+    if (!file && !finish_partial && LivingFile::is_growing(path, options.beneath)) {
         file = living->begin(path, facts.station);
     }
     if (!file) return std::nullopt;
@@ -225,7 +225,16 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     outcome.decode_s += seconds_since(start);
     // What was put aside cannot be read back: the files are not to blame, and are read again.
     if (!decoded && decoded.error().code == ErrorCode::io) return pass_on(decoded);
-    if (!decoded) return reject(facts, decoded.error(), outcome);
+    if (!decoded) {
+        for (FileFacts& other : others) {
+            other.state = FileState::rejected;
+            other.reason = decoded.error().message;
+        }
+        if (Status settled = catalog.register_files(station, others); !settled) {
+            return pass_on(settled);
+        }
+        return reject(facts, decoded.error(), outcome);
+    }
     auto taken = take_in(std::move(facts), std::move(*decoded), true, std::move(outcome));
     if (!taken) return taken;
     if (Status settled = catalog.register_files(station, others); !settled) {

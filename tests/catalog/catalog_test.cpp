@@ -237,6 +237,26 @@ TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
     }
 }
 
+// What is noted unread never undoes what was found by reading, wherever that stands.
+TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
+    FileFacts note = file("/d/a", {}, "");
+    note.state = FileState::seen;
+    for (const char* station : {"KTLX", ""}) {
+        ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")}, station)));
+        ASSERT_TRUE(catalog_.note_file(note));
+        EXPECT_EQ(catalog_.list(station, {}).value().size(), 1U) << station;
+        EXPECT_TRUE(*catalog_.is_settled("/d/a", 1000, 42));
+    }
+    EXPECT_TRUE(catalog_.list("KTLX", {std::nullopt, std::nullopt, true}).value().empty());
+    note.path = "/d/b";
+    ASSERT_TRUE(catalog_.note_file(note));
+    EXPECT_TRUE(*catalog_.is_known("/d/b"));
+    ASSERT_TRUE(catalog_.register_file(file("/d/b", {})));
+    const auto unknown = catalog_.list("", {std::nullopt, std::nullopt, true}).value();
+    ASSERT_EQ(unknown.size(), 1U) << "the note of b went when it was read";
+    EXPECT_EQ(unknown[0].path, "/d/a");
+}
+
 TEST_F(CatalogTest, AFileThatWasNowhereWhileItIsWrittenIsFoundAfterwards) {
     EXPECT_FALSE(*catalog_.is_known("/d/a"));
     ASSERT_TRUE(catalog_.register_files("KTLX", {file("/d/a", {})}));

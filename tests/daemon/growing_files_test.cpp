@@ -95,6 +95,17 @@ TEST_F(Growing, AnEmptyNewFileHasTheWholeQuietTime) {
     EXPECT_EQ(due_at(30), "a");
 }
 
+// Descriptors ran out: that is no reason to forget it.
+TEST_F(Growing, AFileThatCannotBeLookedAtNowStays) {
+    files_.add_incomplete("a", small, t0);
+    disk_["a"] = small;
+    const auto blind = [](const std::filesystem::path&) {
+        return FileFound{Standing::unknown, {}, 0};
+    };
+    EXPECT_TRUE(files_.poll(t0 + std::chrono::seconds{2}, blind).empty());
+    EXPECT_TRUE(files_.contains("a"));
+}
+
 TEST_F(Growing, AFileThatVanishesIsForgotten) {
     files_.add_new("a", small, t0);
     files_.add_incomplete("b", small, t0);

@@ -456,13 +456,14 @@ TEST_F(IntakeTest, AFileThatWentIsLookedAtLastSoThatItsRowsAreMarked) {
 }
 
 TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
-    EXPECT_FALSE(intake_.next_time(true));
+    EXPECT_FALSE(intake_.next_time(true, true));
     intake_.file_closed(at("a"), make("a"));
-    EXPECT_FALSE(intake_.next_time(false)) << "no worker is free";
-    EXPECT_LE(*intake_.next_time(true), now_);
+    EXPECT_FALSE(intake_.next_time(false, false)) << "no worker is free";
+    EXPECT_EQ(intake_.next_time(false, true), now_ + seconds{2}) << "to be registered";
+    EXPECT_LE(*intake_.next_time(true, true), now_);
     ASSERT_EQ(next(), "a");
     end("a", IngestResult::incomplete);
-    EXPECT_EQ(intake_.next_time(false), now_ + seconds{1});
+    EXPECT_EQ(intake_.next_time(false, false), now_ + seconds{1});
 }
 
 }  // namespace

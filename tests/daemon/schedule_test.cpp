@@ -211,6 +211,30 @@ TEST(Schedule, WhatWaitsIsToBeRegisteredAfterAWhileAndOnce) {
     EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "a");
 }
 
+TEST(Schedule, SaysWhenTheNextIsToBeRegistered) {
+    Schedule schedule(10);
+    EXPECT_FALSE(schedule.next_unregistered_time());
+    schedule.offer(job("a", 1), t0);
+    EXPECT_EQ(schedule.next_unregistered_time(), t0 + seconds{2});
+    schedule.hold_until(t0 + seconds{9});
+    EXPECT_EQ(schedule.next_unregistered_time(), t0 + seconds{9});
+    ASSERT_TRUE(schedule.next_unregistered(t0 + seconds{9}));
+    EXPECT_FALSE(schedule.next_unregistered_time());
+}
+
+// One that failed and has waited for its next try is not one that nobody had time for.
+TEST(Schedule, ARetryWaitsSinceItsTime) {
+    Schedule schedule(10);
+    schedule.offer(job("a", 1), t0);
+    schedule.offer(job("b", 0), t0 + seconds{50});
+    schedule.retry(*schedule.next(t0), t0 + seconds{60});
+    ASSERT_EQ(next_path(schedule, t0 + seconds{70}), "a");
+    schedule.registered("a");
+    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{50});
+    EXPECT_EQ(next_path(schedule, t0 + seconds{70}), "a");
+    EXPECT_EQ(next_path(schedule, t0 + seconds{70}), "b");
+}
+
 TEST(Schedule, WhatIsOfferedWhileItIsRegisteredIsOneJob) {
     Schedule schedule(10);
     schedule.offer(job("a", 1), t0);

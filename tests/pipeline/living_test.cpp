@@ -477,6 +477,18 @@ TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
     expect_one_volume(house_);
 }
 
+// After a power cut: the newest chunk is empty and is the first that is looked at.
+TEST_F(LivingChunks, OneThatIsNotWholeIsNoneToWaitFor) {
+    for (std::size_t i = 0; i + 2 < names_.size(); ++i)
+        append_to(drop_ / names_[i], parts_[i]);
+    const fs::path empty = drop_ / names_[names_.size() - 2];
+    std::ofstream{empty};
+    ASSERT_EQ(house_.ingestor->ingest(empty, false)->result, IngestResult::incomplete);
+    // The next that is asked is waited for in its place.
+    EXPECT_EQ(take(house_, 3).result, IngestResult::incomplete);
+    EXPECT_EQ(take(house_, 4).result, IngestResult::registered);
+}
+
 TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
     for (std::size_t i = 0; i < names_.size(); ++i)
         append_to(drop_ / names_[i], parts_[i]);
