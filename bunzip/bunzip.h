@@ -83,4 +83,16 @@ struct Outcome {
 [[nodiscard]] Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
                                  std::size_t limit, Workspace& workspace, Path path = usual_path());
 
+// One of many streams.
+struct Job {
+    std::span<const std::byte> stream;
+    std::vector<std::byte> output;  // grows as needed and never shrinks
+    Outcome outcome = {};
+};
+// Each job, as decompress() does it, by a thread for each workspace, of which the caller is one;
+// fewer where the system has no more.
+// Throws std::bad_alloc where a job could not be done for want of memory.
+void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
+                    Path path = usual_path());
+
 }  // namespace stormcellar::bunzip

@@ -134,5 +134,30 @@ TEST_P(BunzipBy, ThreadsWithAWorkspaceEach) {
     EXPECT_EQ(right, (std::array{true, true, true, true}));
 }
 
+TEST_P(BunzipBy, ManyStreamsAtOnce) {
+    std::vector<Bytes> wanted, streams;
+    for (std::size_t i = 0; i < 30; ++i) {
+        wanted.push_back(contents(i * 9000));
+        streams.push_back(compressed(wanted.back(), 1 + static_cast<int>(i % 9)));
+    }
+    streams[7].resize(50);
+    for (const std::size_t threads : {1U, 2U, 3U, 40U}) {
+        std::vector<Job> jobs(streams.size());
+        for (std::size_t i = 0; i < jobs.size(); ++i)
+            jobs[i].stream = streams[i];
+        std::vector<Workspace> workspaces(threads);
+        decompress_all(jobs, 250'000, workspaces, GetParam());
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            if (i == 7 || i > 27) {
+                EXPECT_EQ(jobs[i].outcome.status, i == 7 ? Status::truncated : Status::too_large);
+                continue;
+            }
+            EXPECT_EQ(jobs[i].outcome.status, Status::whole);
+            ASSERT_EQ(jobs[i].outcome.output_bytes, wanted[i].size());
+            EXPECT_TRUE(std::equal(wanted[i].begin(), wanted[i].end(), jobs[i].output.begin()));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stormcellar::bunzip
