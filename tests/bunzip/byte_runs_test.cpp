@@ -30,6 +30,8 @@ std::vector<std::uint8_t> slowly(const Symbols& symbols, std::vector<std::uint8_
     return column;
 }
 
+constexpr std::uint64_t bad_above = std::uint64_t{1} << 60;
+
 class ByteRunsOf : public ::testing::TestWithParam<Path> {
   protected:
     std::vector<ByteRun> runs(const Symbols& symbols, std::size_t batch) {
@@ -39,7 +41,7 @@ class ByteRunsOf : public ::testing::TestWithParam<Path> {
             const auto part = std::span{symbols}.subspan(at, std::min(batch, symbols.size() - at));
             count += make_runs_by(GetParam())(maker_, part, made.data() + count);
         }
-        made[count++] = last_run(maker_);
+        if (maker_.bytes < bad_above) made[count++] = last_run(maker_);
         made.resize(count);
         return made;
     }
@@ -110,7 +112,7 @@ TEST_P(ByteRunsOf, ARunHas21DigitsAtMost) {
                 EXPECT_EQ(maker_.bytes, before + (std::uint64_t{2} << digits) - 2)
                     << before << ' ' << digits;
             } else {
-                EXPECT_GT(maker_.bytes, std::uint64_t{1} << 60) << before << ' ' << digits;
+                EXPECT_GT(maker_.bytes, bad_above) << before << ' ' << digits;
             }
         }
     }
