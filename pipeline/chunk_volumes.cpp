@@ -90,6 +90,9 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
     const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
     if (!added) {
         const ErrorCode code = added.error().code;
+        if (code == ErrorCode::io) {  // no memory
+            return fail(code, "{}: {}", chunk.path.native(), added.error().message);
+        }
         if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
         file.is_whole = false;
         files_.insert_or_assign(chunk.path, file);

@@ -38,7 +38,7 @@ class ChunkVolume {
         not_ours,    // no chunk of this volume, whatever its name says: to be taken by itself
     };
     // Reads the file unless it is known with this stamp. io, no_space: it cannot be read now, as
-    // when descriptors run out, and is to be asked for again.
+    // when descriptors or memory run out, and is to be asked for again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
     // All others that lie beside this one, which waits in their names. Errors as add(): some may be
     // missing; for two minutes, then the volume goes without them.

@@ -320,6 +320,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     outcome.decode_s = seconds_since(decode_start);
     if (!decoded) {
         const ErrorCode code = decoded.error().code;
+        if (code == ErrorCode::io) return pass_on(decoded);  // no memory
         if (!finish_partial && (code == ErrorCode::empty || code == ErrorCode::truncated)) {
             outcome.result = IngestResult::incomplete;  // there may be more to come
             outcome.reason = decoded.error().message;

@@ -223,7 +223,8 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
-    // What was put aside cannot be read back: the files are not to blame, and are read again.
+    // What was put aside cannot be read back, or there is no memory for it: the files are not to
+    // blame, and are read again.
     if (!decoded && decoded.error().code == ErrorCode::io) return pass_on(decoded);
     if (!decoded) {
         for (FileFacts& other : others) {
