@@ -135,6 +135,11 @@ bool ChunkVolume::waits(const ChunkPath& chunk) {
     return chunk.path == waiter_;
 }
 
+bool ChunkVolume::is_waiter(const fs::path& path) const {
+    const auto waiter = files_.find(path);
+    return path == waiter_ && waiter != files_.end() && waiter->second.is_whole;
+}
+
 fs::path ChunkVolume::first_file() const {
     const auto first =
         std::min_element(files_.begin(), files_.end(), [](const auto& a, const auto& b) {
@@ -194,6 +199,12 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
     const std::shared_ptr<ChunkVolume> found = followed.volume;
     give_up_beyond_limits(chunk.key);
     return found;
+}
+
+std::shared_ptr<ChunkVolume> ChunkVolumes::find_known(const ChunkPath& chunk) const {
+    const std::scoped_lock lock(mutex_);
+    const auto known = volumes_.find(chunk.key);
+    return known == volumes_.end() ? nullptr : known->second.volume;
 }
 
 void ChunkVolumes::grew(const ChunkPath& chunk, std::uint64_t held_bytes) {

@@ -47,6 +47,8 @@ class ChunkVolume {
     // Whether it is the one that came last, which is asked again when nothing has come for a while.
     // Where that one is no good this one, which is whole, takes its place.
     [[nodiscard]] bool waits(const ChunkPath& chunk);
+    // Whether this one does, whatever has become of its file since.
+    [[nodiscard]] bool is_waiter(const std::filesystem::path& path) const;
     // The one that did before, once; empty: none.
     [[nodiscard]] std::filesystem::path take_former_waiter() {
         return std::exchange(former_waiter_, {});
@@ -102,6 +104,8 @@ class ChunkVolumes {
 
     // Made where it is not known.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk);
+    // Null where it is not.
+    [[nodiscard]] std::shared_ptr<ChunkVolume> find_known(const ChunkPath& chunk) const;
     void grew(const ChunkPath& chunk, std::uint64_t held_bytes);
     void forget(const ChunkPath& chunk);
     void forget(const ChunkPath& chunk, const ChunkVolume* volume);  // if it is still this one

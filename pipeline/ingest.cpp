@@ -203,6 +203,12 @@ Status Ingestor::Impl::mark_gone(const fs::path& path) {
     return {};
 }
 
+Finish Ingestor::Impl::finish_of(bool finish_partial) const {
+    if (!finish_partial) return Finish::when_it_ends;
+    // Nobody who has nowhere to put things aside comes again when it has been quiet.
+    return options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
+}
+
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
     const Running running(impl_->running);
     IngestOutcome outcome;
@@ -213,7 +219,10 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         if (code != ErrorCode::not_found) return pass_on(before);
         if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
         outcome.result = IngestResult::vanished;
-        return outcome;
+        const auto gone = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
+        if (!gone) return outcome;
+        auto taken = impl_->take_gone_chunk(*gone, impl_->finish_of(finish_partial), outcome);
+        return taken ? std::move(*taken) : outcome;
     }
     const auto settled = impl_->catalog.is_settled(path, before->size_bytes, before->modified_ns);
     if (!settled) return pass_on(settled);
@@ -227,10 +236,7 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     }
     const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
     if (chunk) {
-        // Nobody who has nowhere to put things aside comes again when it has been quiet.
-        const Finish finish = !finish_partial                         ? Finish::when_it_ends
-                              : impl_->options.living.scratch.empty() ? Finish::as_it_is
-                                                                      : Finish::when_quiet;
+        const Finish finish = impl_->finish_of(finish_partial);
         if (auto taken = impl_->take_chunk(*chunk, *before, finish, outcome)) {
             return std::move(*taken);
         }
@@ -245,7 +251,8 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     const auto stamp = stamp_of(path, impl_->options.beneath);
     if (!stamp && stamp.error().code == ErrorCode::not_found) {
         if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
-        return IngestResult::vanished;
+        // There is still something to do: ingest().
+        return impl_->is_waited_for(path) ? IngestResult::registered : IngestResult::vanished;
     }
     if (!stamp || !stamp->regular) return IngestResult::registered;  // refused when it is taken in
     const auto known = impl_->catalog.is_known(path);

@@ -72,8 +72,9 @@ enum class IngestResult {
                   // changed while it was read; ask again when it was closed or quiet
     rejected,     // registered as rejected: no volume, or none that can be gridded
     unchanged,    // settled before; nothing was done
-    vanished,     // the file is gone; its rows, if any, are marked so
-    registered,   // registered; the Ingestor has no cache
+    vanished,    // the file is gone; its rows, if any, are marked so. One in whose name a volume of
+                 // chunks waits is incomplete instead, and to be asked for again all the same
+    registered,  // registered; the Ingestor has no cache
 };
 
 struct IngestOutcome {
@@ -111,7 +112,7 @@ class Ingestor {
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
     // Writes a file into the catalog as seen, unread, unless it stands there (registered), or marks
-    // its rows when it is gone (vanished).
+    // its rows when it is gone (vanished; registered where a volume of chunks waits in its name).
     Result<IngestResult> note(const std::filesystem::path& path);
     // The same as ingest() for a file that was settled before: its volumes are gridded again, as
     // they are.

@@ -199,6 +199,44 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
     return outcome;
 }
 
+bool Ingestor::Impl::is_waited_for(const fs::path& path) {
+    const auto chunk = chunks ? ChunkPath::of(path) : std::nullopt;
+    const auto volume = chunk ? chunks->find_known(*chunk) : nullptr;
+    if (!volume) return false;
+    const std::scoped_lock lock(volume->mutex);
+    return !volume->is_finished && volume->is_waiter(path);
+}
+
+// What was in it has been decoded. The volume goes on in its name until it is due, as others that
+// come later may still make it whole.
+std::optional<Result<IngestOutcome>> Ingestor::Impl::take_gone_chunk(const ChunkPath& chunk,
+                                                                     Finish finish,
+                                                                     IngestOutcome outcome) {
+    const auto volume = chunks->find_known(chunk);
+    if (!volume) return std::nullopt;
+    const std::scoped_lock lock(volume->mutex);
+    if (volume->is_finished || !volume->is_waiter(chunk.path)) return std::nullopt;
+    const std::string station = facts_of(*volume, chunk, {}).station;
+    outcome.station = station;
+    outcome.reason = "the file that waited for its volume was deleted";
+    if (finish == Finish::when_it_ends || (finish == Finish::when_quiet && !volume->is_due())) {
+        outcome.result = IngestResult::incomplete;
+        return outcome;
+    }
+    volume->is_finished = true;
+    const std::string reason = outcome.reason;
+    auto finished = finish_chunks(*volume, station, std::move(outcome));
+    chunks->forget(chunk, volume.get());
+    if (!finished) return finished;
+    finished->reason += (finished->reason.empty() ? "" : "; ") + reason;
+    for (const auto& [path, file] : volume->files()) {
+        const auto stamp = stamp_of(path, options.beneath);
+        if (stamp || stamp.error().code != ErrorCode::not_found) continue;
+        if (Status marked = mark_gone(path); !marked) return pass_on(marked);
+    }
+    return finished;
+}
+
 // The first chunk's row stands for the volume; those of the others say that they were taken in.
 Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const std::string& station,
                                                     IngestOutcome outcome) {

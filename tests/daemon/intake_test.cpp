@@ -455,6 +455,26 @@ TEST_F(IntakeTest, AFileThatWentIsLookedAtLastSoThatItsRowsAreMarked) {
     EXPECT_EQ(intake_.pending().running, 1U);
 }
 
+// 2026-11-22: a volume of chunks whose newest one was deleted waited for the next start.
+TEST_F(IntakeTest, OneThatWentIsAskedForAgainWhereAVolumeWaitsInItsName) {
+    intake_.file_closed(at("a"), make("a"));
+    ASSERT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    std::filesystem::remove(at("a"));
+    intake_.file_gone(at("a"));
+    EXPECT_EQ(next(), "a");
+    end("a", IngestResult::incomplete);
+    for (int second = 0; second < 30; ++second) {
+        intake_.poll_growing();
+        ASSERT_EQ(next(), "") << second;
+        now_ += seconds{1};
+    }
+    intake_.poll_growing();
+    EXPECT_EQ(next(), "a!");
+    end("a", IngestResult::gridded);
+    EXPECT_EQ(intake_.pending(), Pending{});
+}
+
 TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
     EXPECT_FALSE(intake_.next_time(true, true));
     intake_.file_closed(at("a"), make("a"));

@@ -107,6 +107,52 @@ TEST_F(LivingChunks, AnEndThatIsCutDoesNotKeepTheVolumeWaiting) {
     EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
 }
 
+// 2026-11-22: who waits in the name of all was deleted before the volume was due, and nobody asked
+// again before the next start.
+TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i != 20) take(house_, i);
+    }
+    const fs::path waiter = drop_ / names_.back();
+    fs::remove(waiter);
+    EXPECT_EQ(house_.ingestor->note(waiter).value(), IngestResult::registered);
+    const auto gone = house_.ingestor->ingest(waiter, false);
+    ASSERT_TRUE(gone) << gone.error().message;
+    EXPECT_EQ(gone->result, IngestResult::incomplete);
+    fs::remove(drop_ / names_[3]);
+    EXPECT_EQ(house_.ingestor->ingest(drop_ / names_[3], false)->result, IngestResult::vanished);
+    const auto outcome = house_.ingestor->ingest(waiter, true);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_TRUE(outcome->partial);
+    EXPECT_EQ(outcome->missing_chunks, std::vector<int>{21}) << "what was deleted was read before";
+    EXPECT_NE(outcome->reason.find("was deleted"), std::string::npos) << outcome->reason;
+    const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+    ASSERT_EQ(rows->size(), names_.size() - 1);
+    for (const auto& row : *rows) {
+        EXPECT_EQ(row.state == catalog::FileState::gone, !fs::exists(row.path)) << row.path;
+        EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
+    }
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::vanished) << "once";
+}
+
+TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
+    for (std::size_t i = 0; i < 10; ++i)
+        take(house_, i);
+    const fs::path waiter = drop_ / names_[9];
+    fs::remove(waiter);
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::incomplete)
+        << "not due: its end has not come";
+    const IngestOutcome next = take(house_, 10);
+    EXPECT_EQ(next.result, IngestResult::incomplete);
+    EXPECT_EQ(next.instead_of, waiter);
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::vanished);
+    EXPECT_EQ(house_.ingestor->note(waiter).value(), IngestResult::vanished);
+    for (std::size_t i = 11; i < names_.size(); ++i)
+        take(house_, i);
+    expect_same_cells(house_);
+}
+
 TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20) take(house_, i);
