@@ -39,6 +39,9 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.family("stormcellar_living_left_out_total", Type::counter,
                "Living grids that were left out because whole volumes waited.");
     out.sample(facts.living_left_out);
+    out.family("stormcellar_growing_given_up_total", Type::counter,
+               "Growing volumes that made room for others and are read again.");
+    out.sample(facts.given_up);
     out.family("stormcellar_event_overflows_total", Type::counter,
                "How often the kernel dropped directory events.");
     out.sample(facts.overflows);

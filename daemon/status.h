@@ -59,6 +59,7 @@ struct StatusFacts {
     std::size_t directories = 0;
     double longest_wait_s = 0;          // of the files that wait
     std::uint64_t living_left_out = 0;  // living grids, for want of time
+    std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 constexpr std::chrono::minutes longest_failing{2};
-constexpr std::size_t most_volumes = 320;  // each has a descriptor
 
 // The pieces of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
@@ -207,26 +206,46 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find_known(const ChunkPath& chunk) co
     return known == volumes_.end() ? nullptr : known->second.volume;
 }
 
-void ChunkVolumes::grew(const ChunkPath& chunk, std::uint64_t held_bytes) {
+bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume) {
     const std::scoped_lock lock(mutex_);
     const auto own = volumes_.find(chunk.key);
-    if (own != volumes_.end()) own->second.held_bytes = held_bytes;
+    if (own == volumes_.end() || own->second.volume.get() != &volume) return true;
+    own->second.held_bytes = volume.held_bytes();
+    own->second.shelf_bytes = volume.shelf_bytes();
+    const bool has_its_share = own->second.shelf_bytes <= limits_.shelf_bytes_each;
+    if (!has_its_share) give_up(own);
     give_up_beyond_limits(chunk.key);
+    return has_its_share;
+}
+
+void ChunkVolumes::give_up(std::map<std::string, Followed>::iterator volume) {
+    volumes_.erase(volume);
+    ++given_up_;
 }
 
 void ChunkVolumes::give_up_beyond_limits(const std::string& but) {
     std::uint64_t held = 0;
-    for (const auto& [key, followed] : volumes_)
+    std::uint64_t shelf = 0;
+    for (const auto& [key, followed] : volumes_) {
         held += followed.held_bytes;
-    while (volumes_.size() > 1 && (held > most_held_bytes_ || volumes_.size() > most_volumes)) {
+        shelf += followed.shelf_bytes;
+    }
+    while (volumes_.size() > 1 && (held > limits_.held_bytes || shelf > limits_.shelf_bytes ||
+                                   volumes_.size() > limits_.volumes)) {
         auto oldest = volumes_.end();
         for (auto at = volumes_.begin(); at != volumes_.end(); ++at) {
             if (at->first == but) continue;
             if (oldest == volumes_.end() || at->second.turn < oldest->second.turn) oldest = at;
         }
         held -= oldest->second.held_bytes;
-        volumes_.erase(oldest);
+        shelf -= oldest->second.shelf_bytes;
+        give_up(oldest);
     }
+}
+
+std::uint64_t ChunkVolumes::take_given_up() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(given_up_, 0);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk) {

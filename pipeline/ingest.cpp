@@ -62,9 +62,10 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
         .chunk_timeout = options.living.chunk_timeout,
         .chunk_grace = options.living.chunk_grace,
     };
-    chunks.emplace(follow);
+    const std::uint64_t most = options.living.put_aside_bytes;
+    chunks.emplace(follow, ChunkLimits{.shelf_bytes = most, .shelf_bytes_each = most / 8});
     if (store != nullptr && options.living.make && !options.living.scratch.empty()) {
-        living.emplace(follow);
+        living.emplace(follow, LivingLimits{.shelf_bytes = most});
     }
 }
 

@@ -125,6 +125,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
         return std::nullopt;
     }
     living->grew(path, *file);
+    outcome.given_up = living->take_given_up();
     if (!has_ended && !finish_partial) return show_file(facts, *file, std::move(outcome));
     living->forget(path);
     facts.content_hash = file->content_hash();
@@ -182,7 +183,8 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
     }
-    chunks->grew(chunk, volume->held_bytes());
+    volume->is_finished = !chunks->grew(chunk, *volume);
+    outcome.given_up = chunks->take_given_up();
     if (volume->news().any && volume->kept() != nullptr) {
         const auto shown =
             show_living(*volume->kept(), volume->news(), volume->first_file().filename().string(),

@@ -65,6 +65,7 @@ TEST(StatusBook, CountsEachEnd) {
     book.set_longest_wait(7.5);
     Finished growing = finished("/d/g", IngestResult::incomplete, 1);
     growing.taken->ingest.living_left_out = true;
+    growing.taken->ingest.given_up = 3;
     book.add(growing);
     book.set_state("running");
 
@@ -84,6 +85,7 @@ TEST(StatusBook, CountsEachEnd) {
         status["pending"],
         nlohmann::json({{"waiting", 4}, {"running", 2}, {"growing", 1}, {"longest_wait_s", 7.5}}));
     EXPECT_EQ(status["living_left_out"], 1);
+    EXPECT_EQ(status["growing_given_up"], 3);
     EXPECT_EQ(status["latency_s"]["count"], 3);
     EXPECT_NEAR(status["latency_s"]["median"], 0.2, 1e-9);
     EXPECT_NEAR(status["latency_s"]["max"], 0.3, 1e-9);

@@ -153,6 +153,65 @@ TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
     expect_same_cells(house_);
 }
 
+// 2026-11-22: what was put aside of chunks had no bound on disk.
+TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
+    const auto grow = [&](ChunkVolumes& volumes, const std::string& site) {
+        const auto directory = directory_ / "others" / site;
+        fs::create_directories(directory);
+        bool has_its_share = true;
+        for (std::size_t i = 0; i < 12; ++i) {
+            const auto chunk = ChunkPath::of(directory / names_[i]).value();
+            append_to(chunk.path, parts_[i]);
+            const auto volume = volumes.find(chunk);
+            EXPECT_TRUE(volume->add(chunk, stamp_of(chunk.path).value()));
+            has_its_share = volumes.grew(chunk, *volume) && has_its_share;
+        }
+        return std::pair(has_its_share, ChunkPath::of(directory / names_[0]).value());
+    };
+    LivingFile::Options options;
+    options.scratch = directory_ / "living";
+    ChunkVolumes ample(options);
+    const auto first = grow(ample, "A").second;
+    const std::uint64_t of_one = ample.find_known(first)->shelf_bytes();
+    EXPECT_GT(of_one, 1'000'000U);
+    grow(ample, "B");
+    EXPECT_EQ(ample.count(), 2U);
+    EXPECT_EQ(ample.take_given_up(), 0U);
+
+    fs::remove_all(directory_ / "others");
+    ChunkVolumes scarce(options, ChunkLimits{.shelf_bytes = of_one * 5 / 2});
+    const auto a = grow(scarce, "A").second;
+    const auto b = grow(scarce, "B").second;
+    EXPECT_EQ(scarce.count(), 2U);
+    (void)scarce.find(a);  // b is the oldest now
+    const auto c = grow(scarce, "C").second;
+    EXPECT_TRUE(scarce.find_known(a) && scarce.find_known(c));
+    EXPECT_FALSE(scarce.find_known(b));
+    EXPECT_EQ(scarce.take_given_up(), 1U);
+    EXPECT_EQ(scarce.take_given_up(), 0U);
+
+    fs::remove_all(directory_ / "others");
+    ChunkVolumes each(options, ChunkLimits{.shelf_bytes_each = of_one / 2});
+    EXPECT_FALSE(grow(each, "A").first);
+    EXPECT_EQ(each.take_given_up(), 1U);
+}
+
+TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    options.living.put_aside_bytes = 24'000'000;
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    std::uint64_t given_up = 0;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        given_up += take(house_, i).given_up;
+    EXPECT_GT(given_up, 1U);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
 TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20) take(house_, i);

@@ -195,9 +195,34 @@ TEST_F(Living, BeyondTheLimitTheOldestIsGivenUp) {
     EXPECT_EQ(files.count(), 2U);
     EXPECT_EQ(files.find("/drop/a"), a);
     EXPECT_EQ(files.find("/drop/b"), nullptr);
+    EXPECT_EQ(files.take_given_up(), 1U);
     EXPECT_EQ(files.find("/drop/c"), c);
     files.forget("/drop/a");
     EXPECT_EQ(files.find("/drop/a"), nullptr);
+}
+
+TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
+    const level2::Volume volume = level2::decode(real_bytes(busy))->volume;
+    const auto last_of = [&](const char* station, int minutes) {
+        auto kept = std::make_shared<KeptVolume>();
+        kept->shelf = SweepShelf::make_in(directory_.path()).value();
+        (void)kept->shelf->put(volume.sweeps.front());
+        kept->facts = later(volume, std::chrono::minutes{minutes});
+        kept->facts.sweeps.clear();
+        kept->facts.station = station;
+        return kept;
+    };
+    const auto a = last_of("KAAA", 5);
+    const std::uint64_t of_one = a->shelf->bytes();
+    LivingFiles files(LivingFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
+                      LivingLimits{.shelf_bytes = 2 * of_one});
+    files.keep_last(a);
+    files.keep_last(last_of("KBBB", 1));
+    EXPECT_TRUE(files.last_of("KAAA") && files.last_of("KBBB"));
+    files.keep_last(last_of("KCCC", 3));
+    EXPECT_FALSE(files.last_of("KBBB"));
+    EXPECT_TRUE(files.last_of("KAAA") && files.last_of("KCCC"));
+    EXPECT_EQ(files.take_given_up(), 0U);
 }
 
 TEST_F(Living, GrowthIsToldByTheRecords) {
