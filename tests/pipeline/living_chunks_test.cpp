@@ -202,7 +202,7 @@ TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
     options.spacing_m = 4000;
     options.nx = options.ny = 115;
     options.living.scratch = directory_ / "living";
-    options.living.put_aside_bytes = 24'000'000;
+    options.living.put_aside_bytes = 16'000'000;
     house_.ingestor.emplace(*house_.catalog, *house_.store, options);
     std::uint64_t given_up = 0;
     for (std::size_t i = 0; i < names_.size(); ++i)
