@@ -45,6 +45,9 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.family("stormcellar_event_overflows_total", Type::counter,
                "How often the kernel dropped directory events.");
     out.sample(facts.overflows);
+    out.family("stormcellar_unseen_entries_total", Type::counter,
+               "How often something could not be looked at for want of descriptors or memory.");
+    out.sample(facts.unseen);
     out.family("stormcellar_scans_total", Type::counter, "Scans of the whole drop directory.");
     out.sample(facts.scans);
     out.family("stormcellar_watched_directories", Type::gauge,

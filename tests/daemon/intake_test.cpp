@@ -475,6 +475,40 @@ TEST_F(IntakeTest, OneThatWentIsAskedForAgainWhereAVolumeWaitsInItsName) {
     EXPECT_EQ(intake_.pending(), Pending{});
 }
 
+// 2026-11-22: it waited for the next regular scan.
+TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
+    EXPECT_FALSE(intake_.look_again_at());
+    intake_.entry_unseen();
+    intake_.entry_unseen();
+    EXPECT_EQ(intake_.take_unseen(), 2U);
+    EXPECT_EQ(intake_.take_unseen(), 0U);
+    EXPECT_FALSE(intake_.needs_scan()) << "there is no use in it at once";
+    EXPECT_EQ(intake_.look_again_at(), now_ + seconds{1});
+    now_ += seconds{1};
+    EXPECT_TRUE(intake_.needs_scan());
+    // In vain: once nothing could be read, and once not all.
+    intake_.begin_scan();
+    EXPECT_FALSE(intake_.needs_scan());
+    intake_.end_scan(false);
+    EXPECT_EQ(intake_.look_again_at(), now_ + seconds{2});
+    now_ += seconds{2};
+    intake_.begin_scan();
+    intake_.entry_unseen();
+    intake_.end_scan(true);
+    EXPECT_EQ(intake_.look_again_at(), now_ + seconds{4});
+    now_ += seconds{4};
+    intake_.begin_scan();
+    intake_.end_scan(true);
+    EXPECT_FALSE(intake_.look_again_at());
+    EXPECT_FALSE(intake_.needs_scan());
+    // The next time begins with a second again; a drop directory that is missing is not the same.
+    intake_.begin_scan();
+    intake_.end_scan(false);
+    EXPECT_FALSE(intake_.look_again_at());
+    intake_.entry_unseen();
+    EXPECT_EQ(intake_.look_again_at(), now_ + seconds{1});
+}
+
 TEST_F(IntakeTest, SaysWhenThereIsSomethingToDo) {
     EXPECT_FALSE(intake_.next_time(true, true));
     intake_.file_closed(at("a"), make("a"));

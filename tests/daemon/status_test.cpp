@@ -61,6 +61,7 @@ TEST(StatusBook, CountsEachEnd) {
     failed.taken = fail(ErrorCode::io, "no");
     book.add(failed);
     book.count_overflow();
+    book.count_unseen(2);
     book.count_scan(3);
     book.set_longest_wait(7.5);
     Finished growing = finished("/d/g", IngestResult::incomplete, 1);
@@ -80,6 +81,7 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_EQ(status["vanished"], 1);
     EXPECT_EQ(status["failures"], 1);
     EXPECT_EQ(status["overflows"], 1);
+    EXPECT_EQ(status["unseen"], 2);
     EXPECT_EQ(status["directories"], 3);
     EXPECT_EQ(
         status["pending"],
