@@ -1,0 +1,45 @@
+#include "bunzip/block_decoder.h"
+
+#include "bunzip/symbol_reader.h"
+
+namespace stormcellar::bunzip {
+
+Found BlockDecoder::read_runs(BitReader& reader, std::uint32_t most_bytes, Path path) {
+    // Every run but the first has a byte, and a batch is looked at when all of it is there.
+    runs_.resize(most_rows + 2 + SymbolReader::batch_symbols);
+    run_count_ = 0;
+    maker_.begin(std::span{tables_.bytes}.first(tables_.byte_count));
+    const MakeRuns make_runs = make_runs_by(path);
+    SymbolReader symbols(reader, tables_);
+    while (!symbols.ended()) {
+        const auto batch = symbols.next_batch();
+        run_count_ += make_runs(maker_, batch, runs_.data() + run_count_);
+        if (maker_.bytes > most_bytes) return Found::bad;
+        if (symbols.found() != Found::good) return symbols.found();
+    }
+    runs_[run_count_++] = last_run(maker_);
+    return maker_.bytes > most_bytes ? Found::bad : Found::good;
+}
+
+Found BlockDecoder::read(BitReader& reader, std::uint32_t most_bytes, Path path) {
+    bytes_ = {};
+    const auto randomised = reader.read(1);
+    if (!randomised) return Found::cut;
+    const auto origin = reader.read(24);
+    if (!origin) return Found::cut;
+    if (*origin > most_bytes + 10) return Found::bad;
+    if (*randomised != 0) return Found::randomised;
+    if (const Found found = tables_.read(reader); found != Found::good) return found;
+    if (const Found found = read_runs(reader, most_bytes, path); found != Found::good) return found;
+    const auto rows = static_cast<std::uint32_t>(maker_.bytes);
+    if (*origin >= rows) return Found::bad;
+    links_.resize(most_rows + 1 + link_slack);
+    room_.resize(most_rows + 1);
+    link_rows_by(path)(std::span{runs_}.first(run_count_), maker_.count, links_.data());
+    const auto bytes = std::span{room_}.first(rows + 1);
+    walk_.read(links_, rows, *origin, bytes);
+    bytes_ = bytes;
+    return Found::good;
+}
+
+}  // namespace stormcellar::bunzip

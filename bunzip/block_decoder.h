@@ -1,0 +1,43 @@
+// bunzip/block_decoder.h -- one block: its tables and symbols read, its rows sorted back.
+//
+// Memory: 11 MB, and 14 MB of address space of which 1 MB is touched by what radars send (link_walk.h).
+// Thread contract: one thread.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bunzip/bit_reader.h"
+#include "bunzip/block_tables.h"
+#include "bunzip/byte_runs.h"
+#include "bunzip/format.h"
+#include "bunzip/link_walk.h"
+#include "bunzip/paths.h"
+#include "bunzip/row_links.h"
+
+namespace stormcellar::bunzip {
+
+class BlockDecoder {
+  public:
+    // Reads a block from behind its mark and its checksum. `most_bytes`: of its rows. Where it is
+    // not good, the reader stands anywhere, except that where it is cut or bad nothing else was
+    // met earlier in the stream.
+    [[nodiscard]] Found read(BitReader& reader, std::uint32_t most_bytes, Path path);
+    // Of the block that was read last and was good; with one more byte, see RunExpander.
+    [[nodiscard]] std::span<const std::uint8_t> bytes_and_one_more() const { return bytes_; }
+
+  private:
+    [[nodiscard]] Found read_runs(BitReader& reader, std::uint32_t most_bytes, Path path);
+
+    BlockTables tables_;
+    RunMaker maker_;
+    std::vector<ByteRun> runs_;
+    std::size_t run_count_ = 0;
+    std::vector<Link> links_;
+    LinkWalk walk_;
+    std::vector<std::uint8_t> room_;
+    std::span<const std::uint8_t> bytes_;
+};
+
+}  // namespace stormcellar::bunzip

@@ -1,0 +1,119 @@
+#include "bunzip/link_walk.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace stormcellar::bunzip {
+namespace {
+
+constexpr Link marked = Link{1} << 31;
+// Below it there is little to gain from more walks.
+constexpr std::uint32_t rows_a_segment = 256;
+// The lanes' bytes of one step lie in different sets of the cache.
+constexpr std::size_t lane_stride = (most_rows / 4096 + 1) * 4096 + 5 * 64;
+static_assert(LinkWalk::most_segments < marked && (most_rows + 1) << link_shift < marked);
+
+}  // namespace
+
+// Where each lane stands, and which segment it reads. A lane without one goes round on the row
+// behind the last, which is linked to itself.
+struct LinkWalk::Lanes {
+    Link idle;
+    std::array<Link, lanes> link;  // of the row that is read next
+    std::array<std::uint32_t, lanes> segment{};
+    std::uint32_t begun = 0;  // segments
+    std::uint32_t busy = 0;   // lanes
+};
+
+void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t origin) {
+    const std::uint32_t wanted = std::min(most_segments, rows / rows_a_segment + 1);
+    segment_count_ = 0;
+    const auto add = [&](std::uint32_t row) {
+        Segment& segment = segments_[segment_count_];
+        segment.row = row;
+        segment.link = links[row];
+        links[row] = marked | segment_count_++;
+    };
+    add(origin);
+    for (std::uint32_t i = 1; i < wanted; ++i) {
+        const auto row = static_cast<std::uint32_t>(std::uint64_t{rows} * i / wanted);
+        if (row != origin) add(row);
+    }
+}
+
+// Called where a lane has met a mark.
+void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+        if ((at.link[lane] & marked) == 0) continue;
+        Segment& ended = segments_[at.segment[lane]];
+        ended.length = step - ended.begin;
+        ended.next = at.link[lane] & ~marked;
+        if (at.begun < segment_count_) {
+            Segment& begun = segments_[at.begun];
+            begun.lane = lane;
+            begun.begin = step;
+            at.segment[lane] = at.begun++;
+            at.link[lane] = begun.link;
+        } else {
+            at.link[lane] = at.idle;
+            --at.busy;
+        }
+    }
+}
+
+void LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
+    Lanes at{rows << link_shift, {}};
+    links[rows] = at.idle;
+    at.link.fill(at.idle);
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+        if (at.begun == segment_count_) continue;
+        Segment& segment = segments_[at.begun];
+        segment.lane = lane;
+        segment.begin = 0;
+        at.segment[lane] = at.begun++;
+        at.link[lane] = segment.link;
+        ++at.busy;
+    }
+    const Link* const table = links.data();
+    std::uint8_t* const bytes = lane_bytes_.get();
+    std::uint32_t step = 0;
+    while (at.busy > 0) {
+        Link link[lanes];
+        std::copy(at.link.begin(), at.link.end(), link);
+        Link met = 0;
+        do {
+            met = 0;
+            for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+                bytes[lane * lane_stride + step] = static_cast<std::uint8_t>(link[lane]);
+                link[lane] = table[link[lane] >> link_shift];
+                met |= link[lane];
+            }
+            ++step;
+        } while ((met & marked) == 0);
+        std::copy(std::begin(link), std::end(link), at.link.begin());
+        end_segments(at, step);
+    }
+}
+
+void LinkWalk::join(std::span<std::uint8_t> bytes) const {
+    std::size_t done = 0;
+    for (std::uint32_t i = 0; done < bytes.size(); i = segments_[i].next) {
+        const Segment& segment = segments_[i];
+        const std::size_t piece = std::min<std::size_t>(segment.length, bytes.size() - done);
+        std::memcpy(bytes.data() + done,
+                    lane_bytes_.get() + segment.lane * lane_stride + segment.begin, piece);
+        done += piece;
+    }
+}
+
+void LinkWalk::read(std::span<Link> links, std::uint32_t rows, std::uint32_t origin,
+                    std::span<std::uint8_t> bytes) {
+    if (!lane_bytes_) lane_bytes_.reset(new std::uint8_t[lanes * lane_stride]);
+    mark(links, rows, origin);
+    walk(links, rows);
+    join(bytes);
+    for (std::uint32_t i = 0; i < segment_count_; ++i)
+        links[segments_[i].row] = segments_[i].link;
+}
+
+}  // namespace stormcellar::bunzip

@@ -1,0 +1,43 @@
+// bunzip/symbol_reader.h -- the symbols of a block, by groups of 50, each with its code.
+//
+// Thread contract: one thread. What the reader and the tables point to must outlive it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "bunzip/bit_reader.h"
+#include "bunzip/block_tables.h"
+
+namespace stormcellar::bunzip {
+
+class SymbolReader {
+  public:
+    SymbolReader(BitReader& reader, const BlockTables& tables)
+        : reader_(reader), tables_(tables) {}
+
+    static constexpr std::size_t batch_groups = 20;
+    static constexpr std::size_t batch_symbols = batch_groups * group_symbols;
+
+    // The next symbols, without the end of the block; valid until the next call. Those before what
+    // is bad or cut are given too, found() then says so.
+    [[nodiscard]] std::span<const std::uint16_t> next_batch();
+    // Whether the end of the block was read; the reader then stands behind it.
+    [[nodiscard]] bool ended() const { return ended_; }
+    [[nodiscard]] Found found() const { return found_; }
+
+  private:
+    // Behind the symbols that were read. Stops where the block ends or found_ is not good.
+    std::uint16_t* read_group(const PrefixCode& code, std::uint16_t* to);
+    std::uint16_t* read_last_group(const PrefixCode& code, std::uint16_t* to);
+
+    BitReader& reader_;
+    const BlockTables& tables_;
+    std::size_t group_ = 0;
+    bool ended_ = false;
+    Found found_ = Found::good;
+    std::array<std::uint16_t, batch_symbols> batch_;
+};
+
+}  // namespace stormcellar::bunzip

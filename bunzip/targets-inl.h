@@ -1,0 +1,13 @@
+// bunzip/targets-inl.h -- which of Highway's targets the kernels are compiled for.
+//
+// Included before hwy/foreach_target.h. The plain path is C++ outside of the targets, so no lesser
+// ones are needed.
+// NOLINTBEGIN(llvm-header-guard)
+#ifndef STORMCELLAR_BUNZIP_TARGETS_INL_H
+#define STORMCELLAR_BUNZIP_TARGETS_INL_H
+
+#define HWY_WANT_AVX3_DL
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
+
+#endif
+// NOLINTEND(llvm-header-guard)
