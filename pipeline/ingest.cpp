@@ -12,6 +12,7 @@
 #include "level2/volume_checks.h"
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
+#include "pipeline/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -20,10 +21,6 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),

@@ -8,6 +8,7 @@
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
 #include "pipeline/keep_rule.h"
+#include "pipeline/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -16,10 +17,6 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The chunk, and with the first one all that lie beside it.
 Result<ChunkVolume::Added> add_to(ChunkVolume& volume, const ChunkPath& chunk,
