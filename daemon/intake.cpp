@@ -45,7 +45,7 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.urgency = urgency;
     job.is_begun = is_followed || pipeline::is_chunk_name(path);
     job.is_registered = is_followed;
-    job.station = pipeline::station_by_name(path);
+    job.station = pipeline::station_of_path(path);
     return job;
 }
 

@@ -192,7 +192,7 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         live.grace = options_.chunk_grace;
         live.decode.output_limit_bytes = most_output_bytes;
         live.decode.selection = options_.selection;
-        live.decode.fallback_station = station_by_name(chunk.path);
+        live.decode.fallback_station = station_of_path(chunk.path);
         followed.volume = std::make_shared<ChunkVolume>(options_, live);
     }
     const std::shared_ptr<ChunkVolume> found = followed.volume;

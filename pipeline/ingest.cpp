@@ -95,7 +95,7 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, Error why,
 Result<IngestOutcome> Ingestor::Impl::reject_unread(const fs::path& path, const Error& why) {
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_name(path);
+    facts.station = station_of_file_name(path);
     facts.modified_ns = catalog::never_read_ns;
     return reject(facts, {why.code, without_path(why.message, path)}, {});
 }
@@ -258,7 +258,7 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     if (*known) return IngestResult::registered;
     FileFacts facts;
     facts.path = path;
-    facts.station = station_by_name(path);
+    facts.station = station_of_path(path);
     facts.size_bytes = stamp->size_bytes;
     facts.modified_ns = stamp->modified_ns;
     facts.state = FileState::seen;
@@ -283,7 +283,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                        IngestOutcome outcome) {
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_name(path);
+    facts.station = station_of_file_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
     if (!before.regular) {

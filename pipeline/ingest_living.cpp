@@ -36,7 +36,7 @@ FileFacts facts_of(const ChunkVolume& volume, const ChunkPath& chunk, const File
     facts.modified_ns = stamp.modified_ns;
     facts.content_hash = volume.files().at(chunk.path).content_hash;
     facts.station = volume.station();
-    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
+    if (facts.station.empty()) facts.station = station_of_path(chunk.path);
     facts.state = FileState::seen;
     return facts;
 }
@@ -107,7 +107,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     std::shared_ptr<LivingFile> file = living->find(path);
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_name(path);
+    facts.station = station_of_file_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
     if (!file && !finish_partial && LivingFile::is_growing(path, options.beneath)) {
