@@ -25,7 +25,7 @@
 #include "level2/live_volume.h"
 #include "pipeline/chunk_path.h"
 #include "pipeline/file_facts.h"
-#include "pipeline/ingest.h"
+#include "pipeline/ingest_options.h"
 #include "pipeline/living_file.h"
 
 namespace stormcellar::pipeline {

@@ -15,7 +15,7 @@
 #include <mutex>
 #include <string>
 
-#include "pipeline/ingest.h"
+#include "pipeline/ingest_options.h"
 #include "pipeline/living_file.h"
 
 namespace stormcellar::pipeline {
