@@ -177,21 +177,27 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         chunks->forget(chunk, volume.get());
         return finished;
     }
+    return show_chunk(chunk, facts, *volume, std::move(outcome));
+}
+
+// Its volume goes on growing.
+Result<IngestOutcome> Ingestor::Impl::show_chunk(const ChunkPath& chunk, const FileFacts& facts,
+                                                 ChunkVolume& volume, IngestOutcome outcome) {
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
     }
-    volume->is_finished = !chunks->grew(chunk, *volume);
+    volume.is_finished = !chunks->grew(chunk, volume);
     outcome.given_up = chunks->take_given_up();
-    if (volume->news().any && volume->kept() != nullptr) {
+    if (volume.news().any && volume.kept() != nullptr) {
         const auto shown =
-            show_living(*volume->kept(), volume->news(), volume->first_file().filename().string(),
+            show_living(*volume.kept(), volume.news(), volume.first_file().filename().string(),
                         facts.modified_ns, outcome);
         if (!shown) return pass_on(shown);
-        if (*shown) volume->set_shown();
+        if (*shown) volume.set_shown();
     }
     // One of a volume is waited for in the name of all.
-    if (volume->waits(chunk)) {
-        outcome.instead_of = volume->take_former_waiter();
+    if (volume.waits(chunk)) {
+        outcome.instead_of = volume.take_former_waiter();
     } else {
         outcome.result = IngestResult::registered;
     }

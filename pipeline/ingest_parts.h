@@ -85,6 +85,8 @@ struct Ingestor::Impl {
     // None: the file is to be taken by itself.
     std::optional<Result<IngestOutcome>> take_chunk(const ChunkPath& chunk, const FileStamp& before,
                                                     Finish finish, IngestOutcome outcome);
+    Result<IngestOutcome> show_chunk(const ChunkPath& chunk, const catalog::FileFacts& facts,
+                                     ChunkVolume& volume, IngestOutcome outcome);
     // Whether a volume of chunks waits in its name, and not in another's.
     [[nodiscard]] bool is_waited_for(const std::filesystem::path& path);
     // Of a chunk whose file is gone, and whose rows say so. None: nothing waits in its name.
