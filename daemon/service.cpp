@@ -114,6 +114,8 @@ SteadyTime Service::next_time() const {
         if (due) time = std::min(time, *due);
     }
     if (intake_.needs_scan()) time = std::min(time, rested_);
+    if (const auto again = intake_.look_again_at())
+        time = std::min(time, std::max(*again, rested_));
     return time;
 }
 
@@ -265,6 +267,7 @@ void Service::keep_house() {
         log_warning({Event::overflow},
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
+    status_.count_unseen(intake_.take_unseen());
     report_repairs();
     report_backlog(now);
     report_sites();

@@ -50,6 +50,7 @@ void StatusBook::add(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     ++facts_.results.at(index_of(outcome.result));
     facts_.living_left_out += outcome.living_left_out ? 1 : 0;
+    facts_.given_up += outcome.given_up;
     facts_.stations.add(outcome, latency_of(finished), at);
     if (!outcome.missing_chunks.empty()) {
         facts_.stations.add_missing_chunks(outcome.station,
