@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "base/version.h"
@@ -96,16 +97,12 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-Status check_drop(const std::filesystem::path& drop) {
-    std::error_code error;
-    const auto status = std::filesystem::status(drop, error);
-    if (!std::filesystem::exists(status)) {
-        return fail(ErrorCode::not_found, "{}: the drop directory does not exist", drop.native());
-    }
-    if (!std::filesystem::is_directory(status)) {
-        return fail(ErrorCode::not_a_file, "{}: the drop directory is no directory", drop.native());
-    }
-    return {};
+// The service starts all the same, and takes what is in it when it can be read.
+void note_unreadable(const std::filesystem::path& drop) {
+    const auto names = names_beneath(drop, drop);
+    if (names) return;
+    fmt::print(stderr, "stormcellard: note: drop directory {}: the service waits for it\n",
+               printable(names.error().message));
 }
 
 std::unique_ptr<EventSource> open_events() {
@@ -146,9 +143,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
     cache::install_map_guard();
     raise_descriptor_limit();
     set_up_logging(config.log_level, usual_outlet());
-    const Status ready = check_drop(config.drop)
-                             .and_then([&] { return make_directory(config.state); })
-                             .and_then([&] { return make_directory(config.cache); });
+    const Status ready =
+        make_directory(config.state).and_then([&] { return make_directory(config.cache); });
     if (!ready) return complain(ready.error());
     const auto lock = pipeline::InstanceLock::acquire(config.state);
     if (!lock) return complain(lock.error());
@@ -181,8 +177,6 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;
-        case Stopped::at_start:
-            return exit_failed;
         case Stopped::with_jobs:
             // What the jobs have written appears whole or not at all, so this loses nothing.
             std::_Exit(exit_failed);
@@ -209,6 +203,7 @@ int run(int argc, char** argv) {
             return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
                                                             fine.error().message)});
         }
+        note_unreadable(config->drop);
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }

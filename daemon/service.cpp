@@ -7,6 +7,7 @@
 
 #include <poll.h>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 
@@ -69,7 +70,7 @@ void Service::request_stop() {
 }
 
 Stopped Service::run() {
-    if (!start()) return Stopped::at_start;
+    start();
     turn();
     while (!stop_requested_) {
         wait();
@@ -78,17 +79,24 @@ Stopped Service::run() {
     return stop();
 }
 
-bool Service::start() {
-    if (!scan()) return false;
+void Service::start() {
+    scan();
     const Pending pending = intake_.pending();
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: watching {} ({} directories), {} files to look at, {} workers",
-             printable(config_.drop.native()), watcher_.directory_count(),
-             pending.waiting + pending.growing, config_.worker_count());
+    const std::string workers =
+        counted(static_cast<std::uint64_t>(config_.worker_count()), "worker");
+    if (drop_missing_) {
+        log_info({Event::ready}, "ready: waiting for {}, {}", printable(config_.drop.native()),
+                 workers);
+    } else {
+        log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
+                 printable(config_.drop.native()),
+                 counted(watcher_.directory_count(), "directory", "directories"),
+                 counted(pending.waiting + pending.growing, "file"), workers);
+    }
     if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
-    return true;
 }
 
 void Service::turn() {
@@ -195,12 +203,7 @@ void Service::scan_if_due() {
     if (now >= next_scan_ || (intake_.needs_scan() && now >= rested_)) scan();
 }
 
-bool Service::scan() {
-    const SteadyTime began = parts_.clock.steady();
-    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
-    intake_.begin_scan();
-    const Status scanned = watcher_.scan();
-    intake_.end_scan(scanned.has_value());
+void Service::note_drop(const Status& scanned) {
     if (!scanned && !drop_missing_) {
         log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
                   printable(scanned.error().message),
@@ -209,6 +212,16 @@ bool Service::scan() {
         log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
+    status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
+}
+
+void Service::scan() {
+    const SteadyTime began = parts_.clock.steady();
+    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
+    intake_.begin_scan();
+    const Status scanned = watcher_.scan();
+    intake_.end_scan(scanned.has_value());
+    note_drop(scanned);
     if (scanned && !is_poll) mark_missing();
     status_.count_scan(watcher_.directory_count());
     status_file_.changed();
@@ -217,7 +230,6 @@ bool Service::scan() {
     if (!is_poll) next_rescan_ = ended + config_.rescan;
     const auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
     next_scan_ = std::max(ended + gap, rested_);
-    return scanned.has_value();
 }
 
 // In a thread of its own: it looks at every file of the catalog.

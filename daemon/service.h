@@ -2,7 +2,8 @@
 //
 // One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
 // in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start    scan the drop directory, queue what is there, then say READY
+//   start    scan the drop directory, queue what is there, then say READY; where it is not there or
+//            cannot be read, that is said, and all is taken when it can be
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
 // Loops are other programs, which end with the service (daemon/loop_keeper.h), unless a service of
@@ -52,7 +53,6 @@ struct ServiceParts {
 
 enum class Stopped {
     cleanly,
-    at_start,   // the drop directory cannot be read
     with_jobs,  // jobs did not end in time: the process must be ended without waiting for them
 };
 
@@ -74,7 +74,7 @@ class Service {
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
-    bool start();
+    void start();
     void turn();
     void wait();
     Stopped stop();
@@ -83,7 +83,8 @@ class Service {
     void apply(const Config& fresh);
     void collect();
     void scan_if_due();
-    bool scan();
+    void scan();
+    void note_drop(const Status& scanned);
     void mark_missing();
     void start_jobs();
     void report_backlog(SteadyTime now);

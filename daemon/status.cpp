@@ -108,12 +108,14 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
 }
 
 std::string StatusBook::line(const Pending& pending) const {
+    const std::string lost =
+        facts_.drop_lost.empty() ? "" : fmt::format("drop directory {}; ", facts_.drop_lost);
     std::string latest;
     if (!facts_.volumes.empty()) {
         const RecentVolume& volume = facts_.volumes.back();
         latest = fmt::format(" (latest {} {})", volume.station, volume.time);
     }
-    return fmt::format("ingested {}{}, rejected {}, waiting {}, running {}, growing {}",
+    return fmt::format("{}ingested {}{}, rejected {}, waiting {}, running {}, growing {}", lost,
                        facts_.ingested, latest, facts_.results.at(index_of(IngestResult::rejected)),
                        pending.waiting, pending.running, pending.growing);
 }

@@ -48,6 +48,7 @@ struct RejectedFile {
 
 struct StatusFacts {
     std::filesystem::path drop, cache, socket;  // no socket: empty
+    std::string drop_lost;                      // why it cannot be read; empty: it can
     int http_port = 0;                          // none: 0
     UtcTime started = now_utc();
     std::string state = "starting";
@@ -81,6 +82,7 @@ class StatusBook {
     void count_overflow() { ++facts_.overflows; }
     void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
     void count_scan(std::size_t directories);
+    void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);
     void add(pipeline::PairReport report);
@@ -91,7 +93,8 @@ class StatusBook {
 
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
-    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=.
+    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=. It
+    // begins with "drop directory DIR: WHY; " while that cannot be read.
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 

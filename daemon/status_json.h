@@ -5,6 +5,7 @@
 //   state          "starting" | "running" | "stopping" | "stopped"
 //   pid, version, started, updated
 //   drop, cache    the directories (bytes that are not UTF-8 escaped)
+//   drop_lost      why the drop directory cannot be read (null: it can); it is looked at again
 //   listening      {"socket" (null: none),"http_port" (null: none)}: where it was told to answer
 //   ingested       files whose volumes were gridded, each time they were
 //   grids          grids committed to the cache

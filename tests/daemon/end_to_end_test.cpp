@@ -362,15 +362,38 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
                                    file.native()));
     const auto good = run("[paths]\ndrop = \"none\"\n", {"--check-config"});
     EXPECT_EQ(good.status, 0) << "the directories need not be there to be checked";
+    EXPECT_EQ(good.err, fmt::format("stormcellard: note: drop directory {}: No such file or "
+                                    "directory: the service waits for it\n",
+                                    (directory / "none").native()));
+    fs::create_directory(directory / "there");
+    EXPECT_EQ(run("[paths]\ndrop = \"there\"\n", {"--check-config"}).err, "");
     const auto unseen =
         run("[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\nscene = \"gone.toml\"\n",
             {"--check-config"});
     EXPECT_EQ(unseen.status, 1);
     EXPECT_NE(unseen.err.find("c.toml:5: [loop] scene: "), std::string::npos) << unseen.err;
-    const auto missing = run("[paths]\ndrop = \"none\"\nstate = \"s\"\ncache = \"c\"\n");
-    EXPECT_EQ(missing.status, 1);
-    EXPECT_NE(missing.err.find("the drop directory does not exist"), std::string::npos);
-    EXPECT_FALSE(fs::exists(directory / "s")) << "nothing is made when it cannot start";
+}
+
+// As with a spool that is mounted late.
+TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    RunningDaemon daemon;
+    fs::remove(daemon.drop());
+    daemon.start("[watch]\nrescan_seconds = 1\n");
+    ASSERT_TRUE(daemon.wait_for_log("ready: waiting for " + daemon.drop().native() + ", "))
+        << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() +
+                                    ": No such file or directory; looking again every 1 s"));
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["drop_lost"].is_string(); }));
+    fs::create_directory(daemon.drop());
+    fs::copy_file(volumes[0], daemon.drop() / "a");
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["drop_lost"].is_null() && s["ingested"] == 1;
+    })) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() + " is back"));
+    EXPECT_EQ(daemon.terminate(), 0);
 }
 
 }  // namespace

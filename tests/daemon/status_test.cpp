@@ -245,6 +245,17 @@ TEST(StatusBook, LoopsAreSummedAndListed) {
     EXPECT_TRUE(each[2]["last_problem"].is_null());
 }
 
+TEST(StatusBook, ADropDirectoryThatIsLostIsNamedFirst) {
+    StatusBook book("/d", "/c");
+    EXPECT_TRUE(nlohmann::json::parse(book.json({}, now_utc()))["drop_lost"].is_null());
+    book.set_drop_lost("/d: Permission denied");
+    EXPECT_EQ(book.line({}),
+              "drop directory /d: Permission denied; ingested 0, rejected 0, "
+              "waiting 0, running 0, growing 0");
+    EXPECT_EQ(nlohmann::json::parse(book.json({}, now_utc()))["drop_lost"],
+              "/d: Permission denied");
+}
+
 TEST(StatusBook, TheLineNamesTheLatestVolume) {
     StatusBook book("/d", "/c");
     EXPECT_EQ(book.line({}), "ingested 0, rejected 0, waiting 0, running 0, growing 0");
