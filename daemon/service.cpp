@@ -185,8 +185,7 @@ void Service::apply(const Config& fresh) {
 
 void Service::collect() {
     for (const Finished& finished : pool_.collect()) {
-        Reporter::report(finished);
-        status_.add(finished);
+        if (status_.add(finished)) Reporter::report(finished);
         intake_.job_ended(finished);
         status_file_.changed();
     }

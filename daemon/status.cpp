@@ -41,13 +41,17 @@ void StatusBook::count_scan(std::size_t directories) {
     facts_.directories = directories;
 }
 
-void StatusBook::add(const Finished& finished, UtcTime at) {
+bool StatusBook::add(const Finished& finished, UtcTime at) {
     if (!finished.taken) {
         ++facts_.failures;
         ++facts_.failed.at(index_of(finished.taken.error().code));
-        return;
+        return true;
     }
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
+    if (!rejected_.is_news(finished.job.path, outcome)) {
+        facts_.stations.add_data(outcome.station, at);
+        return false;
+    }
     ++facts_.results.at(index_of(outcome.result));
     facts_.living_left_out += outcome.living_left_out ? 1 : 0;
     facts_.stations.add(outcome, latency_of(finished), at);
@@ -61,6 +65,7 @@ void StatusBook::add(const Finished& finished, UtcTime at) {
     if (!outcome.living.empty()) add_living(finished);
     if (outcome.result == IngestResult::gridded) add_ingested(finished, at);
     if (outcome.result == IngestResult::rejected) add_rejected(finished, at);
+    return true;
 }
 
 void StatusBook::add(pipeline::PairReport report) {
@@ -97,9 +102,11 @@ void StatusBook::add_rejected(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     const ErrorCode code = outcome.rejected_with.value_or(ErrorCode::internal);
     ++facts_.rejected.at(index_of(code));
+    std::string file = printable(finished.job.path.native());
+    std::erase_if(facts_.rejected_files, [&](const RejectedFile& one) { return one.file == file; });
     push_bounded(
         facts_.rejected_files,
-        RejectedFile{printable(finished.job.path.native()), printable(outcome.station),
+        RejectedFile{std::move(file), printable(outcome.station),
                      printable(outcome.reason.substr(0, longest_reason)), name_of(code), at});
 }
 

@@ -19,6 +19,7 @@
 #include "base/utc_time.h"
 #include "cache/store.h"
 #include "daemon/loop_config.h"
+#include "daemon/rejected_paths.h"
 #include "daemon/station_book.h"
 #include "daemon/status_names.h"
 #include "daemon/timings.h"
@@ -63,12 +64,12 @@ struct StatusFacts {
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};
-    std::uint64_t living = 0;          // grids of volumes that had not ended, each time
-    Timings close_to_living{4096};     // of the chunk with which a sweep was complete
-    Timings antenna_to_cache{4096};    // of data that can have come live
-    std::uint64_t not_live = 0;        // volumes that it leaves out
-    std::deque<RecentVolume> volumes;  // the last 64, oldest first, as the next
-    std::deque<RejectedFile> rejected_files;
+    std::uint64_t living = 0;                 // grids of volumes that had not ended, each time
+    Timings close_to_living{4096};            // of the chunk with which a sweep was complete
+    Timings antenna_to_cache{4096};           // of data that can have come live
+    std::uint64_t not_live = 0;               // volumes that it leaves out
+    std::deque<RecentVolume> volumes;         // the last 64, oldest first, as the next
+    std::deque<RejectedFile> rejected_files;  // each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
 };
@@ -77,8 +78,9 @@ class StatusBook {
   public:
     StatusBook(std::filesystem::path drop, std::filesystem::path cache);
 
-    // `at`: when it ended, by the clock on the wall.
-    void add(const Finished& finished, UtcTime at = now_utc());
+    // `at`: when it ended, by the clock on the wall. False: the file was rejected before, for the
+    // same reason, and is not counted again.
+    bool add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
     void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
     void count_scan(std::size_t directories);
@@ -104,6 +106,7 @@ class StatusBook {
     void add_living(const Finished& finished);
 
     StatusFacts facts_;
+    RejectedPaths rejected_;
 };
 
 // The document and the STATUS= line of a process that keeps loops alone (daemon/loops_service.h):

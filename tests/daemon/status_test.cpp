@@ -121,6 +121,31 @@ TEST(StatusBook, SaysWhatWasWrongWithTheLastRejectedFiles) {
     EXPECT_LT(reason.size(), 600U);
 }
 
+// 2026-11-22: a file that was no volume counted and stood in the list with each append.
+TEST(StatusBook, AFileThatIsRejectedAgainAndAgainCountsOnce) {
+    StatusBook book("/d", "/c");
+    const auto reject = [&](const std::string& path, const std::string& reason) {
+        Finished rejected = finished(path, IngestResult::rejected, 1);
+        rejected.taken->ingest.reason = reason;
+        rejected.taken->ingest.rejected_with = ErrorCode::not_level2;
+        return book.add(rejected);
+    };
+    EXPECT_TRUE(reject("/d/a", "not a Level II file"));
+    for (int i = 0; i < 15; ++i)
+        EXPECT_FALSE(reject("/d/a", "not a Level II file"));
+    EXPECT_TRUE(reject("/d/b", "not a Level II file"));
+    EXPECT_TRUE(reject("/d/a", "another reason"));
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["rejected"], 3);
+    EXPECT_EQ(status["rejected_by"], nlohmann::json({{"not_level2", 3}}));
+    EXPECT_EQ(status["stations"][0]["rejected"], 3);
+    const auto files = status["rejected_files"];
+    ASSERT_EQ(files.size(), 2U);
+    EXPECT_EQ(files[0]["file"], "/d/b");
+    EXPECT_EQ(files[1]["file"], "/d/a");
+    EXPECT_EQ(files[1]["reason"], "another reason");
+}
+
 TEST(StatusBook, EachStationHasAgesLatenciesAndWhatIsMissing) {
     StatusBook book("/d", "/c");
     const UtcTime at = *parse_utc("2022-03-17T00:15:00Z", UtcTime{});
