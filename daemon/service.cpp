@@ -222,7 +222,7 @@ void Service::scan() {
     intake_.end_scan(scanned.has_value());
     note_drop(scanned);
     if (scanned && !is_poll) mark_missing();
-    status_.count_scan(watcher_.directory_count());
+    status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
     rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
@@ -310,6 +310,9 @@ void Service::publish(bool at_once) {
     const Pending pending = intake_.pending();
     if (pending != published_) status_file_.changed();
     published_ = pending;
+    const std::size_t directories = watcher_.directory_count();
+    if (directories != status_.facts().directories) status_file_.changed();
+    status_.set_directories(directories);
     if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
 }

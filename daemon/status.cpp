@@ -36,11 +36,6 @@ void StatusBook::set_listening(std::filesystem::path socket, int http_port) {
     facts_.http_port = http_port;
 }
 
-void StatusBook::count_scan(std::size_t directories) {
-    ++facts_.scans;
-    facts_.directories = directories;
-}
-
 bool StatusBook::add(const Finished& finished, UtcTime at) {
     if (!finished.taken) {
         ++facts_.failures;

@@ -83,7 +83,8 @@ class StatusBook {
     bool add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
     void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
-    void count_scan(std::size_t directories);
+    void count_scan() { ++facts_.scans; }
+    void set_directories(std::size_t watched) { facts_.directories = watched; }
     void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);

@@ -238,6 +238,18 @@ TEST_F(ServiceTest, GoesOnWhenTheDropDirectoryVanishesAndReturns) {
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
+// 2026-11-22: as of the last scan, a minute ago, it was.
+TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
+    config_.rescan = std::chrono::hours{1};
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    ASSERT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
+    fs::create_directories(config_.drop / "KTLX/494");
+    EXPECT_TRUE(wait_for([&] { return status()["directories"] == 3; }));
+    fs::remove_all(config_.drop / "KTLX");
+    EXPECT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
+}
+
 // 2026-11-22: a drop directory that was mounted late, or that a group was let into late, ended the
 // start, and systemd gave up after ten of them.
 TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {

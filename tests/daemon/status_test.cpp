@@ -61,7 +61,8 @@ TEST(StatusBook, CountsEachEnd) {
     failed.taken = fail(ErrorCode::io, "no");
     book.add(failed);
     book.count_overflow();
-    book.count_scan(3);
+    book.count_scan();
+    book.set_directories(3);
     book.set_longest_wait(7.5);
     Finished growing = finished("/d/g", IngestResult::incomplete, 1);
     growing.taken->ingest.living_left_out = true;
@@ -79,6 +80,7 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_EQ(status["vanished"], 1);
     EXPECT_EQ(status["failures"], 1);
     EXPECT_EQ(status["overflows"], 1);
+    EXPECT_EQ(status["scans"], 1);
     EXPECT_EQ(status["directories"], 3);
     EXPECT_EQ(
         status["pending"],
