@@ -186,6 +186,7 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
+    slot.last_line.clear();  // of what was not made before: it is no reason of an end
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(number("frames"));
     const double took_s = number("total_s");
@@ -213,8 +214,10 @@ void LoopKeeper::note_end(Slot& slot, const std::string& how, SteadyTime now) {
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
+    // What is killed has no reason of its own.
+    const bool was_killed = how.starts_with("signal");
     slot.state.last_problem =
-        slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
+        was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
     log_error({.event = Event::loop_failed, .loop = slot.state.name},
               "loop {}: ended with {}; again in {} s", slot.state.name, slot.state.last_problem,
               Schedule::retry_delay(slot.failures).count());

@@ -97,12 +97,17 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// The service starts all the same, and takes what is in it when it can be read.
-void note_unreadable(const std::filesystem::path& drop) {
-    const auto names = names_beneath(drop, drop);
-    if (names) return;
-    fmt::print(stderr, "stormcellard: note: drop directory {}: the service waits for it\n",
-               printable(names.error().message));
+// What is no mistake, but may not be meant: the service starts all the same.
+void print_notes(const Config& config) {
+    const auto note = [](const std::string& what) {
+        fmt::print(stderr, "stormcellard: note: {}\n", what);
+    };
+    if (const auto names = names_beneath(config.drop, config.drop); !names) {
+        note(fmt::format("drop directory {}: the service waits for it",
+                         printable(names.error().message)));
+    }
+    for (const std::string& doubt : doubts_about(config.loops, config.ingest.domains))
+        note(doubt);
 }
 
 std::unique_ptr<EventSource> open_events() {
@@ -203,7 +208,7 @@ int run(int argc, char** argv) {
             return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
                                                             fine.error().message)});
         }
-        note_unreadable(config->drop);
+        print_notes(*config);
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
