@@ -22,6 +22,7 @@
 #include "daemon/loop_check.h"
 #include "daemon/loops_service.h"
 #include "daemon/service.h"
+#include "daemon/state_keeper.h"
 #include "daemon/status_server.h"
 #include "pipeline/instance_lock.h"
 
@@ -148,11 +149,9 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
     cache::install_map_guard();
     raise_descriptor_limit();
     set_up_logging(config.log_level, usual_outlet());
-    const Status ready =
-        make_directory(config.state).and_then([&] { return make_directory(config.cache); });
+    StateKeeper state(config.state);
+    const Status ready = make_directory(config.cache).and_then([&] { return state.hold(); });
     if (!ready) return complain(ready.error());
-    const auto lock = pipeline::InstanceLock::acquire(config.state);
-    if (!lock) return complain(lock.error());
     const Result<Signals> signals = Signals::open();
     if (!signals) return complain(signals.error());
     const Result<std::unique_ptr<IngestSink>> sink = IngestSink::open(config);
@@ -168,7 +167,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
                      .file_system = real_file_system(),
                      .signals = &*signals,
                      .keeps_loops = keeps_loops,
-                     .board = &board});
+                     .board = &board,
+                     .state = &state});
     know_stations((*sink)->catalog(), service);
     const StatusServer status_server(
         {.socket = config.status.socket, .http_port = config.status.http_port}, pages_of(board));

@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
-constexpr std::chrono::seconds between_backlog_looks{1}, behind_after{20};
+constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1}, behind_after{20};
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
@@ -276,6 +276,7 @@ void Service::keep_house() {
         log_warning({Event::overflow},
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
+    keep_state(now);
     report_repairs();
     report_backlog(now);
     report_sites();
@@ -304,6 +305,23 @@ std::optional<Step> Service::oldest_step() const {
     look_at("ingest of ", pool_);
     look_at("registration of ", registrar_);
     return oldest;
+}
+
+// A state directory that was deleted. Files that could not be stored meanwhile are tried again.
+void Service::keep_state(SteadyTime now) {
+    if (parts_.state == nullptr || now < next_state_look_) return;
+    next_state_look_ = now + between_state_looks;
+    const std::optional<Status> made = parts_.state->look();
+    if (made && *made) {
+        log_warning({Event::state_mended}, "state directory {} was deleted: it is made again",
+                    printable(config_.state.native()));
+        status_file_.changed();
+    } else if (made && !state_lost_) {
+        log_error({Event::state_lost},
+                  "state directory {} was deleted, and cannot be made again: {}",
+                  printable(config_.state.native()), printable((*made).error().message));
+    }
+    state_lost_ = made && !*made;
 }
 
 void Service::publish(bool at_once) {

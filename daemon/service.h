@@ -30,6 +30,7 @@
 #include "daemon/reporter.h"
 #include "daemon/signals.h"
 #include "daemon/sink.h"
+#include "daemon/state_keeper.h"
 #include "daemon/status_board.h"
 #include "daemon/status_file.h"
 #include "daemon/wake_up.h"
@@ -49,6 +50,7 @@ struct ServiceParts {
     Clock clock = real_clock();
     bool keeps_loops = true;       // false: another process does (daemon/loops_service.h)
     StatusBoard* board = nullptr;  // none: the status is in its file alone
+    StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
 };
 
 enum class Stopped {
@@ -91,6 +93,7 @@ class Service {
     void keep_house();
     void report_repairs();
     void report_sites();
+    void keep_state(SteadyTime now);
     void publish(bool at_once);
     [[nodiscard]] std::optional<Step> oldest_step() const;
     [[nodiscard]] SteadyTime next_time() const;
@@ -115,7 +118,9 @@ class Service {
     // The earliest next scan, the regular one, and the next that looks for rows of missing files
     // when the regular ones are polls.
     SteadyTime rested_{}, next_scan_{}, next_rescan_{};
-    bool is_behind_ = false;  // and it stands in the log
+    SteadyTime next_state_look_{};
+    bool state_lost_ = false;  // and it stands in the log
+    bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;

@@ -330,6 +330,18 @@ TEST(EndToEnd, OneDaemonAStateDirectory) {
     EXPECT_EQ(daemon.terminate(), 0);
 }
 
+// It can never be had, so nothing is promised.
+TEST(EndToEnd, ASocketPathThatIsTooLongIsSaid) {
+    RunningDaemon daemon;
+    daemon.start({}, {{"RUNTIME_DIRECTORY", (daemon.root() / std::string(120, 's')).native()}});
+    EXPECT_TRUE(
+        daemon.wait_for_log(": a socket's path has 1 to 107 bytes; name another [status] "
+                            "socket and restart"))
+        << daemon.log();
+    EXPECT_EQ(daemon.log().find("trying again"), std::string::npos);
+    EXPECT_EQ(daemon.terminate(), 0);
+}
+
 TEST(EndToEnd, EndsAtOnceWhenKilledByInterrupt) {
     RunningDaemon daemon;
     daemon.start();
