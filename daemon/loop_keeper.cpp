@@ -9,6 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 #include "daemon/schedule.h"
@@ -191,7 +192,8 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
     slot.state.frames = static_cast<int>(number("frames"));
     const double took_s = number("total_s");
     log_info({.event = Event::loop_made, .took_s = took_s, .loop = slot.state.name},
-             "loop {}: made of {} frames in {:.1f} s", slot.state.name, slot.state.frames, took_s);
+             "loop {}: made of {} in {:.1f} s", slot.state.name,
+             counted(static_cast<std::uint64_t>(std::max(0, slot.state.frames)), "frame"), took_s);
 }
 
 void LoopKeeper::note_line(Slot& slot, const std::string& line) {

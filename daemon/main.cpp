@@ -49,8 +49,8 @@ struct Arguments {
     bool version = false;
 };
 
-// None when the arguments make no sense.
-std::optional<Arguments> parse(int argc, char** argv) {
+// bad_argument: what makes no sense.
+Result<Arguments> parse(int argc, char** argv) {
     Arguments arguments;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
@@ -68,12 +68,16 @@ std::optional<Arguments> parse(int argc, char** argv) {
             arguments.version = true;
         } else if (word == "--help" || word == "-h") {
             arguments.help = true;
+        } else if (word == "--config") {
+            return fail(ErrorCode::bad_argument, "--config: no file is named");
         } else {
-            return std::nullopt;
+            return fail(ErrorCode::bad_argument, "{}: there is no such option", word);
         }
     }
-    if (!arguments.help && !arguments.version && !arguments.config) return std::nullopt;
-    if (arguments.no_loops && arguments.loops_only) return std::nullopt;
+    if (!arguments.help && !arguments.version && !arguments.config)
+        return fail(ErrorCode::bad_argument, "--config is needed");
+    if (arguments.no_loops && arguments.loops_only)
+        return fail(ErrorCode::bad_argument, "--no-loops and --loops-only exclude each other");
     return arguments;
 }
 
@@ -190,8 +194,9 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
 }
 
 int run(int argc, char** argv) {
-    const std::optional<Arguments> arguments = parse(argc, argv);
+    const Result<Arguments> arguments = parse(argc, argv);
     if (!arguments) {
+        (void)complain(arguments.error());
         fmt::print(stderr, "{}", usage);
         return exit_bad_usage;
     }

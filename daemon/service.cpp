@@ -178,9 +178,9 @@ void Service::apply(const Config& fresh) {
     intake_.set_times(config_);
     next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
     set_log_level(config_.log_level);
-    log_info({Event::reloaded}, "reloaded: {} workers, quiet after {} s, log level {}",
-             config_.worker_count(), std::chrono::duration<double>(config_.quiet).count(),
-             config_.log_level);
+    log_info({Event::reloaded}, "reloaded: {}, quiet after {} s, log level {}",
+             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"),
+             std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
 }
 
 void Service::collect() {
@@ -243,7 +243,8 @@ void Service::mark_missing() {
             log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
                         printable(marked.error().message));
         } else if (*marked > 0) {
-            log_info({Event::files_gone}, "{} files went while nobody watched", *marked);
+            log_info({Event::files_gone}, "{} went while nobody watched",
+                     counted(static_cast<std::uint64_t>(*marked), "file"));
         }
     };
     try {
@@ -352,7 +353,7 @@ void Service::report_backlog(SteadyTime now) {
         }
         is_behind_ = true;
     } else if (is_behind_ && wait < behind_after / 2) {
-        log_info({Event::caught_up}, "no longer behind: {} files wait", waiting);
+        log_info({Event::caught_up}, "no longer behind: {} waiting", counted(waiting, "file"));
         is_behind_ = false;
     }
 }
@@ -409,8 +410,8 @@ Stopped Service::stop() {
     }
     status_.set_state("stopped");
     publish(true);
-    log_info({Event::stopped}, "stopped: {} files ingested, {} left for the next start",
-             status_.ingested(), left);
+    log_info({Event::stopped}, "stopped: {} ingested, {} left for the next start",
+             counted(status_.ingested(), "file"), left);
     return Stopped::cleanly;
 }
 

@@ -212,7 +212,7 @@ TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
     EXPECT_EQ(daemon.terminate(), 0);
     fs::remove(daemon.drop() / "a");
     daemon.start(quick);
-    ASSERT_TRUE(daemon.wait_for_log("1 files went while nobody watched")) << daemon.log();
+    ASSERT_TRUE(daemon.wait_for_log("1 file went while nobody watched")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_EQ(rows(daemon, "KBGM").at(0).state, FileState::gone);
 }
@@ -355,8 +355,17 @@ TEST(EndToEnd, EndsAtOnceWhenKilledByInterrupt) {
 TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
     const testing::TemporaryDirectory directory;
     EXPECT_EQ(testing::run_program(STORMCELLARD, {}).status, 2);
-    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--config"}).status, 2);
-    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--config", "x", "more"}).status, 2);
+    const auto refused = [](const std::vector<std::string>& arguments, const std::string& why) {
+        const auto ran = testing::run_program(STORMCELLARD, arguments);
+        EXPECT_EQ(ran.status, 2);
+        EXPECT_TRUE(ran.err.starts_with("stormcellard: " + why + "\nusage: ")) << ran.err;
+    };
+    refused({"--config"}, "--config: no file is named");
+    refused({"--config", "x", "more"}, "more: there is no such option");
+    refused({"--bogus", "--config", "x"}, "--bogus: there is no such option");
+    refused({"--no-loops"}, "--config is needed");
+    refused({"--config", "x", "--loops-only", "--no-loops"},
+            "--no-loops and --loops-only exclude each other");
     EXPECT_EQ(testing::run_program(STORMCELLARD, {"--help"}).status, 0);
     EXPECT_TRUE(testing::run_program(STORMCELLARD, {"--version"}).out.starts_with("stormcellard "));
 
