@@ -7,11 +7,12 @@
 #include <sstream>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds step{20};
 constexpr int steps_to_start = 3000;
 
-std::string program() {
+fs::path program_beside() {
     std::error_code failed;
     const auto own = fs::read_symlink("/proc/self/exe", failed);
     return own.parent_path().parent_path() / "daemon" / "stormcellard";
@@ -37,7 +38,26 @@ double mib_in(std::string_view line) {
     return static_cast<double>(number_in(line.substr(line.find(':') + 1))) / 1024;
 }
 
+// Only calls that are safe in the child of a process with threads. -1: there is none.
+pid_t fork_daemon(const std::string& program, const std::string& configuration,
+                  const std::string& log) {
+    std::string path = program, option = "--config", file = configuration;
+    const std::array<char*, 4> arguments = {path.data(), option.data(), file.data(), nullptr};
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    // It may have ended before that was said; then nobody would.
+    if (::getppid() != parent) ::_exit(127);
+    const int said = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (said < 0 || ::dup2(said, 2) < 0) ::_exit(127);
+    ::execve(path.c_str(), arguments.data(), environ);
+    ::_exit(127);
+}
+
 }  // namespace
+
+DaemonProcess::DaemonProcess(fs::path root) : DaemonProcess(std::move(root), program_beside()) {}
 
 DaemonProcess::~DaemonProcess() {
     if (child_ <= 0) return;
@@ -48,21 +68,18 @@ DaemonProcess::~DaemonProcess() {
 Status DaemonProcess::start(const std::string& configuration) {
     std::error_code failed;
     fs::create_directories(drop(), failed);
-    std::string file = root_ / "stormcellard.toml";
+    const std::string file = root_ / "stormcellard.toml";
     std::ofstream(file) << "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n"
                         << configuration;
-    std::string path = program(), option = "--config";
-    std::array<char*, 4> arguments = {path.data(), option.data(), file.data(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
+    if (::access(program_.c_str(), X_OK) != 0) {
+        return fail(ErrorCode::not_found, "{} cannot be started: build stormcellard",
+                    program_.native());
+    }
     const std::string log = root_ / "log";
-    posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    const int problem =
-        ::posix_spawn(&child_, path.c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (problem != 0) {
+    child_ = fork_daemon(program_, file, log);
+    if (child_ < 0) {
         child_ = 0;
-        return fail(ErrorCode::not_found, "{} cannot be started: build stormcellard", path);
+        return fail(ErrorCode::io, "{} cannot be started: no process to be had", program_.native());
     }
     for (int i = 0; i < steps_to_start && is_running(); ++i) {
         if (status().state == "running") return {};

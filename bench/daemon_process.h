@@ -1,7 +1,7 @@
 // bench/daemon_process.h -- the stormcellard built beside the benchmarks, as a child, and what it
-// takes.
+// takes. It is killed when this process ends, however that happens.
 //
-// Threads: one.
+// Threads: one, which must live as long as the daemon is to run (PR_SET_PDEATHSIG goes by it).
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,9 @@ struct DaemonMemory {
 class DaemonProcess {
   public:
     // ROOT/drop, ROOT/state, ROOT/cache, ROOT/stormcellard.toml and ROOT/log.
-    explicit DaemonProcess(std::filesystem::path root) : root_(std::move(root)) {}
+    explicit DaemonProcess(std::filesystem::path root);
+    DaemonProcess(std::filesystem::path root, std::filesystem::path program)
+        : root_(std::move(root)), program_(std::move(program)) {}
     DaemonProcess(const DaemonProcess&) = delete;
     DaemonProcess& operator=(const DaemonProcess&) = delete;
     ~DaemonProcess();  // kills it where it still runs
@@ -44,6 +46,7 @@ class DaemonProcess {
     // Asks it to end and waits: whether it ended well.
     [[nodiscard]] bool stop();
     [[nodiscard]] bool is_running();
+    [[nodiscard]] pid_t id() const { return child_; }  // 0: none
 
     [[nodiscard]] DaemonStatus status() const;  // as it stands in status.json
     [[nodiscard]] double cpu_s() const;
@@ -51,7 +54,7 @@ class DaemonProcess {
     void reset_peak() const;
 
   private:
-    std::filesystem::path root_;
+    std::filesystem::path root_, program_;
     pid_t child_ = 0;
 };
 

@@ -11,8 +11,8 @@
 
 #include "base/byte_reader.h"
 #include "bench/restamp.h"
+#include "bunzip/bunzip.h"
 #include "level2/archive_header.h"
-#include "level2/bzip2_stream.h"
 #include "level2/ldm_framer.h"
 #include "level2/message_header.h"
 
@@ -118,8 +118,10 @@ Bytes compressed(Bytes& messages) {
 // Empty where it is no stream.
 Bytes decompressed(std::span<const std::byte> stream) {
     Bytes messages;
-    const auto result = level2::bunzip(stream, messages, level2::longest_record_bytes);
-    messages.resize(result.status == level2::BzipStatus::whole ? result.output_bytes : 0);
+    bunzip::Workspace workspace;
+    const auto result =
+        bunzip::decompress(stream, messages, level2::longest_record_bytes, workspace);
+    messages.resize(result.status == bunzip::Status::whole ? result.output_bytes : 0);
     return messages;
 }
 

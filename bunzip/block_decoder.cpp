@@ -4,16 +4,27 @@
 
 namespace stormcellar::bunzip {
 
+namespace {
+
+// Every run but the first has a byte, and a batch is looked at when all of it is there.
+constexpr std::size_t most_runs = most_rows + 2 + SymbolReader::batch_symbols;
+constexpr std::size_t most_links = most_rows + 1 + link_slack;
+
+}  // namespace
+
+BlockDecoder::BlockDecoder()
+    : runs_(std::make_unique_for_overwrite<ByteRun[]>(most_runs)),
+      links_(std::make_unique_for_overwrite<Link[]>(most_links)),
+      room_(std::make_unique_for_overwrite<std::uint8_t[]>(most_rows + 1)) {}
+
 Found BlockDecoder::read_runs(BitReader& reader, std::uint32_t most_bytes, Path path) {
-    // Every run but the first has a byte, and a batch is looked at when all of it is there.
-    runs_.resize(most_rows + 2 + SymbolReader::batch_symbols);
     run_count_ = 0;
     maker_.begin(std::span{tables_.bytes}.first(tables_.byte_count));
     const MakeRuns make_runs = make_runs_by(path);
     SymbolReader symbols(reader, tables_);
     while (!symbols.ended()) {
         const auto batch = symbols.next_batch();
-        run_count_ += make_runs(maker_, batch, runs_.data() + run_count_);
+        run_count_ += make_runs(maker_, batch, runs_.get() + run_count_);
         if (maker_.bytes > most_bytes) return Found::bad;
         if (symbols.found() != Found::good) return symbols.found();
     }
@@ -33,11 +44,9 @@ Found BlockDecoder::read(BitReader& reader, std::uint32_t most_bytes, Path path)
     if (const Found found = read_runs(reader, most_bytes, path); found != Found::good) return found;
     const auto rows = static_cast<std::uint32_t>(maker_.bytes);
     if (*origin >= rows) return Found::bad;
-    links_.resize(most_rows + 1 + link_slack);
-    room_.resize(most_rows + 1);
-    link_rows_by(path)(std::span{runs_}.first(run_count_), maker_.count, links_.data());
-    const auto bytes = std::span{room_}.first(rows + 1);
-    walk_.read(links_, rows, *origin, bytes);
+    link_rows_by(path)({runs_.get(), run_count_}, maker_.count, links_.get());
+    const std::span bytes{room_.get(), std::size_t{rows} + 1};
+    walk_.read({links_.get(), most_links}, rows, *origin, bytes);
     bytes_ = bytes;
     return Found::good;
 }

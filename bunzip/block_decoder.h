@@ -1,12 +1,12 @@
 // bunzip/block_decoder.h -- one block: its tables and symbols read, its rows sorted back.
 //
-// Memory: 11 MB, and 14 MB of address space of which 1 MB is touched by what radars send (link_walk.h).
-// Thread contract: one thread.
+// Memory: 11 MB, and 14 MB of address space of which 1 MB is touched by what radars send
+// (link_walk.h). Thread contract: one thread.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "bunzip/bit_reader.h"
 #include "bunzip/block_tables.h"
@@ -20,6 +20,7 @@ namespace stormcellar::bunzip {
 
 class BlockDecoder {
   public:
+    BlockDecoder();
     // Reads a block from behind its mark and its checksum. `most_bytes`: of its rows. Where it is
     // not good, the reader stands anywhere, except that where it is cut or bad nothing else was
     // met earlier in the stream.
@@ -32,11 +33,11 @@ class BlockDecoder {
 
     BlockTables tables_;
     RunMaker maker_;
-    std::vector<ByteRun> runs_;
+    std::unique_ptr<ByteRun[]> runs_;
     std::size_t run_count_ = 0;
-    std::vector<Link> links_;
+    std::unique_ptr<Link[]> links_;
     LinkWalk walk_;
-    std::vector<std::uint8_t> room_;
+    std::unique_ptr<std::uint8_t[]> room_;
     std::span<const std::uint8_t> bytes_;
 };
 

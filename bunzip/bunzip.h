@@ -5,14 +5,15 @@
 //   while (!reader.ended()) use(buffer, reader.read(buffer));
 //   if (reader.status() != bunzip::Status::whole) ...
 //
-// Right      as libbz2: the same bytes, and of a stream that is not valid the same Status. Checksums
+// Right      as libbz2: the same bytes, and of a stream that is not valid the same Status.
+// Checksums
 //            of blocks and of the stream are always checked. libbz2 itself reads randomised blocks,
 //            and everything where Path::libbz2 is asked for.
 // Safe       never reads outside `stream` nor writes outside `out`, whatever the stream holds; what
 //            is given out before the end may still turn out to be corrupt. Output is bounded by
 //            what the caller gives room for: a byte can stand for 4 MB.
-// Memory     a Workspace: 13 MB once used for a block of 900,000 bytes (12.1 and what a walk
-//            touches), up to 27 by a stream made to that end; libbz2 beside it takes 4.
+// Memory     a Workspace: 10.2 MB at most, for blocks of 900,000 bytes; libbz2 takes 3.7 where it
+//            reads. What cannot be had is thrown as std::bad_alloc.
 // Speed      docs/performance.md; how it works: docs/bunzip.md.
 // Thread contract: a Workspace and its Reader belong to one thread.
 #pragma once
@@ -32,7 +33,6 @@ enum class Status : std::uint8_t {
     truncated,  // the bytes end inside the stream
     corrupt,    // they contradict the format or a checksum
     too_large,  // more output than the limit
-    no_memory,
 };
 
 class BlockDecoder;
@@ -63,7 +63,7 @@ class Reader {
     // Fills `out` as far as the stream goes and says how many bytes; fewer only at its end.
     [[nodiscard]] std::size_t read(std::span<std::byte> out);
     [[nodiscard]] bool ended() const;
-    // What ended it: whole, truncated, corrupt or no_memory. Whole until then.
+    // What ended it: whole, truncated or corrupt. Whole until then.
     [[nodiscard]] Status status() const;
     // That the stream took so far, and in all once it has ended whole.
     [[nodiscard]] std::size_t input_bytes() const;
@@ -81,7 +81,18 @@ struct Outcome {
 
 // One stream into `buffer`, which grows as needed up to `limit` and never shrinks.
 [[nodiscard]] Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
-                                 std::size_t limit, Workspace& workspace,
-                                 Path path = usual_path());
+                                 std::size_t limit, Workspace& workspace, Path path = usual_path());
+
+// One of many streams.
+struct Job {
+    std::span<const std::byte> stream;
+    std::vector<std::byte> output;  // grows as needed and never shrinks
+    Outcome outcome = {};
+};
+// Each job, as decompress() does it, by a thread for each workspace, of which the caller is one;
+// fewer where the system has no more.
+// Throws std::bad_alloc where a job could not be done for want of memory.
+void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
+                    Path path = usual_path());
 
 }  // namespace stormcellar::bunzip

@@ -180,12 +180,12 @@ HWY_INLINE SymbolMasks masks_of(const std::uint16_t* symbols) {
     for (int i = 0; i < 2; ++i) {
         const auto* const from = reinterpret_cast<const __m256i*>(symbols + i * 32);
         const __m256i low = _mm256_loadu_si256(from), high = _mm256_loadu_si256(from + 1);
-        masks.moves |= std::uint64_t{mask_of(_mm256_cmpgt_epi16(low, one),
-                                             _mm256_cmpgt_epi16(high, one))}
-                       << (i * 32);
-        masks.ones |= std::uint64_t{mask_of(_mm256_cmpeq_epi16(low, one),
-                                            _mm256_cmpeq_epi16(high, one))}
-                      << (i * 32);
+        masks.moves |=
+            std::uint64_t{mask_of(_mm256_cmpgt_epi16(low, one), _mm256_cmpgt_epi16(high, one))}
+            << (i * 32);
+        masks.ones |=
+            std::uint64_t{mask_of(_mm256_cmpeq_epi16(low, one), _mm256_cmpeq_epi16(high, one))}
+            << (i * 32);
     }
     return masks;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
 #include <bzlib.h>
 
@@ -14,22 +15,19 @@ constexpr std::size_t largest_step = std::numeric_limits<unsigned>::max();
 
 struct LibraryStream::State {
     bz_stream bz{};
-    bool ready = false;
     std::size_t fed = 0;
 };
 
 LibraryStream::LibraryStream(std::span<const std::byte> stream)
     : stream_(stream), state_(std::make_unique<State>()) {
     bz_stream& bz = state_->bz;
-    state_->ready = BZ2_bzDecompressInit(&bz, 0, 0) == BZ_OK;
+    if (BZ2_bzDecompressInit(&bz, 0, 0) != BZ_OK) throw std::bad_alloc{};
     // libbz2 does not write through next_in; its C interface merely lacks the const.
     bz.next_in = const_cast<char*>(reinterpret_cast<const char*>(stream.data()));
-    ended_ = !state_->ready;
-    if (ended_) status_ = Status::no_memory;
 }
 
 LibraryStream::~LibraryStream() {
-    if (state_->ready) BZ2_bzDecompressEnd(&state_->bz);
+    BZ2_bzDecompressEnd(&state_->bz);
 }
 
 std::size_t LibraryStream::input_bytes() const {
@@ -51,11 +49,10 @@ std::size_t LibraryStream::read(std::span<std::byte> out) {
         const int code = BZ2_bzDecompress(&bz);
         made += room - bz.avail_out;
         const bool starved = bz.avail_in == 0 && state_->fed == stream_.size() && bz.avail_out != 0;
+        if (code == BZ_MEM_ERROR) throw std::bad_alloc{};
         if (code == BZ_OK && !starved) continue;
         ended_ = true;
-        if (code == BZ_MEM_ERROR) {
-            status_ = Status::no_memory;
-        } else if (code == BZ_OK) {
+        if (code == BZ_OK) {
             status_ = Status::truncated;
         } else if (code != BZ_STREAM_END) {
             status_ = Status::corrupt;

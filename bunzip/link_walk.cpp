@@ -9,8 +9,9 @@ namespace {
 constexpr Link marked = Link{1} << 31;
 // Below it there is little to gain from more walks.
 constexpr std::uint32_t rows_a_segment = 256;
+constexpr std::uint32_t spare_room = 8192;
 // The lanes' bytes of one step lie in different sets of the cache.
-constexpr std::size_t lane_stride = (most_rows / 4096 + 1) * 4096 + 5 * 64;
+constexpr std::size_t lane_stride = (most_rows / 8 + spare_room) / 4096 * 4096 + 4096 + 5 * 64;
 static_assert(LinkWalk::most_segments < marked && (most_rows + 1) << link_shift < marked);
 
 }  // namespace
@@ -61,7 +62,7 @@ void LinkWalk::end_segments(Lanes& at, std::uint32_t step) {
     }
 }
 
-void LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
+bool LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
     Lanes at{rows << link_shift, {}};
     links[rows] = at.idle;
     at.link.fill(at.idle);
@@ -76,8 +77,10 @@ void LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
     }
     const Link* const table = links.data();
     std::uint8_t* const bytes = lane_bytes_.get();
+    const std::uint32_t room = rows / 8 + spare_room;
     std::uint32_t step = 0;
     while (at.busy > 0) {
+        if (step == room) return false;
         Link link[lanes];
         std::copy(at.link.begin(), at.link.end(), link);
         Link met = 0;
@@ -89,10 +92,11 @@ void LinkWalk::walk(std::span<Link> links, std::uint32_t rows) {
                 met |= link[lane];
             }
             ++step;
-        } while ((met & marked) == 0);
+        } while ((met & marked) == 0 && step < room);
         std::copy(std::begin(link), std::end(link), at.link.begin());
         end_segments(at, step);
     }
+    return true;
 }
 
 void LinkWalk::join(std::span<std::uint8_t> bytes) const {
@@ -108,12 +112,18 @@ void LinkWalk::join(std::span<std::uint8_t> bytes) const {
 
 void LinkWalk::read(std::span<Link> links, std::uint32_t rows, std::uint32_t origin,
                     std::span<std::uint8_t> bytes) {
-    if (!lane_bytes_) lane_bytes_.reset(new std::uint8_t[lanes * lane_stride]);
+    if (!lane_bytes_)
+        lane_bytes_ = std::make_unique_for_overwrite<std::uint8_t[]>(lanes * lane_stride);
     mark(links, rows, origin);
-    walk(links, rows);
-    join(bytes);
+    const bool done = walk(links, rows);
     for (std::uint32_t i = 0; i < segment_count_; ++i)
         links[segments_[i].row] = segments_[i].link;
+    if (done) return join(bytes);
+    Link link = links[origin];
+    for (std::uint8_t& byte : bytes) {
+        byte = static_cast<std::uint8_t>(link);
+        link = links[link >> link_shift];
+    }
 }
 
 }  // namespace stormcellar::bunzip

@@ -25,10 +25,14 @@ Path path_of_environment() {
 
 std::string_view name_of(Path path) {
     switch (path) {
-        case Path::libbz2: return "libbz2";
-        case Path::plain: return "plain";
-        case Path::avx2: return "avx2";
-        case Path::avx512: return "avx512";
+        case Path::libbz2:
+            return "libbz2";
+        case Path::plain:
+            return "plain";
+        case Path::avx2:
+            return "avx2";
+        case Path::avx512:
+            return "avx512";
     }
     return "";
 }
@@ -43,9 +47,12 @@ std::optional<Path> path_named(std::string_view name) {
 bool is_available(Path path) {
     switch (path) {
         case Path::libbz2:
-        case Path::plain: return true;
-        case Path::avx2: return (HWY_TARGETS & hwy::SupportedTargets() & HWY_AVX2) != 0;
-        case Path::avx512: return (HWY_TARGETS & hwy::SupportedTargets() & HWY_AVX3_DL) != 0;
+        case Path::plain:
+            return true;
+        case Path::avx2:
+            return (HWY_TARGETS & hwy::SupportedTargets() & HWY_AVX2) != 0;
+        case Path::avx512:
+            return (HWY_TARGETS & hwy::SupportedTargets() & HWY_AVX3_DL) != 0;
     }
     return false;
 }

@@ -36,8 +36,7 @@ struct Window {
     explicit HWY_INLINE Window(const std::uint8_t* from)
         : bytes(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))) {
         const __m256i next = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from + 1));
-        equal = static_cast<std::uint32_t>(
-            _mm256_movemask_epi8(_mm256_cmpeq_epi8(bytes, next)));
+        equal = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(bytes, next)));
     }
     HWY_INLINE void store(std::uint8_t* to) const {
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), bytes);
@@ -46,8 +45,7 @@ struct Window {
     std::uint64_t equal;
 };
 HWY_INLINE void fill(std::uint8_t* to, std::uint8_t byte) {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                        _mm256_set1_epi8(static_cast<char>(byte)));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_set1_epi8(static_cast<char>(byte)));
 }
 #endif
 

@@ -1,5 +1,5 @@
-// bunzip/run_expander.h -- undoes the first step of bzip2: four equal bytes are followed by one that
-// says how many more there are.
+// bunzip/run_expander.h -- undoes the first step of bzip2: four equal bytes are followed by one
+// that says how many more there are.
 //
 // Thread contract: one thread.
 #pragma once

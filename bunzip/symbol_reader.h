@@ -14,8 +14,7 @@ namespace stormcellar::bunzip {
 
 class SymbolReader {
   public:
-    SymbolReader(BitReader& reader, const BlockTables& tables)
-        : reader_(reader), tables_(tables) {}
+    SymbolReader(BitReader& reader, const BlockTables& tables) : reader_(reader), tables_(tables) {}
 
     static constexpr std::size_t batch_groups = 20;
     static constexpr std::size_t batch_symbols = batch_groups * group_symbols;

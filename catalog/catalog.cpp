@@ -1,25 +1,19 @@
 #include "catalog/catalog.h"
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <utility>
-
-#include <sys/stat.h>
 
 #include "base/beneath.h"
 #include "base/file_system.h"
 #include "base/station_table.h"
-#include "catalog/path_homes.h"
-#include "catalog/station_database.h"
+#include "catalog/catalog_parts.h"
 
 namespace stormcellar::catalog {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view unknown_station = "_unknown";
-constexpr std::string_view database_ending = ".sqlite";
 constexpr std::size_t files_a_step = 1000;
 
 // The database that a station's rows stand in. Nothing unchecked becomes a file name.
@@ -54,146 +48,7 @@ bool is_ours_to_solve(const Error& error) {
            error.code != ErrorCode::unsupported;
 }
 
-std::string station_of(const std::string& name) {
-    return name == unknown_station ? std::string{} : name;
-}
-
-std::string summary_of(const std::vector<std::string>& damage) {
-    const std::string first = damage.front().substr(0, damage.front().find('\n'));
-    if (damage.size() == 1) return first;
-    return fmt::format("{}, and {} more", first, damage.size() - 1);
-}
-
-// Tells whether a path still names the file that it named.
-struct FileIdentity {
-    dev_t device = 0;
-    ino_t inode = 0;
-    bool operator==(const FileIdentity&) const = default;
-
-    static FileIdentity of(const fs::path& path) {
-        struct stat facts {};
-        if (::stat(path.c_str(), &facts) != 0) return {};
-        return {facts.st_dev, facts.st_ino};
-    }
-};
-
 }  // namespace
-
-struct Catalog::Impl {
-    struct Slot {
-        std::mutex mutex;  // guards what follows
-        std::unique_ptr<StationDatabase> database;
-        FileIdentity file;
-    };
-
-    fs::path directory;
-    bool writing = false;
-    std::mutex slots_mutex;  // guards the map, not what its slots hold
-    std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots;
-    PathHomes homes;
-    std::mutex repairs_mutex;  // guards repairs
-    std::vector<Repair> repairs;
-
-    [[nodiscard]] fs::path path_of(const std::string& name) const {
-        return directory / (name + std::string{database_ending});
-    }
-
-    Slot& slot(const std::string& name) {
-        const std::scoped_lock lock(slots_mutex);
-        auto& place = slots[name];
-        if (!place) place = std::make_unique<Slot>();
-        return *place;
-    }
-
-    // Runs `work` on the database of that name, opened when need be, and mended when it is damaged.
-    // Missing databases are created when writing and `create` is set; else not_found.
-    template <class Work>
-    auto with(const std::string& name, bool create, Work work)
-        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
-        Slot& place = slot(name);
-        const std::scoped_lock lock(place.mutex);
-        auto done = attempt(place, name, create, work);
-        if (done || !writing || done.error().code != ErrorCode::corrupt) return done;
-        if (!mend(place, name)) return done;
-        return attempt(place, name, create, work);
-    }
-
-    template <class Work>
-    auto attempt(Slot& place, const std::string& name, bool create, Work work)
-        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
-        const fs::path path = path_of(name);
-        if (Status ready = open(place, name, create); !ready) return pass_on(ready);
-        const bool is_snapshot = place.database->is_snapshot();
-        try {
-            auto done = work(*place.database);
-            if (is_snapshot) place.database.reset();
-            return done;
-        } catch (const SQLite::Exception& error) {
-            // Where a file cannot be opened for writing, SQLite opens it for reading, and stays so.
-            const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
-            if (is_snapshot || is_stuck) place.database.reset();
-            return fail(code_of(error), "{}: {}", path.native(), error.what());
-        }
-    }
-
-    Status open(Slot& place, const std::string& name, bool create) {
-        const fs::path path = path_of(name);
-        if (place.database && place.file != FileIdentity::of(path)) {
-            place.database.reset();  // what we write there would be seen by nobody
-            if (writing) note_repair({station_of(name), path, {}, "was deleted or replaced"});
-        }
-        if (place.database) return {};
-        if (writing) {
-            if (Status adopted = adopt_mended_database(path); !adopted) return adopted;
-        }
-        std::error_code ignored;
-        if (!(writing && create) && !fs::exists(path, ignored)) {
-            return fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
-                        directory.native(), name);
-        }
-        auto opened = writing ? StationDatabase::open_for_writing(path, station_of(name))
-                              : StationDatabase::open_for_reading(path, station_of(name));
-        if (!opened) return pass_on(opened);
-        place.database = std::move(*opened);
-        place.file = FileIdentity::of(path);
-        return {};
-    }
-
-    // Whether another attempt has a chance: the damage is set aside, or was none that lasts.
-    bool mend(Slot& place, const std::string& name) {
-        place.database.reset();
-        const fs::path path = path_of(name);
-        const auto found = examine_database(path);
-        if (!found || found->foreign) return false;
-        if (found->damage.empty()) return true;
-        auto repair = repair_database(path, station_of(name), summary_of(found->damage));
-        if (!repair) return false;
-        note_repair(std::move(*repair));
-        return true;
-    }
-
-    void note_repair(Repair repair) {
-        const std::scoped_lock lock(repairs_mutex);
-        repairs.push_back(std::move(repair));
-    }
-
-    // The names of all databases in the directory, sorted.
-    [[nodiscard]] Result<std::vector<std::string>> names() const {
-        std::vector<std::string> found;
-        std::error_code error;
-        for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
-             entry.increment(error)) {
-            const fs::path& path = entry->path();
-            const std::string stem = path.stem().string();
-            if (path.extension() == database_ending && (is_icao(stem) || stem == unknown_station)) {
-                found.push_back(stem);
-            }
-        }
-        if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
-        std::sort(found.begin(), found.end());
-        return found;
-    }
-};
 
 Catalog::Catalog(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Catalog::Catalog(Catalog&&) noexcept = default;

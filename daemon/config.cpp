@@ -128,6 +128,21 @@ void check_grid(TomlTable& ingest, const Config& config) {
     }
 }
 
+void read_bunzip(TomlTable& ingest, Config& config) {
+    const auto name = ingest.text("bunzip");
+    if (!name || *name == "fastest") return;
+    const auto path = bunzip::path_named(*name);
+    if (!path) {
+        ingest.complain("bunzip",
+                        fmt::format("\"{}\" is none of fastest, libbz2, plain, avx2, avx512",
+                                    printable(*name)));
+    } else if (!bunzip::is_available(*path)) {
+        ingest.complain("bunzip", fmt::format("this machine has no {}", *name));
+    } else {
+        config.bunzip = path;
+    }
+}
+
 void read_ingest(TomlTable ingest, Config& config) {
     if (const auto workers = ingest.whole_number("workers", {0, 256})) {
         config.workers = *workers;
@@ -148,6 +163,7 @@ void read_ingest(TomlTable ingest, Config& config) {
                        config.ingest.living.chunk_timeout);
     read_whole_seconds(ingest, "chunk_grace_seconds", {0, 86400}, config.ingest.living.chunk_grace);
     read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
+    read_bunzip(ingest, config);
     if (const auto name = ingest.text("moment")) {
         if (const auto moment = pipeline::read_moment(ingest, "moment", *name)) {
             config.ingest.moment = *moment;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "bunzip/paths.h"
 #include "cache/budget.h"
 #include "daemon/loop_config.h"
 #include "pipeline/ingest.h"
@@ -40,8 +41,9 @@ struct Config {
     std::filesystem::path cache = "/var/cache/stormcellar";
 
     pipeline::IngestOptions ingest;
-    bool living = true;  // volumes are gridded while they grow
-    int workers = 0;     // 0: one a processor; see worker_count()
+    bool living = true;                  // volumes are gridded while they grow
+    std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine has
+    int workers = 0;                     // 0: one a processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};

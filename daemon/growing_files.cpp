@@ -52,7 +52,9 @@ std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& lo
             ++entry;
             continue;
         }
-        if (found.standing != Standing::regular) {
+        const bool was_there = file.last != FileStamp{};
+        if (found.standing != Standing::regular && (was_there || !file.incomplete)) {
+            if (file.incomplete) due.push_back({path, {}, false});
             entry = files_.erase(entry);
             continue;
         }

@@ -40,7 +40,8 @@ class GrowingFiles {
     void set_quiet(Duration quiet) { quiet_ = quiet; }
     // False when there is no room left. A file that is known keeps its times.
     bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now);
-    // `stamp` as it was before the file was read. Replaces what was known of the path.
+    // `stamp` as it was before the file was read; none: it is gone, and is asked for again all the
+    // same, as a volume of chunks waits in its name. Replaces what was known of the path.
     bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                         bool followed = false);
     void forget(const std::filesystem::path& path) { files_.erase(path); }
@@ -51,7 +52,7 @@ class GrowingFiles {
         bool finish_partial = false;
     };
     // Reads the stamps when a poll is due; what it returns is no longer kept. A file that vanished
-    // or became something else is forgotten.
+    // or became something else is forgotten, and an incomplete one is due: others may wait for it.
     using Look = std::function<FileFound(const std::filesystem::path&)>;
     std::vector<Due> poll(SteadyTime now, const Look& look);
 

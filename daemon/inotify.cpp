@@ -11,6 +11,7 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include "base/descriptor.h"
 #include "daemon/silent_file_systems.h"
 
 namespace stormcellar::daemon {
@@ -57,12 +58,11 @@ std::string limit_named(std::string_view name) {
 class Inotify final : public EventSource {
   public:
     explicit Inotify(int descriptor) : descriptor_(descriptor) {}
-    ~Inotify() override { ::close(descriptor_); }
 
-    [[nodiscard]] int descriptor() const override { return descriptor_; }
+    [[nodiscard]] int descriptor() const override { return descriptor_.number(); }
 
     Result<int> watch(const std::filesystem::path& directory) override {
-        const int number = ::inotify_add_watch(descriptor_, directory.c_str(), wanted);
+        const int number = ::inotify_add_watch(descriptor_.number(), directory.c_str(), wanted);
         if (number >= 0) return number;
         const int error_number = errno;
         if (error_number == ENOSPC) {
@@ -73,7 +73,7 @@ class Inotify final : public EventSource {
                     std::system_category().message(error_number));
     }
 
-    void unwatch(int watch) override { ::inotify_rm_watch(descriptor_, watch); }
+    void unwatch(int watch) override { ::inotify_rm_watch(descriptor_.number(), watch); }
 
     std::optional<std::string> silence(const std::filesystem::path& directory) override {
         const auto name = silent_file_system_of(directory);
@@ -84,7 +84,7 @@ class Inotify final : public EventSource {
 
     std::vector<DirectoryEvent> read() override {
         alignas(inotify_event) std::array<char, 65536> buffer;
-        const ssize_t length = ::read(descriptor_, buffer.data(), buffer.size());
+        const ssize_t length = ::read(descriptor_.number(), buffer.data(), buffer.size());
         std::vector<DirectoryEvent> events;
         std::size_t at = 0;
         while (length > 0 && at + sizeof(inotify_event) <= static_cast<std::size_t>(length)) {
@@ -99,7 +99,7 @@ class Inotify final : public EventSource {
     }
 
   private:
-    int descriptor_;
+    Descriptor descriptor_;
 };
 
 class NoEvents final : public EventSource {

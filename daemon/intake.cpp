@@ -45,7 +45,7 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.urgency = urgency;
     job.is_begun = is_followed || pipeline::is_chunk_name(path);
     job.is_registered = is_followed;
-    job.station = pipeline::station_by_name(path);
+    job.station = pipeline::station_of_path(path);
     return job;
 }
 
@@ -143,6 +143,13 @@ void Intake::tell(Error problem) {
     problems_.push_back(std::move(problem));
 }
 
+void Intake::entry_unseen() {
+    ++unseen_;
+    if (!look_again_at_) {
+        look_again_at_ = clock_.steady() + Schedule::retry_delay(looks_in_vain_ + 1);
+    }
+}
+
 void Intake::events_lost() {
     ++overflows_;
     lost_ = true;
@@ -218,12 +225,19 @@ void Intake::registered(const Finished& noted) {
 void Intake::begin_scan() {
     lost_ = false;
     refused_ = false;
+    is_looking_again_ = look_again_at_.has_value();
+    looks_in_vain_ += is_looking_again_ ? 1 : 0;
+    look_again_at_.reset();
     seen_.begin_scan();
     told_.begin_scan();
 }
 
 void Intake::end_scan(bool whole) {
-    if (!whole) return;
+    if (!whole) {
+        if (is_looking_again_) entry_unseen();
+        return;
+    }
+    if (!look_again_at_) looks_in_vain_ = 0;
     seen_.end_scan();
     told_.end_scan();
     // Those of which no event came: lost, or never sent.
@@ -235,7 +249,8 @@ void Intake::end_scan(bool whole) {
 }
 
 bool Intake::needs_scan() const {
-    return lost_ || (refused_ && schedule_.waiting_count() < schedule_.limit() / 2);
+    const bool looks_again = look_again_at_ && *look_again_at_ <= clock_.steady();
+    return lost_ || looks_again || (refused_ && schedule_.waiting_count() < schedule_.limit() / 2);
 }
 
 std::optional<SteadyTime> Intake::next_time(bool can_start, bool can_register) const {

@@ -51,6 +51,7 @@ class Intake final : public WatchListener {
     void file_gone(const std::filesystem::path& path) override;
     void directory_gone(const std::filesystem::path& path, bool deleted) override;
     void entry_left_out(const std::filesystem::path& path, std::string_view kind) override;
+    void entry_unseen() override;
     void events_lost() override;
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
@@ -69,8 +70,12 @@ class Intake final : public WatchListener {
     // Around a scan of the watcher; `whole`: the drop directory could be read.
     void begin_scan();
     void end_scan(bool whole);
-    // Events were lost, the drop directory vanished, or there is room again for what was refused.
+    // Events were lost, the drop directory vanished, there is room again for what was refused, or
+    // it is time to look again for what could not be looked at.
     [[nodiscard]] bool needs_scan() const;
+    // When that time comes: a second later, and twice as long each time that it was in vain, up to
+    // a minute.
+    [[nodiscard]] std::optional<SteadyTime> look_again_at() const { return look_again_at_; }
 
     // When there is something to do: growing files to poll and, if a job can start, a job.
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
@@ -79,6 +84,8 @@ class Intake final : public WatchListener {
     [[nodiscard]] SteadyTime::duration longest_wait() const;
     // How often the kernel dropped events, since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
+    // How often something could not be looked at, since the last call.
+    std::uint64_t take_unseen() { return std::exchange(unseen_, 0); }
     // Of directories, and of entries that are no files (not_a_file). Each is given once, as long as
     // scans go on finding it.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
@@ -103,7 +110,10 @@ class Intake final : public WatchListener {
     std::set<std::filesystem::path> followed_;
     bool refused_ = false;  // something did not fit since the last scan began
     bool lost_ = false;
-    std::uint64_t overflows_ = 0;
+    std::uint64_t overflows_ = 0, unseen_ = 0;
+    std::optional<SteadyTime> look_again_at_;
+    int looks_in_vain_ = 0;
+    bool is_looking_again_ = false;  // the scan that runs is for that
     std::vector<Error> problems_;
     SeenFiles told_;                     // problems, by their text
     std::int64_t newest_closed_ns_ = 0;  // as jobs have it

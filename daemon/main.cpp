@@ -217,6 +217,7 @@ int run(int argc, char** argv) {
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
+    if (config->bunzip) bunzip::set_usual_path(*config->bunzip);
     if (arguments->loops_only) return serve_loops(*config, *arguments->config);
     if (config->status.socket.empty())
         config->status.socket = default_socket(config->state, std::getenv("RUNTIME_DIRECTORY"));

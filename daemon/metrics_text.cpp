@@ -39,9 +39,15 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.family("stormcellar_living_left_out_total", Type::counter,
                "Living grids that were left out because whole volumes waited.");
     out.sample(facts.living_left_out);
+    out.family("stormcellar_growing_given_up_total", Type::counter,
+               "Growing volumes that made room for others and are read again.");
+    out.sample(facts.given_up);
     out.family("stormcellar_event_overflows_total", Type::counter,
                "How often the kernel dropped directory events.");
     out.sample(facts.overflows);
+    out.family("stormcellar_unseen_entries_total", Type::counter,
+               "How often something could not be looked at for want of descriptors or memory.");
+    out.sample(facts.unseen);
     out.family("stormcellar_scans_total", Type::counter, "Scans of the whole drop directory.");
     out.sample(facts.scans);
     out.family("stormcellar_watched_directories", Type::gauge,

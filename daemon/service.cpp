@@ -122,6 +122,8 @@ SteadyTime Service::next_time() const {
         if (due) time = std::min(time, *due);
     }
     if (intake_.needs_scan()) time = std::min(time, rested_);
+    if (const auto again = intake_.look_again_at())
+        time = std::min(time, std::max(*again, rested_));
     return time;
 }
 
@@ -278,6 +280,7 @@ void Service::keep_house() {
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
     keep_state(now);
+    status_.count_unseen(intake_.take_unseen());
     report_repairs();
     report_backlog(now);
     report_sites();

@@ -49,6 +49,7 @@ bool StatusBook::add(const Finished& finished, UtcTime at) {
     }
     ++facts_.results.at(index_of(outcome.result));
     facts_.living_left_out += outcome.living_left_out ? 1 : 0;
+    facts_.given_up += outcome.given_up;
     facts_.stations.add(outcome, latency_of(finished), at);
     if (!outcome.missing_chunks.empty()) {
         facts_.stations.add_missing_chunks(outcome.station,

@@ -58,9 +58,11 @@ struct StatusFacts {
     PerErrorCode<std::uint64_t> rejected{};  // of results: by what was wrong with the file
     PerErrorCode<std::uint64_t> failed{};    // of failures: by what hindered
     std::uint64_t overflows = 0, scans = 0;
+    std::uint64_t unseen = 0;  // what could not be looked at when an event told of it
     std::size_t directories = 0;
     double longest_wait_s = 0;          // of the files that wait
     std::uint64_t living_left_out = 0;  // living grids, for want of time
+    std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};
@@ -82,6 +84,7 @@ class StatusBook {
     // same reason, and is not counted again.
     bool add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
+    void count_unseen(std::uint64_t count) { facts_.unseen += count; }
     void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
     void count_scan() { ++facts_.scans; }
     void set_directories(std::size_t watched) { facts_.directories = watched; }

@@ -206,7 +206,9 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
               {"growing", pending.growing},
               {"longest_wait_s", facts.longest_wait_s}}},
             {"overflows", facts.overflows},
+            {"unseen", facts.unseen},
             {"living_left_out", facts.living_left_out},
+            {"growing_given_up", facts.given_up},
             {"scans", facts.scans},
             {"directories", facts.directories},
             {"rolling", json_of(facts.usage)}};

@@ -17,7 +17,7 @@
 //   failures       attempts that failed because the catalog or the cache could not be written
 //   failures_by    {"no_space": 2, ...}
 //   pending        {"waiting","running","growing"}: files; all zero when everything is done
-//   overflows, scans, directories
+//   overflows, unseen, scans, directories
 //   rolling        the cache's account, null until it was first looked at:
 //   {"grids","pinned","bytes",
 //                  "budget_bytes" (null: no limit),"evicted","evicted_bytes","not_kept"}; the last

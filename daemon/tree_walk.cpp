@@ -53,7 +53,11 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     if (directory) {
         walk_entries(directory.get(), path, depth, visitor);
     } else if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) {  // gone since: no problem
-        visitor.problem(fmt::format("{}: {}", path.native(), reason_of(errno)));
+        const int error_number = errno;
+        visitor.problem(fmt::format("{}: {}", path.native(), reason_of(error_number)));
+        const bool is_for_now =
+            error_number == EMFILE || error_number == ENFILE || error_number == ENOMEM;
+        if (is_for_now && visitor.unseen) visitor.unseen();
     }
 }
 

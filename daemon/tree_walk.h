@@ -25,6 +25,8 @@ struct WalkVisitor {
     std::function<void(const std::string&)> problem;
     // What is neither file nor directory: a link, a FIFO, a device. May be empty.
     std::function<void(const std::filesystem::path&, mode_t mode)> other = {};
+    // Beside `problem`: the system has no descriptors or no memory for it now. May be empty.
+    std::function<void()> unseen = {};
 };
 
 // Fails (not_found, permission, io) when the root itself cannot be read. `depth`: of the root below

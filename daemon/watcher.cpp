@@ -46,7 +46,8 @@ Status Watcher::scan_below(const std::filesystem::path& directory) {
                  },
                  [this](const std::filesystem::path& path, mode_t mode) {
                      listener_.entry_left_out(path, kind_of_file(mode));
-                 }},
+                 },
+                 [this] { listener_.entry_unseen(); }},
                 static_cast<int>(depth));
 }
 
@@ -144,6 +145,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
         const Status scanned = scan_below(path);
         if (!scanned && scanned.error().code != ErrorCode::not_found) {
             listener_.directory_problem(scanned.error());
+            if (scanned.error().code == ErrorCode::io) listener_.entry_unseen();
         }
     }
 }
@@ -157,6 +159,7 @@ void Watcher::handle_file(const DirectoryEvent& event, const std::filesystem::pa
     if (!closed_or_made && !listener_.follows(path)) return;
     const FileFound found = look_at(path, drop_);
     if (found.standing == Standing::other) listener_.entry_left_out(path, kind_of_file(found.mode));
+    if (found.standing == Standing::unknown) listener_.entry_unseen();
     if (found.standing != Standing::regular) return;
     if (!closed_or_made) {
         listener_.file_grew(path, found.stamp);

@@ -46,6 +46,9 @@ class WatchListener {
     virtual void directory_gone(const std::filesystem::path& /*path*/, bool /*deleted*/) {}
     // Neither file nor directory: `kind` says what ("a FIFO"). Said again by each scan.
     virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
+    // What an event told of, or a directory of a scan, could not be looked at now, as when
+    // descriptors run out; a scan is needed, and there is no use in one at once.
+    virtual void entry_unseen() {}
     // The kernel dropped events; a scan is needed.
     virtual void events_lost() = 0;
     // The drop directory itself was deleted or moved.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include <pthread.h>
@@ -84,6 +85,8 @@ std::optional<WorkerPool::Begun> WorkerPool::wait_for_job() {
 Result<Taken> WorkerPool::take(const Job& job) {
     try {
         return work_(job);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::io, "the system gives no memory for it");
     } catch (const std::exception& error) {
         return fail(ErrorCode::internal, "{}: {}", job.path.native(), error.what());
     }

@@ -9,7 +9,7 @@ std::uint64_t bytes_of(const Vcp& vcp) {
 }
 
 tl::unexpected<Error> no_memory() {
-    return fail(ErrorCode::unsupported, "it takes more memory than there is");
+    return fail(ErrorCode::io, "the system gives no memory for it");
 }
 
 std::uint64_t ArrayRoom::left_bytes() const {

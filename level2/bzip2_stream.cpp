@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
-#include <new>
-
-#include <bzlib.h>
 
 namespace stormcellar::level2 {
 namespace {
@@ -17,8 +13,6 @@ constexpr std::uint64_t end_mark = 0x177245385090;
 constexpr std::uint64_t mark_mask = 0xFFFFFFFFFFFF;
 constexpr int mark_bits = 48;
 constexpr std::uint64_t least_block_bits = 150;  // mark, checksum, pointer, symbols, two tables
-constexpr std::size_t first_buffer_bytes = std::size_t{5} << 18;
-constexpr std::size_t largest_step = std::numeric_limits<unsigned>::max();
 
 std::uint64_t big_endian(std::span<const std::byte> bytes) {
     std::uint64_t number = 0;
@@ -114,74 +108,8 @@ bool ends_as_bzip2(std::span<const std::byte> bytes) {
     return false;
 }
 
-struct BzipReader::State {
-    bz_stream bz{};
-    bool ready = false;
-    std::size_t fed = 0;
-};
-
-BzipReader::BzipReader(std::span<const std::byte> stream)
-    : stream_(stream), state_(std::make_unique<State>()) {
-    bz_stream& bz = state_->bz;
-    state_->ready = BZ2_bzDecompressInit(&bz, 0, 0) == BZ_OK;
-    // libbz2 does not write through next_in; its C interface merely lacks the const.
-    bz.next_in = const_cast<char*>(reinterpret_cast<const char*>(stream.data()));
-    ended_ = !state_->ready;
-    if (ended_) status_ = BzipStatus::no_memory;
-}
-
-BzipReader::~BzipReader() {
-    if (state_->ready) BZ2_bzDecompressEnd(&state_->bz);
-}
-
-std::size_t BzipReader::input_bytes() const {
-    return state_->fed - state_->bz.avail_in;
-}
-
-std::size_t BzipReader::read(std::span<std::byte> out) {
-    bz_stream& bz = state_->bz;
-    std::size_t made = 0;
-    while (!ended_ && made < out.size()) {
-        if (bz.avail_in == 0 && state_->fed < stream_.size()) {
-            bz.avail_in =
-                static_cast<unsigned>(std::min(stream_.size() - state_->fed, largest_step));
-            state_->fed += bz.avail_in;
-        }
-        bz.next_out = reinterpret_cast<char*>(out.data() + made);
-        bz.avail_out = static_cast<unsigned>(std::min(out.size() - made, largest_step));
-        const unsigned room = bz.avail_out;
-        const int code = BZ2_bzDecompress(&bz);
-        made += room - bz.avail_out;
-        const bool starved = bz.avail_in == 0 && state_->fed == stream_.size() && bz.avail_out != 0;
-        if (code == BZ_OK && !starved) continue;
-        ended_ = true;
-        if (code == BZ_MEM_ERROR) {
-            status_ = BzipStatus::no_memory;
-        } else if (code == BZ_OK) {
-            status_ = BzipStatus::truncated;
-        } else if (code != BZ_STREAM_END) {
-            status_ = BzipStatus::corrupt;
-        }
-    }
-    return made;
-}
-
-BzipResult bunzip(std::span<const std::byte> stream, std::vector<std::byte>& buffer,
-                  std::size_t limit) {
-    BzipReader reader{stream};
-    if (buffer.empty()) buffer.resize(std::min(limit, first_buffer_bytes));
-    std::size_t made = 0;
-    for (;;) {
-        // The buffer may be larger than the limit, from an earlier stream.
-        const std::size_t room = std::min(buffer.size(), limit);
-        made += reader.read(std::span{buffer}.first(room).subspan(made));
-        if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
-        if (made >= limit) return {BzipStatus::too_large, made, reader.input_bytes()};
-        if (made == buffer.size()) buffer.resize(std::min(limit, 2 * buffer.size()));
-    }
-}
-
-BzipBlocks::BzipBlocks(std::span<const std::byte> bytes) : bytes_(bytes), mark_(find_mark(0)) {}
+BzipBlocks::BzipBlocks(std::span<const std::byte> bytes, bunzip::Workspace& workspace)
+    : bytes_(bytes), workspace_(workspace), mark_(find_mark(0)) {}
 
 std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) const {
     const std::uint64_t all_bits = std::uint64_t{bytes_.size()} * 8;
@@ -202,10 +130,11 @@ std::optional<BzipBlocks::Mark> BzipBlocks::find_mark(std::uint64_t from_bit) co
     return std::nullopt;
 }
 
-BzipStatus BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit, std::size_t limit) {
+bunzip::Status BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit,
+                                  std::size_t limit) {
     // Behind its mark a block has its checksum, which is also that of a stream of one block.
     const std::uint64_t checksum_bit = begin_bit + mark_bits;
-    if (end_bit < begin_bit + least_block_bits) return BzipStatus::truncated;
+    if (end_bit < begin_bit + least_block_bits) return bunzip::Status::truncated;
     const std::uint64_t window = eight_bytes(bytes_, static_cast<std::size_t>(checksum_bit / 8));
     const std::uint64_t checksum = (window >> (32 - checksum_bit % 8)) & 0xFFFFFFFFU;
     stream_.clear();
@@ -217,8 +146,7 @@ BzipStatus BzipBlocks::unpack(std::uint64_t begin_bit, std::uint64_t end_bit, st
     writer.put(end_mark, mark_bits);
     writer.put(checksum, 32);
     writer.finish();
-    const BzipResult result = bunzip(stream_, output_, limit);
-    if (result.status == BzipStatus::no_memory) throw std::bad_alloc{};
+    const auto result = bunzip::decompress(stream_, output_, limit, workspace_);
     output_bytes_ = result.output_bytes;
     return result.status;
 }
@@ -240,9 +168,9 @@ std::optional<BzipBlocks::Block> BzipBlocks::next(std::size_t limit) {
         const std::uint64_t end_bit = end ? end->bit : all_bits;
         const auto position = static_cast<std::size_t>(begin / 8);
         const auto compressed = static_cast<std::size_t>((end_bit - begin) / 8);
-        const BzipStatus status = unpack(begin, end_bit, limit);
-        if (status == BzipStatus::too_large) return Block{status, {}, position, compressed};
-        if (status == BzipStatus::whole) {
+        const bunzip::Status status = unpack(begin, end_bit, limit);
+        if (status == bunzip::Status::too_large) return Block{status, {}, position, compressed};
+        if (status == bunzip::Status::whole) {
             mark_ = end;
             const auto data = std::span<const std::byte>{output_}.first(output_bytes_);
             return Block{status, data, position, compressed};
@@ -253,7 +181,7 @@ std::optional<BzipBlocks::Block> BzipBlocks::next(std::size_t limit) {
     mark_ = nearest;
     ++bad_blocks_;
     const std::uint64_t end_bit = nearest ? nearest->bit : all_bits;
-    return Block{BzipStatus::corrupt,
+    return Block{bunzip::Status::corrupt,
                  {},
                  static_cast<std::size_t>(begin / 8),
                  static_cast<std::size_t>((end_bit - begin) / 8)};

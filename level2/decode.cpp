@@ -235,17 +235,18 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
 }
 
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
-    BzipBlocks blocks{bytes};
+    bunzip::Workspace workspace;
+    BzipBlocks blocks{bytes, workspace};
     LayerOutput output{builder_.arrays_left(), options_.selection};
     for (;;) {
         const double begin_s = thread_cpu_s();
         const auto block = blocks.next(static_cast<std::size_t>(builder_.output_left()));
         builder_.report_data().decompress_s += thread_cpu_s() - begin_s;
         if (!block) break;
-        if (block->status == BzipStatus::too_large) {
+        if (block->status == bunzip::Status::too_large) {
             return builder_.too_much_output();
         }
-        if (block->status == BzipStatus::whole) {
+        if (block->status == bunzip::Status::whole) {
             if (Status taken = take_output(output, block->data); !taken) return taken;
             continue;
         }

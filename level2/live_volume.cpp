@@ -86,7 +86,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
             }
             return kept;
         }
-        if (!chunks_.contains(number)) {
+        if (chunk.error().code != ErrorCode::io && !chunks_.contains(number)) {
             // Of several the same one is named in any order.
             std::string& reason = refused_[number];
             if (reason.empty() || chunk.error().message < reason) reason = chunk.error().message;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "bunzip/bunzip.h"
 #include "level2/bzip2_stream.h"
 #include "level2/fragment_builder.h"
 #include "level2/message_reader.h"
@@ -49,7 +50,7 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
     const bool large = part.bytes.size() > large_record_bytes;
     FragmentBuilder builder{room, large ? rows_of_a_sweep : rows_of_a_record, selection_};
     MessageReader reader{builder};
-    BzipReader stream{part.bytes};
+    bunzip::Reader stream{part.bytes, workspace_};
     auto failure = Fragment::Failure::none;
     std::uint64_t output_bytes = 0;
     double cpu_s = 0;
@@ -60,9 +61,8 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
         const double begin_s = thread_cpu_s();
         const std::size_t made = stream.read(std::span{buffer_}.subspan(held));
         cpu_s += thread_cpu_s() - begin_s;
-        if (stream.status() == BzipStatus::no_memory) throw std::bad_alloc{};
-        if (stream.status() != BzipStatus::whole) {
-            is_cut = part.cut || stream.status() == BzipStatus::truncated;
+        if (stream.status() != bunzip::Status::whole) {
+            is_cut = part.cut || stream.status() == bunzip::Status::truncated;
             return std::nullopt;
         }
         output_bytes += made;
@@ -95,7 +95,7 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_
     FragmentBuilder builder{room, rows_of_a_record, selection_};
     MessageReader reader{builder};
     MessageFeed feed{reader};
-    BzipBlocks blocks{part.bytes};
+    BzipBlocks blocks{part.bytes, workspace_};
     auto failure = Fragment::Failure::none;
     std::uint64_t output_bytes = 0;
     bool all_good = true;
@@ -103,9 +103,9 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_
     while (failure == Fragment::Failure::none) {
         const auto block = blocks.next(static_cast<std::size_t>(limit_bytes_ - output_bytes));
         if (!block) break;
-        if (block->status == BzipStatus::too_large) {
+        if (block->status == bunzip::Status::too_large) {
             failure = Fragment::Failure::too_much_output;
-        } else if (block->status == BzipStatus::whole) {
+        } else if (block->status == bunzip::Status::whole) {
             output_bytes += block->data.size();
             feed.append(block->data);
             failure = reader.failure();

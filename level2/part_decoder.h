@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "bunzip/bunzip.h"
 #include "level2/array_room.h"
 #include "level2/fragment.h"
 #include "level2/ldm_framer.h"
@@ -43,6 +44,7 @@ class PartDecoder {
     std::uint64_t limit_bytes_;
     const Selection& selection_;
     std::vector<std::byte> buffer_;
+    bunzip::Workspace workspace_;
 };
 
 // CPU time of the calling thread.

@@ -6,7 +6,7 @@
 #include <zlib.h>
 
 #include "base/byte_reader.h"
-#include "level2/bzip2_stream.h"
+#include "bunzip/bunzip.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -49,12 +49,13 @@ bool inflate_all(std::span<const std::byte> from, std::span<std::byte> out) {
 }
 
 bool bunzip_all(std::span<const std::byte> from, std::span<std::byte> out) {
-    BzipReader reader{from};
+    bunzip::Workspace workspace;
+    bunzip::Reader reader{from, workspace};
     const std::size_t made = reader.read(out);
     std::byte surplus{};
     const bool is_longer = !reader.ended() && reader.read(std::span{&surplus, 1}) > 0;
     return made == out.size() && !is_longer && reader.ended() &&
-           reader.status() == BzipStatus::whole;
+           reader.status() == bunzip::Status::whole;
 }
 
 }  // namespace

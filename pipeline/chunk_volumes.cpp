@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 constexpr std::chrono::minutes longest_failing{2};
-constexpr std::size_t most_volumes = 320;  // each has a descriptor
 
 // The pieces of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
@@ -90,6 +89,9 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
     const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
     if (!added) {
         const ErrorCode code = added.error().code;
+        if (code == ErrorCode::io) {  // no memory
+            return fail(code, "{}: {}", chunk.path.native(), added.error().message);
+        }
         if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
         file.is_whole = false;
         files_.insert_or_assign(chunk.path, file);
@@ -130,6 +132,11 @@ bool ChunkVolume::waits(const ChunkPath& chunk) {
     const auto waiter = files_.find(waiter_);
     if (waiter == files_.end() || !waiter->second.is_whole) waiter_ = chunk.path;
     return chunk.path == waiter_;
+}
+
+bool ChunkVolume::is_waiter(const fs::path& path) const {
+    const auto waiter = files_.find(path);
+    return path == waiter_ && waiter != files_.end() && waiter->second.is_whole;
 }
 
 fs::path ChunkVolume::first_file() const {
@@ -185,7 +192,7 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         live.grace = options_.chunk_grace;
         live.decode.output_limit_bytes = most_output_bytes;
         live.decode.selection = options_.selection;
-        live.decode.fallback_station = station_by_name(chunk.path);
+        live.decode.fallback_station = station_of_path(chunk.path);
         followed.volume = std::make_shared<ChunkVolume>(options_, live);
     }
     const std::shared_ptr<ChunkVolume> found = followed.volume;
@@ -193,26 +200,52 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
     return found;
 }
 
-void ChunkVolumes::grew(const ChunkPath& chunk, std::uint64_t held_bytes) {
+std::shared_ptr<ChunkVolume> ChunkVolumes::find_known(const ChunkPath& chunk) const {
+    const std::scoped_lock lock(mutex_);
+    const auto known = volumes_.find(chunk.key);
+    return known == volumes_.end() ? nullptr : known->second.volume;
+}
+
+bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume) {
     const std::scoped_lock lock(mutex_);
     const auto own = volumes_.find(chunk.key);
-    if (own != volumes_.end()) own->second.held_bytes = held_bytes;
+    if (own == volumes_.end() || own->second.volume.get() != &volume) return true;
+    own->second.held_bytes = volume.held_bytes();
+    own->second.shelf_bytes = volume.shelf_bytes();
+    const bool has_its_share = own->second.shelf_bytes <= limits_.shelf_bytes_each;
+    if (!has_its_share) give_up(own);
     give_up_beyond_limits(chunk.key);
+    return has_its_share;
+}
+
+void ChunkVolumes::give_up(std::map<std::string, Followed>::iterator volume) {
+    volumes_.erase(volume);
+    ++given_up_;
 }
 
 void ChunkVolumes::give_up_beyond_limits(const std::string& but) {
     std::uint64_t held = 0;
-    for (const auto& [key, followed] : volumes_)
+    std::uint64_t shelf = 0;
+    for (const auto& [key, followed] : volumes_) {
         held += followed.held_bytes;
-    while (volumes_.size() > 1 && (held > most_held_bytes_ || volumes_.size() > most_volumes)) {
+        shelf += followed.shelf_bytes;
+    }
+    while (volumes_.size() > 1 && (held > limits_.held_bytes || shelf > limits_.shelf_bytes ||
+                                   volumes_.size() > limits_.volumes)) {
         auto oldest = volumes_.end();
         for (auto at = volumes_.begin(); at != volumes_.end(); ++at) {
             if (at->first == but) continue;
             if (oldest == volumes_.end() || at->second.turn < oldest->second.turn) oldest = at;
         }
         held -= oldest->second.held_bytes;
-        volumes_.erase(oldest);
+        shelf -= oldest->second.shelf_bytes;
+        give_up(oldest);
     }
+}
+
+std::uint64_t ChunkVolumes::take_given_up() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(given_up_, 0);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk) {

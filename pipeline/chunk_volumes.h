@@ -6,7 +6,8 @@
 // volume is put together again from the files.
 // What is decoded lies on the shelf (pipeline/sweep_shelf.h) until it is wanted.
 // Bounded: beyond so many bytes or volumes the volume to which nothing has come for longest is
-// forgotten, and put together again with its next chunk.
+// given up, and read again from its files with its next chunk, or when it is next asked for. So is
+// one that takes more than its share, as when its chunks are written again and again.
 // Inside the pipeline room only. Thread contract: find() by many threads; a volume by whoever holds
 // its mutex.
 #pragma once
@@ -24,6 +25,7 @@
 #include "level2/live_volume.h"
 #include "pipeline/chunk_path.h"
 #include "pipeline/file_facts.h"
+#include "pipeline/ingest_options.h"
 #include "pipeline/living_file.h"
 
 namespace stormcellar::pipeline {
@@ -38,7 +40,7 @@ class ChunkVolume {
         not_ours,    // no chunk of this volume, whatever its name says: to be taken by itself
     };
     // Reads the file unless it is known with this stamp. io, no_space: it cannot be read now, as
-    // when descriptors run out, and is to be asked for again.
+    // when descriptors or memory run out, and is to be asked for again.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
     // All others that lie beside this one, which waits in their names. Errors as add(): some may be
     // missing; for two minutes, then the volume goes without them.
@@ -47,6 +49,8 @@ class ChunkVolume {
     // Whether it is the one that came last, which is asked again when nothing has come for a while.
     // Where that one is no good this one, which is whole, takes its place.
     [[nodiscard]] bool waits(const ChunkPath& chunk);
+    // Whether this one does, whatever has become of its file since.
+    [[nodiscard]] bool is_waiter(const std::filesystem::path& path) const;
     // The one that did before, once; empty: none.
     [[nodiscard]] std::filesystem::path take_former_waiter() {
         return std::exchange(former_waiter_, {});
@@ -58,7 +62,9 @@ class ChunkVolume {
     void set_shown() { news_ = {}; }
     // Null where there is no room on the shelf.
     [[nodiscard]] const KeptVolume* kept() const { return kept_.get(); }
+    // In memory, and on the shelf.
     [[nodiscard]] std::uint64_t held_bytes() const { return live_.held_bytes(); }
+    [[nodiscard]] std::uint64_t shelf_bytes() const { return kept_ ? kept_->shelf->bytes() : 0; }
 
     struct File {
         FileStamp stamp;
@@ -94,30 +100,44 @@ class ChunkVolume {
     std::optional<level2::LiveVolume::Clock::time_point> fails_since_;
 };
 
+struct ChunkLimits {
+    std::size_t volumes = 320;  // each has a descriptor
+    std::uint64_t held_bytes = std::uint64_t{256} << 20;
+    // On disk, packed: of all, and of each one. The second is as much as any takes whose chunks
+    // come once: 256 MiB unpacked, as pieces and as sweeps.
+    std::uint64_t shelf_bytes = most_put_aside_bytes;
+    std::uint64_t shelf_bytes_each = most_put_aside_bytes / 8;
+};
+
 class ChunkVolumes {
   public:
-    explicit ChunkVolumes(LivingFile::Options options,
-                          std::uint64_t most_held_bytes = std::uint64_t{256} << 20)
-        : options_(std::move(options)), most_held_bytes_(most_held_bytes) {}
+    explicit ChunkVolumes(LivingFile::Options options, ChunkLimits limits = {})
+        : options_(std::move(options)), limits_(limits) {}
 
     // Made where it is not known.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk);
-    void grew(const ChunkPath& chunk, std::uint64_t held_bytes);
+    // Null where it is not.
+    [[nodiscard]] std::shared_ptr<ChunkVolume> find_known(const ChunkPath& chunk) const;
+    // Counts what it takes now. False: that is more than its share, and it was given up.
+    [[nodiscard]] bool grew(const ChunkPath& chunk, const ChunkVolume& volume);
     void forget(const ChunkPath& chunk);
     void forget(const ChunkPath& chunk, const ChunkVolume* volume);  // if it is still this one
     [[nodiscard]] std::size_t count() const;
+    // How many were given up since the last call.
+    [[nodiscard]] std::uint64_t take_given_up();
 
   private:
     struct Followed {
         std::shared_ptr<ChunkVolume> volume;
-        std::uint64_t turn = 0, held_bytes = 0;
+        std::uint64_t turn = 0, held_bytes = 0, shelf_bytes = 0;
     };
     void give_up_beyond_limits(const std::string& but);
+    void give_up(std::map<std::string, Followed>::iterator volume);
 
     LivingFile::Options options_;
-    std::uint64_t most_held_bytes_;
+    ChunkLimits limits_;
     mutable std::mutex mutex_;  // guards what follows
-    std::uint64_t next_turn_ = 0;
+    std::uint64_t next_turn_ = 0, given_up_ = 0;
     std::map<std::string, Followed> volumes_;
 };
 

@@ -16,11 +16,16 @@ bool is_temporary_name(std::string_view name) {
                        [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-std::string station_by_name(const std::filesystem::path& path) {
+std::string station_of_file_name(const std::filesystem::path& path) {
+    const std::string name = path.filename().string().substr(0, 4);
+    return find_station(name) ? name : std::string{};
+}
+
+std::string station_of_path(const std::filesystem::path& path) {
     std::filesystem::path part = path;
     for (int above = 0; above < 3; ++above, part = part.parent_path()) {
-        const std::string name = part.filename().string().substr(0, 4);
-        if (find_station(name)) return name;
+        std::string name = station_of_file_name(part);
+        if (!name.empty()) return name;
     }
     return {};
 }

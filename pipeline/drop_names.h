@@ -15,9 +15,10 @@ namespace stormcellar::pipeline {
 // .part, .partial or .filepart (lower case, as programs write them).
 [[nodiscard]] bool is_temporary_name(std::string_view name);
 
-// The station that a file's name begins with, when it is one of the table; else that of its
-// directory's name, else of the one above; else empty.
-[[nodiscard]] std::string station_by_name(const std::filesystem::path& path);
+// The station that the file's name begins with, when it is one of the table; else empty.
+[[nodiscard]] std::string station_of_file_name(const std::filesystem::path& path);
+// The same; else that of its directory's name, else of the one above.
+[[nodiscard]] std::string station_of_path(const std::filesystem::path& path);
 // Whether the name is that of one chunk of a volume.
 [[nodiscard]] bool is_chunk_name(const std::filesystem::path& path);
 

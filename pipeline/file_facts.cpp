@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/beneath.h"
-#include "base/station_table.h"
 #include "level2/volume_checks.h"
 
 namespace stormcellar::pipeline {
@@ -47,11 +46,6 @@ std::string reason_of(const level2::DecodeReport& report) {
                          [](const auto& a, const auto& b) { return a.severity < b.severity; });
     if (number == 1) return gravest->text();
     return fmt::format("{} (and {} more)", gravest->text(), number - 1);
-}
-
-std::string station_of_name(const std::filesystem::path& path) {
-    const std::string name = path.filename().string().substr(0, 4);
-    return find_station(name) ? name : std::string{};
 }
 
 }  // namespace stormcellar::pipeline

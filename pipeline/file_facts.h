@@ -39,7 +39,4 @@ struct FileStamp {
 // The gravest problem in one line, with how many there are; empty when there are none that count.
 [[nodiscard]] std::string reason_of(const level2::DecodeReport& report);
 
-// The station that the file's name begins with, when it is one of the table; else empty.
-[[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
-
 }  // namespace stormcellar::pipeline

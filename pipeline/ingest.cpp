@@ -12,6 +12,7 @@
 #include "level2/volume_checks.h"
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
+#include "pipeline/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -20,10 +21,6 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
@@ -62,9 +59,10 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
         .chunk_timeout = options.living.chunk_timeout,
         .chunk_grace = options.living.chunk_grace,
     };
-    chunks.emplace(follow);
+    const std::uint64_t most = options.living.put_aside_bytes;
+    chunks.emplace(follow, ChunkLimits{.shelf_bytes = most, .shelf_bytes_each = most / 8});
     if (store != nullptr && options.living.make && !options.living.scratch.empty()) {
-        living.emplace(follow);
+        living.emplace(follow, LivingLimits{.shelf_bytes = most});
     }
 }
 
@@ -97,7 +95,7 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, Error why,
 Result<IngestOutcome> Ingestor::Impl::reject_unread(const fs::path& path, const Error& why) {
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_name(path);
+    facts.station = station_of_file_name(path);
     facts.modified_ns = catalog::never_read_ns;
     return reject(facts, {why.code, without_path(why.message, path)}, {});
 }
@@ -203,6 +201,12 @@ Status Ingestor::Impl::mark_gone(const fs::path& path) {
     return {};
 }
 
+Finish Ingestor::Impl::finish_of(bool finish_partial) const {
+    if (!finish_partial) return Finish::when_it_ends;
+    // Nobody who has nowhere to put things aside comes again when it has been quiet.
+    return options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
+}
+
 Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
     const Running running(impl_->running);
     IngestOutcome outcome;
@@ -213,7 +217,10 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
         if (code != ErrorCode::not_found) return pass_on(before);
         if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
         outcome.result = IngestResult::vanished;
-        return outcome;
+        const auto gone = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
+        if (!gone) return outcome;
+        auto taken = impl_->take_gone_chunk(*gone, impl_->finish_of(finish_partial), outcome);
+        return taken ? std::move(*taken) : outcome;
     }
     const auto settled = impl_->catalog.is_settled(path, before->size_bytes, before->modified_ns);
     if (!settled) return pass_on(settled);
@@ -227,10 +234,7 @@ Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial
     }
     const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
     if (chunk) {
-        // Nobody who has nowhere to put things aside comes again when it has been quiet.
-        const Finish finish = !finish_partial                         ? Finish::when_it_ends
-                              : impl_->options.living.scratch.empty() ? Finish::as_it_is
-                                                                      : Finish::when_quiet;
+        const Finish finish = impl_->finish_of(finish_partial);
         if (auto taken = impl_->take_chunk(*chunk, *before, finish, outcome)) {
             return std::move(*taken);
         }
@@ -245,7 +249,8 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     const auto stamp = stamp_of(path, impl_->options.beneath);
     if (!stamp && stamp.error().code == ErrorCode::not_found) {
         if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
-        return IngestResult::vanished;
+        // There is still something to do: ingest().
+        return impl_->is_waited_for(path) ? IngestResult::registered : IngestResult::vanished;
     }
     if (!stamp || !stamp->regular) return IngestResult::registered;  // refused when it is taken in
     const auto known = impl_->catalog.is_known(path);
@@ -253,7 +258,7 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     if (*known) return IngestResult::registered;
     FileFacts facts;
     facts.path = path;
-    facts.station = station_by_name(path);
+    facts.station = station_of_path(path);
     facts.size_bytes = stamp->size_bytes;
     facts.modified_ns = stamp->modified_ns;
     facts.state = FileState::seen;
@@ -278,7 +283,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                        IngestOutcome outcome) {
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_name(path);
+    facts.station = station_of_file_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
     if (!before.regular) {
@@ -320,6 +325,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     outcome.decode_s = seconds_since(decode_start);
     if (!decoded) {
         const ErrorCode code = decoded.error().code;
+        if (code == ErrorCode::io) return pass_on(decoded);  // no memory
         if (!finish_partial && (code == ErrorCode::empty || code == ErrorCode::truncated)) {
             outcome.result = IngestResult::incomplete;  // there may be more to come
             outcome.reason = decoded.error().message;

@@ -9,93 +9,16 @@
 // Thread contract: an Ingestor may be used by many threads at once, for different files.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "base/result.h"
 #include "cache/store.h"
 #include "catalog/catalog.h"
-#include "grid/gridder.h"
-#include "pipeline/domain.h"
-#include "pipeline/frames_when.h"
+#include "pipeline/ingest_options.h"
+#include "pipeline/ingest_outcome.h"
 
 namespace stormcellar::pipeline {
-
-// Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
-// theirs has come.
-struct LivingGrids {
-    // A directory for what is put aside, in files without names; empty: none are made, and of
-    // volumes that come as one file a chunk all that lies there is a volume when it is finished.
-    std::filesystem::path scratch;
-    bool make = true;  // false: none are made, and chunks are put together all the same
-    // Asked before each: false while there is more urgent work. The sweeps are in the next one.
-    // Not asked for what shows a new low sweep. Empty: there is always time.
-    std::function<bool()> has_time;
-    // Of volumes that come as one file a chunk (level2/live_volume.h).
-    std::chrono::seconds chunk_timeout{600};
-    std::chrono::seconds chunk_grace{30};
-};
-
-struct IngestOptions {
-    level2::Moment moment = level2::Moment::ref;
-    double spacing_m = 1000;
-    int nx = 460, ny = 460;
-    std::vector<double> levels_m;  // empty: the default 32
-    std::vector<Domain> domains;   // mosaics to keep, beside each site's own grid
-    bool own_grids = true;         // false: the sites' grids for the domains alone
-    FramesWhen frames = FramesWhen::volume_comes;
-    // In all: files that are ingested at the same time share them, so that each has its part and
-    // one alone has all.
-    int decode_threads = 1;
-    int grid_threads = 1;
-    LivingGrids living;
-    // Nothing outside of this directory is opened, wherever links lead (base/beneath.h); empty: a
-    // file may lie anywhere.
-    std::filesystem::path beneath;
-    // A larger file is rejected unread. No volume is known that takes half of it.
-    std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
-    // Likewise one that unpacks to more.
-    std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
-};
-
-enum class IngestResult {
-    gridded,      // registered, and every volume with the moment is in the cache, or too old for it
-    no_moment,    // registered; holds no sweep of the moment, so there is nothing to grid
-    no_position,  // registered; neither the file nor the table says where the radar stands
-    incomplete,   // not settled: the volume has not ended and finish_partial is false, or the file
-                  // changed while it was read; ask again when it was closed or quiet
-    rejected,     // registered as rejected: no volume, or none that can be gridded
-    unchanged,    // settled before; nothing was done
-    vanished,     // the file is gone; its rows, if any, are marked so
-    registered,   // registered; the Ingestor has no cache
-};
-
-struct IngestOutcome {
-    IngestResult result = IngestResult::rejected;
-    std::string station;  // empty: unknown
-    std::optional<UtcTime> volume_time;
-    std::optional<UtcTime> newest_radial;    // by the radar's clock; plausible times alone
-    std::optional<ErrorCode> rejected_with;  // of what kind the reason is; rejected files alone
-    std::string reason;     // why rejected, or what is wrong or worth saying; one line
-    bool followed = false;  // incomplete: what is appended will be read without the rest
-    bool partial = false;   // gridded: some volume had not ended, or was damaged
-    std::vector<std::filesystem::path> grids;
-    std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)
-    std::vector<std::filesystem::path> frames;    // of mosaics that it changed
-    std::vector<int> missing_chunks;              // of a volume of chunks that was finished
-    std::vector<std::filesystem::path> living;    // of volumes that have not ended
-    bool living_left_out = false;                 // for want of time
-    // Of a volume of chunks, incomplete: the one that was to be asked again until this one came.
-    std::filesystem::path instead_of;
-    int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
-    double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
-};
 
 class MosaicKeeper;
 
@@ -111,7 +34,7 @@ class Ingestor {
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
     // Writes a file into the catalog as seen, unread, unless it stands there (registered), or marks
-    // its rows when it is gone (vanished).
+    // its rows when it is gone (vanished; registered where a volume of chunks waits in its name).
     Result<IngestResult> note(const std::filesystem::path& path);
     // The same as ingest() for a file that was settled before: its volumes are gridded again, as
     // they are.

@@ -8,6 +8,7 @@
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
 #include "pipeline/keep_rule.h"
+#include "pipeline/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -16,10 +17,6 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The chunk, and with the first one all that lie beside it.
 Result<ChunkVolume::Added> add_to(ChunkVolume& volume, const ChunkPath& chunk,
@@ -39,7 +36,7 @@ FileFacts facts_of(const ChunkVolume& volume, const ChunkPath& chunk, const File
     facts.modified_ns = stamp.modified_ns;
     facts.content_hash = volume.files().at(chunk.path).content_hash;
     facts.station = volume.station();
-    if (facts.station.empty()) facts.station = station_by_name(chunk.path);
+    if (facts.station.empty()) facts.station = station_of_path(chunk.path);
     facts.state = FileState::seen;
     return facts;
 }
@@ -110,7 +107,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     std::shared_ptr<LivingFile> file = living->find(path);
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_name(path);
+    facts.station = station_of_file_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
     if (!file && !finish_partial && LivingFile::is_growing(path, options.beneath)) {
@@ -125,6 +122,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
         return std::nullopt;
     }
     living->grew(path, *file);
+    outcome.given_up = living->take_given_up();
     if (!has_ended && !finish_partial) return show_file(facts, *file, std::move(outcome));
     living->forget(path);
     facts.content_hash = file->content_hash();
@@ -179,24 +177,69 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         chunks->forget(chunk, volume.get());
         return finished;
     }
+    return show_chunk(chunk, facts, *volume, std::move(outcome));
+}
+
+// Its volume goes on growing.
+Result<IngestOutcome> Ingestor::Impl::show_chunk(const ChunkPath& chunk, const FileFacts& facts,
+                                                 ChunkVolume& volume, IngestOutcome outcome) {
     if (const auto registered = catalog.register_file(facts); !registered) {
         return pass_on(registered);
     }
-    chunks->grew(chunk, volume->held_bytes());
-    if (volume->news().any && volume->kept() != nullptr) {
+    volume.is_finished = !chunks->grew(chunk, volume);
+    outcome.given_up = chunks->take_given_up();
+    if (volume.news().any && volume.kept() != nullptr) {
         const auto shown =
-            show_living(*volume->kept(), volume->news(), volume->first_file().filename().string(),
+            show_living(*volume.kept(), volume.news(), volume.first_file().filename().string(),
                         facts.modified_ns, outcome);
         if (!shown) return pass_on(shown);
-        if (*shown) volume->set_shown();
+        if (*shown) volume.set_shown();
     }
     // One of a volume is waited for in the name of all.
-    if (volume->waits(chunk)) {
-        outcome.instead_of = volume->take_former_waiter();
+    if (volume.waits(chunk)) {
+        outcome.instead_of = volume.take_former_waiter();
     } else {
         outcome.result = IngestResult::registered;
     }
     return outcome;
+}
+
+bool Ingestor::Impl::is_waited_for(const fs::path& path) {
+    const auto chunk = chunks ? ChunkPath::of(path) : std::nullopt;
+    const auto volume = chunk ? chunks->find_known(*chunk) : nullptr;
+    if (!volume) return false;
+    const std::scoped_lock lock(volume->mutex);
+    return !volume->is_finished && volume->is_waiter(path);
+}
+
+// What was in it has been decoded. The volume goes on in its name until it is due, as others that
+// come later may still make it whole.
+std::optional<Result<IngestOutcome>> Ingestor::Impl::take_gone_chunk(const ChunkPath& chunk,
+                                                                     Finish finish,
+                                                                     IngestOutcome outcome) {
+    const auto volume = chunks->find_known(chunk);
+    if (!volume) return std::nullopt;
+    const std::scoped_lock lock(volume->mutex);
+    if (volume->is_finished || !volume->is_waiter(chunk.path)) return std::nullopt;
+    const std::string station = facts_of(*volume, chunk, {}).station;
+    outcome.station = station;
+    outcome.reason = "the file that waited for its volume was deleted";
+    if (finish == Finish::when_it_ends || (finish == Finish::when_quiet && !volume->is_due())) {
+        outcome.result = IngestResult::incomplete;
+        return outcome;
+    }
+    volume->is_finished = true;
+    const std::string reason = outcome.reason;
+    auto finished = finish_chunks(*volume, station, std::move(outcome));
+    chunks->forget(chunk, volume.get());
+    if (!finished) return finished;
+    finished->reason += (finished->reason.empty() ? "" : "; ") + reason;
+    for (const auto& [path, file] : volume->files()) {
+        const auto stamp = stamp_of(path, options.beneath);
+        if (stamp || stamp.error().code != ErrorCode::not_found) continue;
+        if (Status marked = mark_gone(path); !marked) return pass_on(marked);
+    }
+    return finished;
 }
 
 // The first chunk's row stands for the volume; those of the others say that they were taken in.
@@ -223,7 +266,8 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
-    // What was put aside cannot be read back: the files are not to blame, and are read again.
+    // What was put aside cannot be read back, or there is no memory for it: the files are not to
+    // blame, and are read again.
     if (!decoded && decoded.error().code == ErrorCode::io) return pass_on(decoded);
     if (!decoded) {
         for (FileFacts& other : others) {

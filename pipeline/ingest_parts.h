@@ -81,9 +81,17 @@ struct Ingestor::Impl {
     std::optional<Result<IngestOutcome>> follow(const std::filesystem::path& path,
                                                 const FileStamp& before, bool finish_partial,
                                                 IngestOutcome outcome);
+    [[nodiscard]] Finish finish_of(bool finish_partial) const;
     // None: the file is to be taken by itself.
     std::optional<Result<IngestOutcome>> take_chunk(const ChunkPath& chunk, const FileStamp& before,
                                                     Finish finish, IngestOutcome outcome);
+    Result<IngestOutcome> show_chunk(const ChunkPath& chunk, const catalog::FileFacts& facts,
+                                     ChunkVolume& volume, IngestOutcome outcome);
+    // Whether a volume of chunks waits in its name, and not in another's.
+    [[nodiscard]] bool is_waited_for(const std::filesystem::path& path);
+    // Of a chunk whose file is gone, and whose rows say so. None: nothing waits in its name.
+    std::optional<Result<IngestOutcome>> take_gone_chunk(const ChunkPath& chunk, Finish finish,
+                                                         IngestOutcome outcome);
     Result<IngestOutcome> finish_chunks(ChunkVolume& volume, const std::string& station,
                                         IngestOutcome outcome);
     Result<IngestOutcome> show_file(const catalog::FileFacts& file, LivingFile& living_file,

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/beneath.h"
+#include "base/descriptor.h"
 #include "level2/archive_header.h"
 #include "level2/content.h"
 
@@ -32,25 +33,21 @@ class OpenFile {
   public:
     OpenFile(const fs::path& path, const fs::path& beneath)
         : opened_(open_beneath(beneath, path)), descriptor_(opened_ ? *opened_ : -1) {}
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-    ~OpenFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+    [[nodiscard]] bool is_open() const { return descriptor_.is_open(); }
     [[nodiscard]] const Error& failure() const { return opened_.error(); }
     // None where it is no regular file.
     [[nodiscard]] std::optional<struct stat> facts() const {
         struct stat found {};
-        if (::fstat(descriptor_, &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
+        if (::fstat(descriptor_.number(), &found) != 0 || !S_ISREG(found.st_mode))
+            return std::nullopt;
         return found;
     }
     // As many as there are.
     [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::byte> into) const {
         std::size_t done = 0;
         while (done < into.size()) {
-            const ssize_t got = ::pread(descriptor_, into.data() + done, into.size() - done,
-                                        static_cast<off_t>(at + done));
+            const ssize_t got = ::pread(descriptor_.number(), into.data() + done,
+                                        into.size() - done, static_cast<off_t>(at + done));
             if (got < 0 && errno == EINTR) continue;
             if (got <= 0) break;
             done += static_cast<std::size_t>(got);
@@ -60,7 +57,7 @@ class OpenFile {
 
   private:
     Result<int> opened_;
-    int descriptor_;
+    Descriptor descriptor_;
 };
 
 std::int32_t control_word(std::span<const std::byte, 4> bytes) {

@@ -34,15 +34,31 @@ void LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file
     give_up_beyond_limits(path);
 }
 
+void LivingFiles::drop_last_beyond_limits() {
+    std::uint64_t shelf = 0;
+    for (const auto& [path, followed] : files_)
+        shelf += followed.shelf_bytes;
+    for (const auto& [station, volume] : last_)
+        shelf += volume->shelf->bytes();
+    // As many sites as there are files: names come from outside.
+    while (!last_.empty() && (last_.size() > limits_.files || shelf > limits_.shelf_bytes)) {
+        const auto oldest =
+            std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
+                return a.second->facts.start_time() < b.second->facts.start_time();
+            });
+        shelf -= oldest->second->shelf->bytes();
+        last_.erase(oldest);
+    }
+}
+
 void LivingFiles::give_up_beyond_limits(const std::filesystem::path& but) {
+    drop_last_beyond_limits();
     std::uint64_t held = 0;
     std::uint64_t shelf = 0;
     for (const auto& [path, followed] : files_) {
         held += followed.held_bytes;
         shelf += followed.shelf_bytes;
     }
-    for (const auto& [station, volume] : last_)
-        shelf += volume->shelf->bytes();
     while (files_.size() > 1 && (files_.size() > limits_.files || held > limits_.held_bytes ||
                                  shelf > limits_.shelf_bytes)) {
         auto oldest = files_.end();
@@ -53,7 +69,13 @@ void LivingFiles::give_up_beyond_limits(const std::filesystem::path& but) {
         held -= oldest->second.held_bytes;
         shelf -= oldest->second.shelf_bytes;
         files_.erase(oldest);
+        ++given_up_;
     }
+}
+
+std::uint64_t LivingFiles::take_given_up() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(given_up_, 0);
 }
 
 void LivingFiles::forget(const std::filesystem::path& path) {
@@ -67,9 +89,7 @@ void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {
     auto& last = last_[volume->facts.station];
     if (last && last->facts.start_time() > volume->facts.start_time()) return;
     last = std::move(volume);
-    // As many sites as there are files: names come from outside.
-    while (last_.size() > limits_.files)
-        last_.erase(last_.begin());
+    drop_last_beyond_limits();
 }
 
 std::shared_ptr<const KeptVolume> LivingFiles::last_of(const std::string& station) const {

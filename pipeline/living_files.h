@@ -1,11 +1,11 @@
 // pipeline/living_files.h -- the files that are being followed while they grow, and what the sites'
 // last volumes left for the next ones.
 //
-// Bounded: at most so many files, bytes held and bytes put aside; beyond that the one that has not
-// grown for longest is given up, and its file is read whole when its volume has ended. Nothing of
-// this outlives the process.
-// Inside the pipeline room only. Thread contract: all may be called by many threads; a file is
-// worked on by one at a time.
+// Bounded: at most so many files, bytes held and bytes put aside. Beyond these bytes the sites'
+// last volumes go first, the oldest first: living grids then have less that stands. Then the file
+// that has not grown for longest is given up, and read whole when its volume has ended. Nothing of
+// this outlives the process. Inside the pipeline room only. Thread contract: all may be called by
+// many threads; a file is worked on by one at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include <mutex>
 #include <string>
 
+#include "pipeline/ingest_options.h"
 #include "pipeline/living_file.h"
 
 namespace stormcellar::pipeline {
@@ -22,7 +23,7 @@ namespace stormcellar::pipeline {
 struct LivingLimits {
     std::size_t files = 320;  // each has a descriptor, and each site's last volume
     std::uint64_t held_bytes = std::uint64_t{384} << 20;
-    std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
+    std::uint64_t shelf_bytes = most_put_aside_bytes;
 };
 
 class LivingFiles {
@@ -43,6 +44,8 @@ class LivingFiles {
     void keep_last(std::shared_ptr<const KeptVolume> volume);
     [[nodiscard]] std::shared_ptr<const KeptVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;
+    // How many files were given up since the last call.
+    [[nodiscard]] std::uint64_t take_given_up();
 
   private:
     struct Followed {
@@ -51,11 +54,12 @@ class LivingFiles {
         std::uint64_t held_bytes = 0, shelf_bytes = 0;
     };
     void give_up_beyond_limits(const std::filesystem::path& but);
+    void drop_last_beyond_limits();
 
     LivingFile::Options options_;
     LivingLimits limits_;
     mutable std::mutex mutex_;  // guards what follows
-    std::uint64_t next_turn_ = 0;
+    std::uint64_t next_turn_ = 0, given_up_ = 0;
     std::map<std::filesystem::path, Followed> files_;
     std::map<std::string, std::shared_ptr<const KeptVolume>> last_;
 };

@@ -22,7 +22,7 @@ constexpr int max_depth = 16;
 // name, is another one's.
 bool may_be_of(const fs::path& path, const std::string& station) {
     if (station.empty()) return true;
-    const std::string by_name = station_of_name(path);
+    const std::string by_name = station_of_file_name(path);
     if (!by_name.empty()) return by_name == station;
     const std::string directory = path.parent_path().filename().native();
     return !is_icao(directory) || directory == station;

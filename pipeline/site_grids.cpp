@@ -8,16 +8,13 @@
 #include "grid/column_geometry.h"
 #include "grid/position_error.h"
 #include "pipeline/keep_rule.h"
+#include "pipeline/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 

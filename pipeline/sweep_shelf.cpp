@@ -143,13 +143,9 @@ int nameless_file(const std::filesystem::path& directory) {
 }  // namespace
 
 Result<std::unique_ptr<SweepShelf>> SweepShelf::make_in(const std::filesystem::path& directory) {
-    const int descriptor = nameless_file(directory);
-    if (descriptor < 0) return system_failure("cannot make a file for the sweeps", errno);
-    return std::unique_ptr<SweepShelf>(new SweepShelf(descriptor));
-}
-
-SweepShelf::~SweepShelf() {
-    ::close(descriptor_);
+    Descriptor descriptor{nameless_file(directory)};
+    if (!descriptor.is_open()) return system_failure("cannot make a file for the sweeps", errno);
+    return std::unique_ptr<SweepShelf>(new SweepShelf(std::move(descriptor)));
 }
 
 Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
@@ -165,7 +161,7 @@ Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
     const Place place{end_, static_cast<std::uint64_t>(packed_size), bytes.size()};
     for (std::uint64_t done = 0; done < place.packed_bytes;) {
         const ssize_t written =
-            ::pwrite(descriptor_, packed.data() + done, place.packed_bytes - done,
+            ::pwrite(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
                      static_cast<off_t>(place.offset + done));
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) return system_failure("cannot write sweeps", errno);
@@ -178,8 +174,9 @@ Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
 Result<Sweep> SweepShelf::get(const Place& place) const {
     std::vector<char> packed(place.packed_bytes);
     for (std::uint64_t done = 0; done < place.packed_bytes;) {
-        const ssize_t got = ::pread(descriptor_, packed.data() + done, place.packed_bytes - done,
-                                    static_cast<off_t>(place.offset + done));
+        const ssize_t got =
+            ::pread(descriptor_.number(), packed.data() + done, place.packed_bytes - done,
+                    static_cast<off_t>(place.offset + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return system_failure("cannot read sweeps", errno);
         if (got == 0) return fail(ErrorCode::io, "sweeps that were put aside are gone");

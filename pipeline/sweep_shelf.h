@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
+#include "base/descriptor.h"
 #include "base/result.h"
 #include "level2/volume.h"
 
@@ -23,9 +25,6 @@ class SweepShelf {
 
     // The directory is one on a local file system with some room. Errors: io, no_space, permission.
     static Result<std::unique_ptr<SweepShelf>> make_in(const std::filesystem::path& directory);
-    SweepShelf(const SweepShelf&) = delete;
-    SweepShelf& operator=(const SweepShelf&) = delete;
-    ~SweepShelf();
 
     [[nodiscard]] Result<Place> put(const level2::Sweep& sweep);
     [[nodiscard]] Result<level2::Sweep> get(const Place& place) const;
@@ -33,9 +32,9 @@ class SweepShelf {
     [[nodiscard]] std::uint64_t bytes() const { return end_; }
 
   private:
-    explicit SweepShelf(int descriptor) : descriptor_(descriptor) {}
+    explicit SweepShelf(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
-    int descriptor_;
+    Descriptor descriptor_;
     std::uint64_t end_ = 0;
 };
 

@@ -58,6 +58,8 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_EQ(shipped->budgets, bare->budgets);
     EXPECT_EQ(bare->budgets, default_budgets());
     EXPECT_EQ(shipped->ingest.moment, bare->ingest.moment);
+    EXPECT_EQ(shipped->bunzip, std::nullopt);
+    EXPECT_EQ(bare->bunzip, std::nullopt);
     EXPECT_EQ(shipped->ingest.spacing_m, bare->ingest.spacing_m);
     EXPECT_EQ(shipped->ingest.nx, bare->ingest.nx);
     EXPECT_EQ(shipped->ingest.ny, bare->ingest.ny);
@@ -72,7 +74,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
         load(std::string(paths) +
              "[ingest]\nworkers = 3\nthreads = 2\nquiet_seconds = 1.5\n"
              "reread_seconds = 0\nchunk_timeout_seconds = 300\nchunk_grace_seconds = 0\nliving = "
-             "false\nmoment = \"VEL\"\nspacing_km = 0.5\n"
+             "false\nbunzip = \"libbz2\"\nmoment = \"VEL\"\nspacing_km = 0.5\n"
              "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
              "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
              "[watch]\nrescan_seconds = 7\npoll_seconds = 2\nqueue_limit = 99\n"
@@ -87,6 +89,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->quiet, std::chrono::milliseconds{1500});
     EXPECT_EQ(config->reread, std::chrono::milliseconds{0});
     EXPECT_FALSE(config->living);
+    EXPECT_EQ(config->bunzip, bunzip::Path::libbz2);
     EXPECT_EQ(config->refill, std::chrono::minutes{30});
     EXPECT_EQ(config->packing, cache::Packing::lz4);
     EXPECT_EQ(config->ingest.moment, level2::Moment::vel);

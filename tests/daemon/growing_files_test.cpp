@@ -108,10 +108,27 @@ TEST_F(Growing, AFileThatCannotBeLookedAtNowStays) {
 
 TEST_F(Growing, AFileThatVanishesIsForgotten) {
     files_.add_new("a", small, t0);
-    files_.add_incomplete("b", small, t0);
     EXPECT_EQ(due_at(1), "");
     EXPECT_EQ(files_.count(), 0U);
     EXPECT_FALSE(files_.next_time());
+}
+
+// No event may have come, and a volume may wait in its name.
+TEST_F(Growing, AnIncompleteFileThatVanishesIsDue) {
+    files_.add_incomplete("a", small, t0);
+    EXPECT_EQ(due_at(1), "a");
+    EXPECT_EQ(files_.count(), 0U);
+}
+
+TEST_F(Growing, OneThatIsGoneAndStillWaitedForIsAskedForWhenItWasQuiet) {
+    files_.add_incomplete("a", {}, t0);
+    for (int second = 1; second < 30; ++second)
+        ASSERT_EQ(due_at(second), "") << second;
+    EXPECT_EQ(due_at(30), "a!");
+    files_.add_incomplete("a", {}, t0 + seconds{31});
+    disk_["a"] = small;
+    EXPECT_EQ(due_at(32), "");
+    EXPECT_EQ(due_at(33), "a") << "it has come back";
 }
 
 TEST_F(Growing, StampsAreReadOnceASecond) {

@@ -63,9 +63,11 @@ TEST(StatusBook, CountsEachEnd) {
     book.count_overflow();
     book.count_scan();
     book.set_directories(3);
+    book.count_unseen(2);
     book.set_longest_wait(7.5);
     Finished growing = finished("/d/g", IngestResult::incomplete, 1);
     growing.taken->ingest.living_left_out = true;
+    growing.taken->ingest.given_up = 3;
     book.add(growing);
     book.set_state("running");
 
@@ -81,11 +83,13 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_EQ(status["failures"], 1);
     EXPECT_EQ(status["overflows"], 1);
     EXPECT_EQ(status["scans"], 1);
+    EXPECT_EQ(status["unseen"], 2);
     EXPECT_EQ(status["directories"], 3);
     EXPECT_EQ(
         status["pending"],
         nlohmann::json({{"waiting", 4}, {"running", 2}, {"growing", 1}, {"longest_wait_s", 7.5}}));
     EXPECT_EQ(status["living_left_out"], 1);
+    EXPECT_EQ(status["growing_given_up"], 3);
     EXPECT_EQ(status["latency_s"]["count"], 3);
     EXPECT_NEAR(status["latency_s"]["median"], 0.2, 1e-9);
     EXPECT_NEAR(status["latency_s"]["max"], 0.3, 1e-9);

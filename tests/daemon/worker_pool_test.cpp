@@ -72,6 +72,19 @@ TEST(WorkerPool, AWorkerOutlivesWhatAFileThrows) {
     EXPECT_TRUE(good[0].taken);
 }
 
+// To be tried again like a full disk, and no defect.
+TEST(WorkerPool, WantOfMemoryIsTheSystems) {
+    FakeSink sink([](const std::filesystem::path&, bool) -> pipeline::IngestOutcome {
+        throw std::bad_alloc{};
+    });
+    WorkerPool pool(work_of(sink), "ingest", 1, [] {});
+    pool.submit(job("file"));
+    const std::vector<Finished> ended = collect(pool, 1);
+    ASSERT_EQ(ended.size(), 1U);
+    ASSERT_FALSE(ended[0].taken);
+    EXPECT_EQ(ended[0].taken.error().code, ErrorCode::io);
+}
+
 TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {
     std::latch all_run(3);
     FakeSink sink([&](const auto&, bool) {

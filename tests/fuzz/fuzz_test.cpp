@@ -56,6 +56,13 @@ TEST(Fuzz, Compress) {
                 });
 }
 
+TEST(Fuzz, Bunzip) {
+    check_seeds(bunzip_seeds(), 200, check_bunzip,
+                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
+                    return mutate(bytes, most);
+                });
+}
+
 TEST(Fuzz, GridFile) {
     check_seeds(grid_file_seeds(), 300, check_grid_file, mutate_grid_file);
 }

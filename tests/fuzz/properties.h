@@ -32,6 +32,10 @@ void check_live(std::span<const std::byte> input);
 // compressor.
 void check_compress(std::span<const std::byte> file);
 
+// Bytes that decide on a bzip2 stream (tests/bunzip/stream_maker.h), valid, odd or damaged. Each
+// path of this machine gives what libbz2 gives, byte by byte, and ends as it does.
+void check_bunzip(std::span<const std::byte> choices);
+
 // A grid file. What is refused is named and has one of the promised codes; of what opens every cell
 // can be read; what verify() passes has true counts and extremes, and comes back from the writer;
 // a file that is cut under the map is an error.

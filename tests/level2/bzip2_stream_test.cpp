@@ -17,8 +17,10 @@ wire::Bytes noise(std::size_t size) {
     return bytes;
 }
 
-wire::Bytes blocks_joined(std::span<const std::byte> stream, std::vector<BzipStatus>& statuses) {
-    BzipBlocks blocks{stream};
+wire::Bytes blocks_joined(std::span<const std::byte> stream,
+                          std::vector<bunzip::Status>& statuses) {
+    bunzip::Workspace workspace;
+    BzipBlocks blocks{stream, workspace};
     wire::Bytes all;
     while (const auto block = blocks.next(std::size_t{1} << 30)) {
         statuses.push_back(block->status);
@@ -27,40 +29,10 @@ wire::Bytes blocks_joined(std::span<const std::byte> stream, std::vector<BzipSta
     return all;
 }
 
-TEST(Bunzip, GivesWhatWasPacked) {
-    const wire::Bytes plain = noise(3'000'000);
-    const wire::Bytes packed = wire::join({wire::bzip2(plain), wire::Bytes(10)});
-    std::vector<std::byte> buffer;
-    const BzipResult result = bunzip(packed, buffer, std::size_t{1} << 30);
-    EXPECT_EQ(result.status, BzipStatus::whole);
-    EXPECT_EQ(result.input_bytes, packed.size() - 10);
-    buffer.resize(result.output_bytes);
-    EXPECT_EQ(buffer, plain);
-}
-
-TEST(Bunzip, StopsAtItsLimit) {
-    const wire::Bytes bomb = wire::bzip2(wire::Bytes(50'000'000));
-    ASSERT_LT(bomb.size(), 1000);
-    std::vector<std::byte> buffer;
-    EXPECT_EQ(bunzip(bomb, buffer, 1'000'000).status, BzipStatus::too_large);
-    EXPECT_LE(buffer.size(), 1'000'000);
-}
-
-TEST(Bunzip, TellsCutFromDamaged) {
-    wire::Bytes packed = wire::bzip2(noise(100'000));
-    std::vector<std::byte> buffer;
-    const std::span all{packed};
-    EXPECT_EQ(bunzip(all.first(all.size() - 1), buffer, 1 << 20).status, BzipStatus::truncated);
-    EXPECT_EQ(bunzip(all.first(5), buffer, 1 << 20).status, BzipStatus::truncated);
-    EXPECT_EQ(bunzip({}, buffer, 1 << 20).status, BzipStatus::truncated);
-    packed[packed.size() / 2] ^= std::byte{1};
-    EXPECT_EQ(bunzip(packed, buffer, 1 << 20).status, BzipStatus::corrupt);
-}
-
 TEST(BzipBlocks, TogetherAreTheStream) {
     for (const int level : {1, 9}) {
         const wire::Bytes plain = noise(2'000'000);
-        std::vector<BzipStatus> statuses;
+        std::vector<bunzip::Status> statuses;
         EXPECT_EQ(blocks_joined(wire::bzip2(plain, level), statuses), plain);
         EXPECT_GE(statuses.size(), level == 1 ? 20U : 2U);
     }
@@ -69,7 +41,7 @@ TEST(BzipBlocks, TogetherAreTheStream) {
 TEST(BzipBlocks, GoOnOverStreamsOneBehindTheOther) {
     const wire::Bytes plain = noise(50'000);
     const wire::Bytes packed = wire::bzip2(plain);
-    std::vector<BzipStatus> statuses;
+    std::vector<bunzip::Status> statuses;
     EXPECT_EQ(blocks_joined(wire::join({packed, packed}), statuses), wire::join({plain, plain}));
 }
 
@@ -81,11 +53,12 @@ TEST(BzipBlocks, OnlyTheDamagedBlockIsLost) {
     for (std::size_t at = 1000; at + 1000 < packed.size(); at += 9973) {
         wire::Bytes damaged = packed;
         damaged[at] ^= std::byte{0x10};
-        BzipBlocks blocks{damaged};
+        bunzip::Workspace workspace;
+        BzipBlocks blocks{damaged, workspace};
         std::size_t bad = 0;
         std::size_t searched = 0;
         while (const auto block = blocks.next(1 << 20)) {
-            if (block->status != BzipStatus::whole) {
+            if (block->status != bunzip::Status::whole) {
                 ++bad;
                 continue;
             }
@@ -102,14 +75,15 @@ TEST(BzipBlocks, ACutStreamHasItsWholeBlocksAndNoEnd) {
     const wire::Bytes plain = noise(450'000);
     wire::Bytes packed = wire::bzip2(plain, 1);
     packed.resize(packed.size() / 2);
-    BzipBlocks blocks{packed};
+    bunzip::Workspace workspace;
+    BzipBlocks blocks{packed, workspace};
     wire::Bytes all;
-    BzipStatus last = BzipStatus::whole;
+    bunzip::Status last = bunzip::Status::whole;
     while (const auto block = blocks.next(1 << 20)) {
         last = block->status;
         all.insert(all.end(), block->data.begin(), block->data.end());
     }
-    EXPECT_EQ(last, BzipStatus::corrupt);
+    EXPECT_EQ(last, bunzip::Status::corrupt);
     EXPECT_FALSE(blocks.ended());
     ASSERT_GT(all.size(), 100'000);
     EXPECT_TRUE(std::equal(all.begin(), all.end(), plain.begin()));
@@ -117,10 +91,11 @@ TEST(BzipBlocks, ACutStreamHasItsWholeBlocksAndNoEnd) {
 
 TEST(BzipBlocks, ABombIsTooLargeAndEndless) {
     const wire::Bytes bomb = wire::bzip2(wire::Bytes(50'000'000));
-    BzipBlocks blocks{bomb};
+    bunzip::Workspace workspace;
+    BzipBlocks blocks{bomb, workspace};
     const auto block = blocks.next(1'000'000);
     ASSERT_TRUE(block);
-    EXPECT_EQ(block->status, BzipStatus::too_large);
+    EXPECT_EQ(block->status, bunzip::Status::too_large);
     EXPECT_TRUE(block->data.empty());
 }
 
@@ -128,7 +103,8 @@ TEST(BzipBlocks, MarksWithoutBlocksEnd) {
     wire::Writer marks;
     for (int i = 0; i < 100'000; ++i)
         marks.u32(0x31415926).u16(0x5359);
-    BzipBlocks blocks{marks.bytes};
+    bunzip::Workspace workspace;
+    BzipBlocks blocks{marks.bytes, workspace};
     int count = 0;
     while (blocks.next(1 << 20))
         ++count;
@@ -143,15 +119,6 @@ TEST(FindBzip2, FindsStreamsOnly) {
     const wire::Bytes all = wire::join({wire::Writer{}.text("BBZh0BZBZh9xx").bytes, packed});
     EXPECT_EQ(find_bzip2(all, 0), 13);
     EXPECT_EQ(find_bzip2(all, 14), std::nullopt);
-}
-
-// The buffer is larger than the limit where an earlier stream needed it.
-TEST(Bunzip, TheLimitHoldsWhateverTheBufferHas) {
-    const wire::Bytes packed = wire::bzip2(wire::Bytes(100'000));
-    std::vector<std::byte> buffer(200'000);
-    const BzipResult result = bunzip(packed, buffer, 50'000);
-    EXPECT_EQ(result.status, BzipStatus::too_large);
-    EXPECT_EQ(result.output_bytes, 50'000U);
 }
 
 }  // namespace

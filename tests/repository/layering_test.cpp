@@ -20,7 +20,7 @@ using Rooms = std::set<std::string>;
 const std::map<std::string, Rooms> allowed = {
     {"base", {}},
     {"accuracy", {"base"}},
-    {"bunzip", {"base"}},
+    {"bunzip", {}},
     {"level2", {"base", "bunzip"}},
     {"catalog", {"base", "level2"}},
     {"grid", {"base", "accuracy", "level2"}},
@@ -29,7 +29,7 @@ const std::map<std::string, Rooms> allowed = {
     {"synth", {"base", "level2", "grid"}},
     {"export", {"base", "level2", "grid"}},
     {"pipeline", {"base", "accuracy", "level2", "catalog", "grid", "cache"}},
-    {"daemon", {"base", "accuracy", "level2", "catalog", "grid", "cache", "pipeline"}},
+    {"daemon", {"base", "accuracy", "bunzip", "level2", "catalog", "grid", "cache", "pipeline"}},
     {"cli",
      {"base", "accuracy", "bunzip", "level2", "catalog", "grid", "cache", "render", "synth",
       "export", "pipeline"}},

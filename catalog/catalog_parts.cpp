@@ -1,0 +1,84 @@
+#include "catalog/catalog_parts.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <sys/stat.h>
+
+#include "base/station_table.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string summary_of(const std::vector<std::string>& damage) {
+    const std::string first = damage.front().substr(0, damage.front().find('\n'));
+    if (damage.size() == 1) return first;
+    return fmt::format("{}, and {} more", first, damage.size() - 1);
+}
+
+}  // namespace
+
+std::string station_of(const std::string& name) {
+    return name == unknown_station ? std::string{} : name;
+}
+
+FileIdentity FileIdentity::of(const fs::path& path) {
+    struct stat facts {};
+    if (::stat(path.c_str(), &facts) != 0) return {};
+    return {facts.st_dev, facts.st_ino};
+}
+
+Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
+    const fs::path path = path_of(name);
+    if (place.database && place.file != FileIdentity::of(path)) {
+        place.database.reset();  // what we write there would be seen by nobody
+        if (writing) note_repair({station_of(name), path, {}, "was deleted or replaced"});
+    }
+    if (place.database) return {};
+    if (writing) {
+        if (Status adopted = adopt_mended_database(path); !adopted) return adopted;
+    }
+    std::error_code ignored;
+    if (!(writing && create) && !fs::exists(path, ignored)) {
+        return fail(ErrorCode::not_found, "{}: the catalog knows no station {}", directory.native(),
+                    name);
+    }
+    auto opened = writing ? StationDatabase::open_for_writing(path, station_of(name))
+                          : StationDatabase::open_for_reading(path, station_of(name));
+    if (!opened) return pass_on(opened);
+    place.database = std::move(*opened);
+    place.file = FileIdentity::of(path);
+    return {};
+}
+
+bool Catalog::Impl::mend(Slot& place, const std::string& name) {
+    place.database.reset();
+    const fs::path path = path_of(name);
+    const auto found = examine_database(path);
+    if (!found || found->foreign) return false;
+    if (found->damage.empty()) return true;
+    auto repair = repair_database(path, station_of(name), summary_of(found->damage));
+    if (!repair) return false;
+    note_repair(std::move(*repair));
+    return true;
+}
+
+Result<std::vector<std::string>> Catalog::Impl::names() const {
+    std::vector<std::string> found;
+    std::error_code error;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::path& path = entry->path();
+        const std::string stem = path.stem().string();
+        if (path.extension() == database_ending && (is_icao(stem) || stem == unknown_station)) {
+            found.push_back(stem);
+        }
+    }
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+}  // namespace stormcellar::catalog

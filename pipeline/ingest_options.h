@@ -1,0 +1,63 @@
+// pipeline/ingest_options.h -- how files are taken in (pipeline/ingest.h).
+//
+// Thread contract: plain data.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "level2/volume.h"
+#include "pipeline/domain.h"
+#include "pipeline/frames_when.h"
+
+namespace stormcellar::pipeline {
+
+// What growing volumes may have put aside on disk, packed, so that little is held in memory: of
+// files that are followed, with what stands of the sites' last volumes, and of chunks each. Of a
+// feed of 160 sites either takes 1 to 3 GB.
+inline constexpr std::uint64_t most_put_aside_bytes = std::uint64_t{4} << 30;
+
+// Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
+// theirs has come.
+struct LivingGrids {
+    // A directory for what is put aside, in files without names; empty: none are made, and of
+    // volumes that come as one file a chunk all that lies there is a volume when it is finished.
+    std::filesystem::path scratch;
+    bool make = true;  // false: none are made, and chunks are put together all the same
+    // Asked before each: false while there is more urgent work. The sweeps are in the next one.
+    // Not asked for what shows a new low sweep. Empty: there is always time.
+    std::function<bool()> has_time;
+    // Of volumes that come as one file a chunk (level2/live_volume.h).
+    std::chrono::seconds chunk_timeout{600};
+    std::chrono::seconds chunk_grace{30};
+    // See above. Beyond it what has not grown for longest is given up, and read again from its
+    // files.
+    std::uint64_t put_aside_bytes = most_put_aside_bytes;
+};
+
+struct IngestOptions {
+    level2::Moment moment = level2::Moment::ref;
+    double spacing_m = 1000;
+    int nx = 460, ny = 460;
+    std::vector<double> levels_m;  // empty: the default 32
+    std::vector<Domain> domains;   // mosaics to keep, beside each site's own grid
+    bool own_grids = true;         // false: the sites' grids for the domains alone
+    FramesWhen frames = FramesWhen::volume_comes;
+    // In all: files that are ingested at the same time share them, so that each has its part and
+    // one alone has all.
+    int decode_threads = 1;
+    int grid_threads = 1;
+    LivingGrids living;
+    // Nothing outside of this directory is opened, wherever links lead (base/beneath.h); empty: a
+    // file may lie anywhere.
+    std::filesystem::path beneath;
+    // A larger file is rejected unread. No volume is known that takes half of it.
+    std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
+    // Likewise one that unpacks to more.
+    std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
+};
+
+}  // namespace stormcellar::pipeline

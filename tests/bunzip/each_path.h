@@ -1,0 +1,32 @@
+// tests/bunzip/each_path.h -- the paths that this machine has, and the names of their tests.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bunzip/paths.h"
+
+namespace stormcellar::bunzip {
+
+inline std::vector<Path> available_paths() {
+    std::vector<Path> paths;
+    for (const Path path : all_paths) {
+        if (is_available(path)) paths.push_back(path);
+    }
+    return paths;
+}
+
+inline std::string test_name(const ::testing::TestParamInfo<Path>& info) {
+    return std::string{name_of(info.param)};
+}
+
+// For a kernel, which libbz2 has none of.
+inline std::vector<Path> available_kernels() {
+    std::vector<Path> paths = available_paths();
+    paths.erase(paths.begin());
+    return paths;
+}
+
+}  // namespace stormcellar::bunzip

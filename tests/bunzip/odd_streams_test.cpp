@@ -1,0 +1,238 @@
+// Streams that no compressor writes, or seldom. libbz2 is the oracle throughout: the same bytes,
+// the same kind of end.
+#include <algorithm>
+#include <random>
+
+#include "bunzip/bunzip.h"
+#include "bunzip/format.h"
+#include "tests/bunzip/each_path.h"
+#include "tests/bunzip/stream_maker.h"
+
+namespace stormcellar::bunzip {
+namespace {
+
+using End = LibraryOutcome::Status;
+constexpr std::size_t most = std::size_t{16} << 20;
+
+class OddStreams : public ::testing::TestWithParam<Path> {
+  protected:
+    // What libbz2 ends as, so that a test can say which that is.
+    End check(const Bytes& stream, std::size_t limit = most) {
+        const LibraryOutcome wanted = decompressed(stream, limit);
+        std::vector<std::byte> out;
+        const Outcome outcome = decompress(stream, out, limit, workspace_, GetParam());
+        EXPECT_EQ(static_cast<int>(outcome.status), static_cast<int>(wanted.status));
+        if (wanted.status == End::whole) {
+            EXPECT_EQ(outcome.output_bytes, wanted.bytes.size());
+            EXPECT_EQ(outcome.input_bytes, wanted.input_bytes);
+        }
+        const std::size_t both = std::min(outcome.output_bytes, wanted.bytes.size());
+        EXPECT_TRUE(std::equal(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(both),
+                               wanted.bytes.begin()));
+        return wanted.status;
+    }
+    Workspace workspace_;
+};
+INSTANTIATE_TEST_SUITE_P(EachPath, OddStreams, ::testing::ValuesIn(available_paths()), test_name);
+
+Bytes noise(std::size_t size, unsigned kinds, unsigned seed) {
+    std::mt19937 random(seed);
+    Bytes bytes(size);
+    for (std::byte& byte : bytes)
+        byte = static_cast<std::byte>(random() % kinds);
+    return bytes;
+}
+
+TEST_P(OddStreams, AllLevelsAndBlockEnds) {
+    for (int level = 1; level <= 9; ++level) {
+        const auto block = static_cast<std::size_t>(level) * 100'000;
+        // bzip2 keeps 19 bytes of a block free.
+        for (const std::size_t size : {block - 20, block - 19, block - 18, block, 2 * block + 7}) {
+            EXPECT_EQ(check(compressed(noise(size, 200, 1), level)), End::whole) << size;
+        }
+    }
+}
+
+TEST_P(OddStreams, ContentsOfAllKinds) {
+    EXPECT_EQ(check(compressed({}, 9)), End::whole);
+    for (std::size_t size = 1; size < 40; ++size)
+        EXPECT_EQ(check(compressed(noise(size, 3, 2), 1)), End::whole) << size;
+    for (const unsigned kinds : {1U, 2U, 17U, 64U, 65U, 129U, 193U, 256U})
+        EXPECT_EQ(check(compressed(noise(250'000, kinds, kinds), 9)), End::whole) << kinds;
+    // Periods: rotations that are alike, and links in many rings.
+    for (const std::size_t period : {1U, 2U, 3U, 5U, 64U, 100U, 2432U, 50'000U}) {
+        const Bytes piece = noise(period, 251, 3);
+        Bytes bytes;
+        while (bytes.size() < 400'000)
+            bytes.insert(bytes.end(), piece.begin(), piece.end());
+        EXPECT_EQ(check(compressed(bytes, 4)), End::whole) << period;
+    }
+    // Runs of every length that a count can say, and longer ones.
+    Bytes runs;
+    for (std::size_t length = 1; length < 700; ++length)
+        runs.insert(runs.end(), length, static_cast<std::byte>(length % 5));
+    EXPECT_EQ(check(compressed(runs, 9)), End::whole);
+    EXPECT_EQ(check(compressed(Bytes(9'000'000), 1)), End::whole);
+}
+
+BlockPlan plan(std::vector<std::uint8_t> bytes, std::vector<std::uint8_t> lengths,
+               std::vector<std::uint16_t> symbols) {
+    BlockPlan block;
+    block.bytes = std::move(bytes);
+    block.lengths = {lengths, lengths};
+    block.selectors.assign(symbols.size() / 50 + 1, 0);
+    block.symbols = std::move(symbols);
+    return block;
+}
+
+TEST_P(OddStreams, LongestWords) {
+    std::vector<std::uint8_t> bytes(40), lengths(42, 20);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<std::uint8_t>(6 * i);
+    for (std::size_t i = 0; i < 19; ++i)
+        lengths[i] = static_cast<std::uint8_t>(i + 1);
+    lengths[41] = 3;
+    std::mt19937 random(4);
+    std::vector<std::uint16_t> symbols;
+    for (int i = 0; i < 30'000; ++i) {
+        const auto symbol = static_cast<std::uint16_t>(random() % 41);
+        symbols.push_back(symbol <= run_b && random() % 8 != 0 ? std::uint16_t{2} : symbol);
+    }
+    symbols.push_back(41);
+    // Words of 20 bits that their lengths have no room for are cut: then anything can come of it.
+    static_cast<void>(check(mended_stream('9', plan(bytes, lengths, symbols))));
+
+    // A proper code up to 20 bits.
+    std::vector<std::uint8_t> proper(21);
+    for (std::size_t i = 0; i < 20; ++i)
+        proper[i] = static_cast<std::uint8_t>(20 - i);
+    proper[20] = 20;
+    std::vector<std::uint16_t> long_words;
+    for (int i = 0; i < 20'000; ++i)
+        long_words.push_back(static_cast<std::uint16_t>(2 + random() % 5));
+    long_words.push_back(20);
+    BlockPlan block =
+        plan(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + 19), proper, long_words);
+    block.origin = 12'345;
+    EXPECT_EQ(check(mended_stream('9', block)), End::whole);
+}
+
+// One byte, so many times: the digits of a run, 1 and 2, that are worth that in all.
+BlockPlan run_of(std::size_t rows) {
+    std::vector<std::uint16_t> digits;
+    for (std::size_t left = rows; left > 0; left = (left - 1) / 2)
+        digits.push_back(left % 2 == 1 ? run_a : run_b);
+    digits.push_back(2);
+    return plan({4}, {1, 2, 2}, digits);
+}
+
+// Read as bytes, each fifth row is a count, and a block that ends before one is corrupt.
+TEST_P(OddStreams, RunsUpToABlockAndAboveIt) {
+    for (const std::size_t rows : {1U, 3U, 4U, 5U, 8U, 9U, 10U, 99'999U, 100'000U, 100'001U}) {
+        const End end = check(mended_stream('1', run_of(rows)));
+        EXPECT_EQ(end, rows % 5 == 4 || rows > 100'000 ? End::corrupt : End::whole) << rows;
+    }
+    for (std::size_t digits = 10; digits <= 24; ++digits) {
+        const std::size_t rows = (std::size_t{1} << digits) - 1;
+        const End end = check(mended_stream('9', run_of(rows)));
+        EXPECT_EQ(end, rows % 5 == 4 || rows > 900'000 ? End::corrupt : End::whole) << rows;
+    }
+}
+
+TEST_P(OddStreams, SelectorsThatRunOutOrAreTooMany) {
+    std::vector<std::uint16_t> symbols(120, 2);
+    for (std::size_t i = 0; i < symbols.size(); i += 2)
+        symbols[i] = 3;
+    symbols.push_back(4);
+    BlockPlan block = plan({7, 9, 200}, {2, 2, 2, 3, 3}, symbols);
+    ASSERT_EQ(block.selectors.size(), 3U);
+    block.origin = 5;
+    EXPECT_EQ(check(mended_stream('9', block)), End::whole);
+    block.selectors.pop_back();
+    EXPECT_EQ(check(mended_stream('9', block)), End::corrupt);
+    block.selectors.assign(18'002, 0);
+    EXPECT_EQ(check(mended_stream('9', block)), End::whole);
+    block.selectors.assign(18'003, 1);
+    EXPECT_EQ(check(mended_stream('9', block)), End::whole);
+    block.selectors.assign(32'767, 0);
+    EXPECT_EQ(check(mended_stream('9', block)), End::whole);
+}
+
+TEST_P(OddStreams, Origins) {
+    std::vector<std::uint16_t> symbols(30, 2);
+    symbols.push_back(3);
+    BlockPlan block = plan({1, 2}, {1, 2, 3, 3}, symbols);
+    for (const std::uint32_t origin :
+         {0U, 1U, 29U, 30U, 31U, 100'009U, 100'010U, 100'011U, 0xFFFFFFU}) {
+        block.origin = origin;
+        EXPECT_EQ(check(mended_stream('1', block)) == End::corrupt, origin >= 30) << origin;
+    }
+    // Nothing but the end: no row, so no origin.
+    block.symbols = {3};
+    block.origin = 0;
+    EXPECT_EQ(check(mended_stream('1', block)), End::corrupt);
+}
+
+TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
+    std::vector<std::uint16_t> symbols;
+    std::mt19937 random(5);
+    for (int i = 0; i < 20'000; ++i)
+        symbols.push_back(static_cast<std::uint16_t>(2 + random() % 9));
+    symbols.push_back(11);
+    BlockPlan block =
+        plan({0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, std::vector<std::uint8_t>(12, 4), symbols);
+    block.randomised = true;
+    block.origin = 17;
+    EXPECT_EQ(check(mended_stream('9', block)), End::whole);
+
+    // Behind a block that is not, which has been given out by then.
+    BlockPlan first = block;
+    first.randomised = false;
+    BlockPlan blocks[] = {first, block};
+    for (BlockPlan& one : blocks) {
+        const Bytes alone = stream_of('9', std::span{&one, 1}, 0);
+        one.checksum = slow_checksum(decompressed(alone, most).bytes);
+    }
+    const std::uint32_t end =
+        (blocks[0].checksum << 1 | blocks[0].checksum >> 31) ^ blocks[1].checksum;
+    EXPECT_EQ(check(stream_of('9', blocks, end)), End::whole);
+    EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
+}
+
+TEST_P(OddStreams, EveryCut) {
+    const Bytes stream = compressed(noise(3000, 9, 6), 1);
+    for (std::size_t size = 0; size < stream.size(); ++size) {
+        EXPECT_EQ(check(Bytes(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size))),
+                  End::truncated)
+            << size;
+    }
+}
+
+TEST_P(OddStreams, EveryChangedBit) {
+    const Bytes stream = compressed(noise(900, 20, 7), 1);
+    int corrupt = 0;
+    for (std::size_t bit = 0; bit < stream.size() * 8; ++bit) {
+        Bytes changed = stream;
+        changed[bit / 8] ^= std::byte{0x80} >> (bit % 8);
+        corrupt += check(changed) == End::corrupt ? 1 : 0;
+        if (HasFailure()) FAIL() << "bit " << bit;
+    }
+    EXPECT_GT(corrupt, static_cast<int>(stream.size()) * 7);
+}
+
+TEST_P(OddStreams, WhateverComesOfAnyChoices) {
+    std::mt19937 random(8);
+    int whole = 0;
+    for (int round = 0; round < 1500; ++round) {
+        Bytes choices(1 + random() % 1200);
+        for (std::byte& byte : choices)
+            byte = static_cast<std::byte>(random());
+        choices[0] = static_cast<std::byte>(round);
+        whole += check(stream_from(choices), std::size_t{1} << 20) == End::whole ? 1 : 0;
+        if (HasFailure()) FAIL() << "round " << round;
+    }
+    EXPECT_GT(whole, 300);
+}
+
+}  // namespace
+}  // namespace stormcellar::bunzip

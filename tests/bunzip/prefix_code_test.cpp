@@ -1,0 +1,108 @@
+#include "bunzip/prefix_code.h"
+
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace stormcellar::bunzip {
+namespace {
+
+using Lengths = std::vector<std::uint8_t>;
+
+// Bit by bit from the shortest words on, as the format's description has it: the words of a length
+// are numbered on from twice the number behind the last of the length before.
+PrefixCode::Word slowly(const Lengths& lengths, std::uint64_t bits) {
+    std::uint64_t first = 0;
+    for (unsigned length = 1; length <= 20; ++length) {
+        std::uint64_t word = first;
+        for (std::size_t symbol = 0; symbol < lengths.size(); ++symbol) {
+            if (lengths[symbol] != length) continue;
+            if (bits >> (64 - length) == word) {
+                return {static_cast<std::uint16_t>(symbol), static_cast<std::uint8_t>(length)};
+            }
+            ++word;
+        }
+        first = 2 * word;
+    }
+    return {};
+}
+
+PrefixCode::Word by_lookup(const PrefixCode& code, std::uint64_t bits) {
+    const unsigned entry = code.lookup()[bits >> (64 - PrefixCode::lookup_bits)];
+    return {static_cast<std::uint16_t>(entry >> PrefixCode::length_bits),
+            static_cast<std::uint8_t>(entry & 15U)};
+}
+
+void expect_slow_code(const Lengths& lengths, std::mt19937_64& random) {
+    PrefixCode code;
+    code.build(lengths);
+    for (int i = 0; i < 3000; ++i) {
+        // Ones in front come to the longest words.
+        const auto ones = static_cast<unsigned>(random() % 24);
+        std::uint64_t bits = random() >> ones;
+        if (ones > 0) bits |= ~std::uint64_t{0} << (64 - ones);
+        const PrefixCode::Word wanted = slowly(lengths, bits), word = code.decode(bits);
+        ASSERT_EQ(word.length, wanted.length) << std::hex << bits;
+        ASSERT_EQ(word.symbol, wanted.symbol) << std::hex << bits;
+        const PrefixCode::Word looked_up = by_lookup(code, bits);
+        const bool left_to_decode = wanted.length == 0 || wanted.length > PrefixCode::lookup_bits ||
+                                    wanted.symbol + 1U == lengths.size();
+        ASSERT_EQ(looked_up.length, left_to_decode ? 0 : wanted.length) << std::hex << bits;
+        if (!left_to_decode) {
+            ASSERT_EQ(looked_up.symbol, wanted.symbol);
+        }
+    }
+}
+
+TEST(PrefixCode, ProperCodes) {
+    std::mt19937_64 random(1);
+    expect_slow_code({1, 2, 2}, random);
+    expect_slow_code({3, 3, 3, 3, 3, 3, 3, 3}, random);
+    expect_slow_code(Lengths(256, 8), random);
+    // A comb: the longest words that there are.
+    expect_slow_code({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 20},
+                     random);
+    expect_slow_code({20, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1},
+                     random);
+}
+
+TEST(PrefixCode, LengthsThatLeaveWordsUnused) {
+    std::mt19937_64 random(2);
+    expect_slow_code({2, 2, 2}, random);
+    expect_slow_code({20, 20, 20}, random);
+    expect_slow_code({4, 12, 9, 17}, random);
+    for (int round = 0; round < 100; ++round) {
+        Lengths lengths(3 + random() % 256);
+        for (std::uint8_t& length : lengths)
+            length = static_cast<std::uint8_t>(9 + random() % 12);
+        expect_slow_code(lengths, random);
+    }
+}
+
+// More words than their lengths have room for: those of longer ones are out of reach.
+TEST(PrefixCode, LengthsThatAreTooShort) {
+    std::mt19937_64 random(3);
+    expect_slow_code({1, 1, 1}, random);
+    expect_slow_code({1, 1, 2, 3, 20}, random);
+    expect_slow_code(Lengths(258, 1), random);
+    for (int round = 0; round < 100; ++round) {
+        Lengths lengths(3 + random() % 256);
+        for (std::uint8_t& length : lengths)
+            length = static_cast<std::uint8_t>(1 + random() % 20);
+        expect_slow_code(lengths, random);
+    }
+}
+
+TEST(PrefixCode, IsBuiltAnew) {
+    std::mt19937_64 random(4);
+    PrefixCode code;
+    code.build(Lengths(258, 9));
+    code.build(Lengths{20, 20, 20});
+    EXPECT_EQ(code.decode(~std::uint64_t{0}).length, 0);
+    EXPECT_EQ(code.decode(0).length, 20);
+    EXPECT_EQ(code.lookup()[0], 0);
+}
+
+}  // namespace
+}  // namespace stormcellar::bunzip

@@ -1,0 +1,81 @@
+// Every record of every real volume, on each path: what libbz2 gives, byte by byte.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "bunzip/bunzip.h"
+#include "level2/archive_header.h"
+#include "level2/gzip_stream.h"
+#include "level2/ldm_framer.h"
+#include "tests/bunzip/each_path.h"
+#include "tests/bunzip/stream_maker.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar::bunzip {
+namespace {
+
+namespace fs = std::filesystem;
+
+Bytes bytes_of_file(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    Bytes bytes = bytes_of(text);
+    if (!level2::is_gzip(bytes)) return bytes;
+    level2::GzipStream gzip(bytes);
+    Bytes inflated;
+    for (auto piece = gzip.next(); !piece.empty(); piece = gzip.next())
+        inflated.insert(inflated.end(), piece.begin(), piece.end());
+    return inflated;
+}
+
+std::vector<std::span<const std::byte>> streams_of(const Bytes& file) {
+    const std::span<const std::byte> bytes = file;
+    if (bytes.size() > 4 && std::to_integer<char>(bytes[0]) == 'B' &&
+        std::to_integer<char>(bytes[1]) == 'Z') {
+        return {bytes};
+    }
+    const bool header = level2::read_archive_header(bytes).has_value();
+    std::vector<std::span<const std::byte>> streams;
+    if (!level2::is_ldm_record(bytes.subspan(header ? level2::archive_header_bytes : 0))) return {};
+    level2::LdmFramer framer(bytes);
+    while (const auto part = framer.next()) {
+        if (part->kind == level2::LdmPart::Kind::record) streams.push_back(part->bytes);
+    }
+    return streams;
+}
+
+TEST(RealRecords, AreWhatLibbz2Makes) {
+    STORMCELLAR_NEED_DATA();
+    Workspace workspace;
+    Bytes buffer;
+    int records = 0, files = 0;
+    for (const auto& entry :
+         fs::recursive_directory_iterator(*::stormcellar::testing::data_directory())) {
+        if (!entry.is_regular_file() || entry.path().extension() == ".json") continue;
+        const Bytes file = bytes_of_file(entry.path());
+        const auto streams = streams_of(file);
+        files += streams.empty() ? 0 : 1;
+        for (const auto stream : streams) {
+            const LibraryOutcome wanted = decompressed(stream, std::size_t{1} << 28);
+            for (const Path path : available_kernels()) {
+                const Outcome outcome =
+                    decompress(stream, buffer, std::size_t{1} << 28, workspace, path);
+                ASSERT_EQ(static_cast<int>(outcome.status), static_cast<int>(wanted.status))
+                    << entry.path() << " by " << name_of(path);
+                ASSERT_EQ(outcome.input_bytes, wanted.input_bytes);
+                ASSERT_TRUE(
+                    std::equal(wanted.bytes.begin(), wanted.bytes.end(), buffer.begin(),
+                               buffer.begin() + static_cast<std::ptrdiff_t>(outcome.output_bytes)))
+                    << entry.path() << " by " << name_of(path);
+            }
+            ++records;
+        }
+    }
+    EXPECT_GT(files, 15);
+    EXPECT_GT(records, 500);
+    RecordProperty("records", records);
+}
+
+}  // namespace
+}  // namespace stormcellar::bunzip

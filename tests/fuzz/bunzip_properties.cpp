@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "bunzip/bunzip.h"
+#include "tests/bunzip/stream_maker.h"
+#include "tests/fuzz/properties.h"
+
+namespace stormcellar::fuzz {
+namespace {
+
+using bunzip::LibraryOutcome;
+using bunzip::Path;
+
+// What libbz2 gave is given, piece by piece as `piece` says, and the end is of the same kind.
+void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted, Path path,
+                std::size_t piece, std::size_t limit) {
+    static thread_local bunzip::Workspace workspace;
+    bunzip::Reader reader(stream, workspace, path);
+    std::vector<std::byte> buffer(piece);
+    std::size_t made = 0;
+    const auto fail = [&](const std::string& what) {
+        throw PropertyError(fmt::format("{}: {}, after {} bytes of {}", name_of(path), what, made,
+                                        wanted.bytes.size()));
+    };
+    while (!reader.ended() && made < limit) {
+        const std::size_t room = std::min(piece, limit - made);
+        const std::size_t now = reader.read(std::span{buffer}.first(room));
+        if (now < room && !reader.ended()) fail("it stopped");
+        const std::size_t begin = std::min(made, wanted.bytes.size());
+        const auto known = std::span{wanted.bytes}.subspan(begin);
+        const auto given = std::span{buffer}.first(std::min(now, known.size()));
+        if (!std::equal(given.begin(), given.end(), known.begin())) fail("other bytes");
+        made += now;
+    }
+    const bunzip::Status status = reader.ended() ? reader.status() : bunzip::Status::too_large;
+    const int end = static_cast<int>(status), wanted_end = static_cast<int>(wanted.status);
+    if (end != wanted_end) fail(fmt::format("it ends as {} and not as {}", end, wanted_end));
+    // Of a block that ends inside a run libbz2 gives out more or less, as its room is cut.
+    if (status != bunzip::Status::corrupt && made != wanted.bytes.size()) fail("its output ends");
+    if (status == bunzip::Status::whole && reader.input_bytes() != wanted.input_bytes)
+        fail("the stream took other bytes");
+}
+
+}  // namespace
+
+void check_bunzip(std::span<const std::byte> choices) {
+    constexpr std::size_t limit = std::size_t{8} << 20;
+    const auto stream = bunzip::stream_from(choices);
+    const LibraryOutcome wanted = bunzip::decompressed(stream, limit);
+    const std::size_t pieces[] = {std::size_t{1} << 20, 4096, 997, 1 + choices.size() % 300};
+    const std::size_t piece =
+        pieces[choices.empty() ? 0 : std::to_integer<std::size_t>(choices.back()) % 4];
+    for (const Path path : bunzip::all_paths) {
+        if (bunzip::is_available(path)) check_path(stream, wanted, path, piece, limit);
+    }
+}
+
+}  // namespace stormcellar::fuzz

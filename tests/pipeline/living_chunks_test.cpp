@@ -1,0 +1,348 @@
+// Volumes that come as one file a chunk: in any order, some of them lost, from several workers.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <fstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "cache/grid_file.h"
+#include "pipeline/chunk_volumes.h"
+#include "tests/pipeline/living_house.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i) {
+        const IngestOutcome outcome = take(house_, i);
+        EXPECT_EQ(outcome.result, IngestResult::incomplete) << i;
+        shown += outcome.living.size();
+    }
+    EXPECT_GT(shown, 5U);
+    EXPECT_EQ(take(house_, 0, true).result, IngestResult::registered) << "not in the name of all";
+    EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
+    const IngestOutcome last = take(house_, names_.size() - 1);
+    EXPECT_EQ(last.result, IngestResult::gridded);
+    EXPECT_EQ(last.station, "KLOT");
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        EXPECT_EQ(take(house_, i, true).result, IngestResult::unchanged) << i;
+}
+
+TEST_F(LivingChunks, MayComeInAnyOrder) {
+    std::vector<std::size_t> order(names_.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = (i * 17 + 5) % order.size();  // 55 has no factor 17
+    for (std::size_t i = 0; i + 1 < order.size(); ++i)
+        EXPECT_NE(take(house_, order[i]).result, IngestResult::gridded) << order[i];
+    EXPECT_EQ(take(house_, order.back()).result, IngestResult::gridded);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
+    for (std::size_t i = 0; i < 30; ++i)
+        take(house_, i);
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    for (std::size_t i = 30; i < names_.size(); ++i)
+        take(house_, i);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i == 20) continue;
+        EXPECT_NE(take(house_, i).result, IngestResult::gridded);
+    }
+    const IngestOutcome partial = take(house_, names_.size() - 1, true);
+    EXPECT_EQ(partial.result, IngestResult::gridded);
+    EXPECT_TRUE(partial.partial);
+    EXPECT_NE(partial.reason.find("missing chunks: 21"), std::string::npos) << partial.reason;
+    EXPECT_EQ(take(house_, 20).result, IngestResult::gridded);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
+    const auto notes = [&] {
+        return cache::GridFile::open(house_.grids("KLOT").at(0).path)
+            ->description()
+            .provenance.notes;
+    };
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i != 20 && i != 30) take(house_, i);
+    }
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    EXPECT_TRUE(notes().empty()) << "the end of it, not a living grid";
+    EXPECT_EQ(take(house_, 20).result, IngestResult::incomplete) << "it waits in the name of all";
+    EXPECT_TRUE(notes().empty()) << "a living grid is no better than an ended one";
+    const IngestOutcome again = take(house_, 20, true);
+    EXPECT_EQ(again.result, IngestResult::gridded);
+    EXPECT_NE(again.reason.find("missing chunks: 31"), std::string::npos) << again.reason;
+    const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+    for (const auto& row : *rows)
+        EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
+}
+
+TEST_F(LivingChunks, AnEndThatIsCutDoesNotKeepTheVolumeWaiting) {
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i)
+        take(house_, i);
+    const fs::path cut = drop_ / names_.back();
+    append_to(cut, parts_.back().first(100));
+    EXPECT_EQ(house_.ingestor->ingest(cut, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(house_.ingestor->ingest(cut, true)->result, IngestResult::rejected);
+    EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
+}
+
+// 2026-11-22: who waits in the name of all was deleted before the volume was due, and nobody asked
+// again before the next start.
+TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i != 20) take(house_, i);
+    }
+    const fs::path waiter = drop_ / names_.back();
+    fs::remove(waiter);
+    EXPECT_EQ(house_.ingestor->note(waiter).value(), IngestResult::registered);
+    const auto gone = house_.ingestor->ingest(waiter, false);
+    ASSERT_TRUE(gone) << gone.error().message;
+    EXPECT_EQ(gone->result, IngestResult::incomplete);
+    fs::remove(drop_ / names_[3]);
+    EXPECT_EQ(house_.ingestor->ingest(drop_ / names_[3], false)->result, IngestResult::vanished);
+    const auto outcome = house_.ingestor->ingest(waiter, true);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_TRUE(outcome->partial);
+    EXPECT_EQ(outcome->missing_chunks, std::vector<int>{21}) << "what was deleted was read before";
+    EXPECT_NE(outcome->reason.find("was deleted"), std::string::npos) << outcome->reason;
+    const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+    ASSERT_EQ(rows->size(), names_.size() - 1);
+    for (const auto& row : *rows) {
+        EXPECT_EQ(row.state == catalog::FileState::gone, !fs::exists(row.path)) << row.path;
+        EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
+    }
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::vanished) << "once";
+}
+
+TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
+    for (std::size_t i = 0; i < 10; ++i)
+        take(house_, i);
+    const fs::path waiter = drop_ / names_[9];
+    fs::remove(waiter);
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::incomplete)
+        << "not due: its end has not come";
+    const IngestOutcome next = take(house_, 10);
+    EXPECT_EQ(next.result, IngestResult::incomplete);
+    EXPECT_EQ(next.instead_of, waiter);
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::vanished);
+    EXPECT_EQ(house_.ingestor->note(waiter).value(), IngestResult::vanished);
+    for (std::size_t i = 11; i < names_.size(); ++i)
+        take(house_, i);
+    expect_same_cells(house_);
+}
+
+// 2026-11-22: what was put aside of chunks had no bound on disk.
+TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
+    const auto grow = [&](ChunkVolumes& volumes, const std::string& site) {
+        const auto directory = directory_ / "others" / site;
+        fs::create_directories(directory);
+        bool has_its_share = true;
+        for (std::size_t i = 0; i < 12; ++i) {
+            const auto chunk = ChunkPath::of(directory / names_[i]).value();
+            append_to(chunk.path, parts_[i]);
+            const auto volume = volumes.find(chunk);
+            EXPECT_TRUE(volume->add(chunk, stamp_of(chunk.path).value()));
+            has_its_share = volumes.grew(chunk, *volume) && has_its_share;
+        }
+        return std::pair(has_its_share, ChunkPath::of(directory / names_[0]).value());
+    };
+    LivingFile::Options options;
+    options.scratch = directory_ / "living";
+    ChunkVolumes ample(options);
+    const auto first = grow(ample, "A").second;
+    const std::uint64_t of_one = ample.find_known(first)->shelf_bytes();
+    EXPECT_GT(of_one, 1'000'000U);
+    grow(ample, "B");
+    EXPECT_EQ(ample.count(), 2U);
+    EXPECT_EQ(ample.take_given_up(), 0U);
+
+    fs::remove_all(directory_ / "others");
+    ChunkVolumes scarce(options, ChunkLimits{.shelf_bytes = of_one * 5 / 2});
+    const auto a = grow(scarce, "A").second;
+    const auto b = grow(scarce, "B").second;
+    EXPECT_EQ(scarce.count(), 2U);
+    (void)scarce.find(a);  // b is the oldest now
+    const auto c = grow(scarce, "C").second;
+    EXPECT_TRUE(scarce.find_known(a) && scarce.find_known(c));
+    EXPECT_FALSE(scarce.find_known(b));
+    EXPECT_EQ(scarce.take_given_up(), 1U);
+    EXPECT_EQ(scarce.take_given_up(), 0U);
+
+    fs::remove_all(directory_ / "others");
+    ChunkVolumes each(options, ChunkLimits{.shelf_bytes_each = of_one / 2});
+    EXPECT_FALSE(grow(each, "A").first);
+    EXPECT_EQ(each.take_given_up(), 1U);
+}
+
+TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    const std::uint64_t ample = std::exchange(options.living.put_aside_bytes, 4'000'000);
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    std::uint64_t given_up = 0;
+    std::size_t next = 0;
+    for (; next < 20; ++next)
+        given_up += take(house_, next).given_up;
+    EXPECT_GT(given_up, 3U);
+    options.living.put_aside_bytes = ample;
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    for (; next < names_.size(); ++next)
+        EXPECT_EQ(take(house_, next).given_up, 0U);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (i != 20) take(house_, i);
+    }
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    fs::remove(house_.grids("KLOT").at(0).path);
+    EXPECT_EQ(house_.ingestor->ingest_again(drop_ / names_[0])->result, IngestResult::gridded);
+    EXPECT_EQ(house_.grids("KLOT").size(), 1U);
+    EXPECT_EQ(house_.catalog->list("KLOT", {})->size(), 1U);
+}
+
+// 2026-11-22: the volume was forgotten before it was finished, so that one who came meanwhile made
+// another, and what failed of the one undid rows of the other.
+TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i)
+        take(house_, i);
+    append_to(drop_ / names_.back(), parts_.back());
+    std::atomic<int> gridded = 0;
+    std::vector<std::thread> workers;
+    for (std::size_t i = 0; i < 20; ++i) {
+        workers.emplace_back([&, i] {
+            const fs::path& name = i == 0 ? names_.back() : names_[i];
+            std::this_thread::sleep_for(std::chrono::milliseconds{10 * i});
+            const auto outcome = house_.ingestor->ingest(drop_ / name, false);
+            EXPECT_TRUE(outcome);
+            gridded += outcome && outcome->result == IngestResult::gridded ? 1 : 0;
+        });
+    }
+    for (std::thread& worker : workers)
+        worker.join();
+    EXPECT_EQ(gridded, 1);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+// 2026-11-22: a chunk that could not be read counted as none, and what lay beside the first one as
+// not there: the volume was finished without them.
+TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP()
+        << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
+#endif
+    take(house_, 0);  // opens the database
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    for (std::size_t i = 1; i < names_.size(); ++i)
+        append_to(drop_ / names_[i], parts_[i]);
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    for (rlim_t most = 3; most < 40; ++most) {
+        const rlimit few{most, before.rlim_max};
+        ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+        const auto outcome = house_.ingestor->ingest(drop_ / names_.back(), false);
+        ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+        if (outcome) {
+            EXPECT_EQ(outcome->result, IngestResult::gridded) << most;
+            break;
+        }
+        EXPECT_EQ(outcome.error().code, ErrorCode::io) << outcome.error().message;
+        EXPECT_NE(outcome.error().message.find("Too many open files"), std::string::npos)
+            << outcome.error().message;
+    }
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
+// After a power cut: the newest chunk is empty and is the first that is looked at.
+TEST_F(LivingChunks, OneThatIsNotWholeIsNoneToWaitFor) {
+    for (std::size_t i = 0; i + 2 < names_.size(); ++i)
+        append_to(drop_ / names_[i], parts_[i]);
+    const fs::path empty = drop_ / names_[names_.size() - 2];
+    std::ofstream{empty};
+    ASSERT_EQ(house_.ingestor->ingest(empty, false)->result, IngestResult::incomplete);
+    // The next that is asked is waited for in its place.
+    EXPECT_EQ(take(house_, 3).result, IngestResult::incomplete);
+    EXPECT_EQ(take(house_, 4).result, IngestResult::registered);
+}
+
+TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        append_to(drop_ / names_[i], parts_[i]);
+    std::vector<std::thread> workers;
+    std::atomic<std::size_t> next = 0;
+    std::atomic<int> gridded = 0;
+    for (int i = 0; i < 4; ++i) {
+        workers.emplace_back([&] {
+            for (std::size_t at = next++; at < names_.size(); at = next++) {
+                const auto outcome = house_.ingestor->ingest(drop_ / names_[at], false);
+                gridded += outcome && outcome->result == IngestResult::gridded ? 1 : 0;
+            }
+        });
+    }
+    for (std::thread& worker : workers)
+        worker.join();
+    EXPECT_EQ(gridded, 1);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+    for (const std::string& name : names_) {
+        EXPECT_EQ(house_.ingestor->ingest(drop_ / name, true)->result, IngestResult::unchanged);
+    }
+}
+
+TEST(ChunkNames, BelongTogetherByAllOfTheirNamesButTheirNumbers) {
+    const auto key = [](const char* name) { return ChunkPath::of(name)->key; };
+    const std::string one = key("/d/20220317-000842-012-I-KTLX");
+    EXPECT_EQ(one, key("/d/20220317-000842-1-S-KTLX"));
+    EXPECT_NE(one, key("/d/20220317-000842-012-I-KOUN"));
+    EXPECT_NE(one, key("/e/20220317-000842-012-I-KTLX"));
+    EXPECT_NE(one, key("/d/KTLX-20220317-000842-012-I"));
+    EXPECT_EQ(key("/d/20220317-000842_20220317-000842-012-I"),
+              key("/d/20220317-000842_20220317-000842-13-E"));
+    EXPECT_FALSE(ChunkPath::of("/d/KTLX20220317_000842_V06"));
+}
+
+TEST_F(LivingChunks, OneThatIsNoneIsRejectedByItself) {
+    for (std::size_t i = 0; i < 10; ++i)
+        take(house_, i);
+    const fs::path path = drop_ / "20220317-000842-011-I";
+    append_to(path, std::vector<std::byte>(5000, std::byte{7}));
+    EXPECT_EQ(house_.ingestor->ingest(path, true)->result, IngestResult::rejected);
+    EXPECT_EQ(take(house_, 9, true).result, IngestResult::incomplete) << "the volume goes on";
+}
+
+}  // namespace
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,158 @@
+// A catalog, a cache and an Ingestor that makes living grids, and volumes that come piece by piece.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/file_system.h"
+#include "cache/grid_file.h"
+#include "cache/store.h"
+#include "catalog/catalog.h"
+#include "pipeline/ingest.h"
+#include "synth/replay_pieces.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pipeline {
+
+namespace fs = std::filesystem;
+
+inline constexpr const char* busy = "volumes/KLOT20220317_000842_V06";
+// A day number for all files, so that grids made at different times are the same to the byte.
+inline constexpr std::int64_t file_time_s = 1'650'000'000;
+
+inline std::vector<std::byte> real_bytes(const std::string& name) {
+    return *read_file(*testing::data_directory() / name);
+}
+
+inline void append_to(const fs::path& path, std::span<const std::byte> bytes) {
+    std::ofstream(path, std::ios::binary | std::ios::app)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+}
+
+inline void date(const fs::path& path) {
+    const std::array<timespec, 2> times = {timespec{file_time_s, 0}, timespec{file_time_s, 0}};
+    ASSERT_EQ(::utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
+}
+
+struct House {
+    explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {}) {
+        catalog.emplace(*catalog::Catalog::open_for_writing(where / "catalog"));
+        store.emplace(*cache::Store::open_for_writing(real_file_system(), where / "cache", true));
+        IngestOptions options;
+        options.spacing_m = 4000;
+        options.nx = options.ny = 115;
+        if (living) {
+            options.living.scratch = where;
+            options.living.has_time = std::move(has_time);
+            options.living.chunk_grace = std::chrono::seconds{0};
+        }
+        ingestor.emplace(*catalog, *store, options);
+    }
+    std::vector<cache::StoreEntry> grids(const std::string& domain) const {
+        return *store->list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
+    }
+    std::optional<catalog::Catalog> catalog;
+    std::optional<cache::Store> store;
+    std::optional<Ingestor> ingestor;
+};
+
+class Living : public ::testing::Test {
+  protected:
+    void SetUp() override { STORMCELLAR_NEED_DATA(); }
+    // Appends each record and has it taken in.
+    std::vector<IngestOutcome> grow(House& house, const fs::path& path,
+                                    std::span<const std::byte> bytes, std::size_t most = 1000) {
+        std::vector<IngestOutcome> outcomes;
+        std::size_t from = 0;
+        for (const std::size_t end : synth::piece_ends(bytes)) {
+            if (outcomes.size() == most) break;
+            append_to(path, bytes.subspan(from, end - from));
+            from = end;
+            date(path);
+            auto outcome = house.ingestor->ingest(path, false);
+            EXPECT_TRUE(outcome) << outcome.error().message;
+            if (outcome) outcomes.push_back(std::move(*outcome));
+        }
+        return outcomes;
+    }
+    testing::TemporaryDirectory directory_;
+    House house_{directory_ / "living", true};
+};
+
+// Cuts a file as LDM hands it on, one file a record; gives the paths in their order.
+class LivingChunks : public Living {
+  protected:
+    void SetUp() override {
+        Living::SetUp();
+        bytes_ = real_bytes(busy);
+        fs::create_directories(drop_);
+        const std::vector<std::size_t> ends = synth::piece_ends(bytes_);
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            const char kind = i == 0 ? 'S' : i + 1 == ends.size() ? 'E' : 'I';
+            names_.push_back(fmt::format("20220317-000842-{:03}-{}", i + 1, kind));
+            const std::size_t from = i == 0 ? 0 : ends[i - 1];
+            parts_.push_back(std::span{bytes_}.subspan(from, ends[i] - from));
+        }
+        // What the whole file gives.
+        const fs::path file = directory_ / "KLOT20220317_000842_V06";
+        append_to(file, bytes_);
+        ASSERT_EQ(whole_.ingestor->ingest(file, false)->result, IngestResult::gridded);
+    }
+    IngestOutcome take(House& house, std::size_t i, bool finish_partial = false) {
+        const fs::path path = drop_ / names_[i];
+        if (!fs::exists(path)) {
+            append_to(path, parts_[i]);
+            const std::array<timespec, 2> times = {timespec{file_time_s + came_, 0},
+                                                   timespec{file_time_s + came_, 0}};
+            EXPECT_EQ(::utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
+            ++came_;
+        }
+        auto outcome = house.ingestor->ingest(path, finish_partial);
+        EXPECT_TRUE(outcome) << outcome.error().message;
+        return outcome ? *outcome : IngestOutcome{};
+    }
+    void expect_same_cells(const House& house) {
+        ASSERT_EQ(house.grids("KLOT").size(), 1U);
+        const auto a = cache::GridFile::open(house.grids("KLOT")[0].path);
+        const auto b = cache::GridFile::open(whole_.grids("KLOT")[0].path);
+        ASSERT_TRUE(a && b);
+        EXPECT_FALSE(a->description().provenance.partial);
+        EXPECT_TRUE(std::ranges::equal(a->view().codes, b->view().codes));
+        EXPECT_TRUE(std::ranges::equal(a->view().states, b->view().states));
+        EXPECT_EQ(a->description().provenance.sweeps, b->description().provenance.sweeps);
+        EXPECT_EQ(a->description().time, b->description().time);
+    }
+    void expect_one_volume(House& house) {
+        const auto volumes = house.catalog->list("KLOT", {});
+        ASSERT_EQ(volumes->size(), 1U);
+        EXPECT_EQ(volumes->at(0).path.filename(), names_[0]);
+        EXPECT_EQ(volumes->at(0).state, catalog::FileState::complete);
+        EXPECT_EQ(volumes->at(0).generation, 0);
+        const auto rows = house.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
+        EXPECT_EQ(rows->size(), names_.size());
+    }
+    fs::path drop_ = directory_ / "drop/KLOT/494";
+    std::int64_t came_ = 0;  // each a second after the one before
+    House whole_{directory_ / "whole", false};
+    std::vector<std::byte> bytes_;
+    std::vector<std::string> names_;
+    std::vector<std::span<const std::byte>> parts_;
+};
+
+}  // namespace stormcellar::pipeline
