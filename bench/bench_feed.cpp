@@ -6,7 +6,7 @@
 // The feed is played at each speed, one row each, behind one another before the same daemon.
 // Columns: speed: asked for; sustained_x: heaviest hours an hour (bench/feed_run.h); latency_*:
 // from
-//   last chunk to grid; bzip2_share: CPU time of libbz2 alone for the bytes that were fed, timed
+//   last chunk to grid; bzip2_share: CPU time of bunzip alone for the bytes that were fed, timed
 //   before and after each row, by that of the daemon; peak_mib: resident memory (VmHWM), of which
 //   file_mib at most is the page cache's (mapped files) and anonymous_mib at most its own;
 //   daemon_cores and feeder_cores: CPU time by wall time; volumes: whose last chunk was sent;
@@ -46,7 +46,7 @@ constexpr const char* daemon_configuration =
     "[cache]\nbytes = \"2 GiB\"\n[ingest]\nspacing_km = 1.0\nextent_km = [460, 460]\n"
     "levels_km = \"0.5:16:0.5\"\n[log]\nlevel = \"warning\"\n";
 
-// CPU seconds that libbz2 alone takes for a byte of each kind.
+// CPU seconds that bunzip alone takes for a byte of each kind.
 class BzipCost {
   public:
     explicit BzipCost(const NationalFeed& feed) {
@@ -63,7 +63,7 @@ class BzipCost {
             Bytes peeled;
             const auto records = ldm_records(files_[kind], peeled);
             const double before_s = cpu_s();
-            decompress_all(records);
+            bunzip_all(records);
             seconds_[kind] += cpu_s() - before_s;
         }
         ++runs_;
@@ -93,7 +93,7 @@ struct Wanted {
     double paced_s = default_paced_s, fast_s = default_fast_s;
 };
 
-void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double libbz2_s,
+void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double bunzip_s,
              Table& table) {
     table.add({{"as", wanted.delivery_name},
                {"speed", {speed, 1}},
@@ -101,7 +101,7 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
                {"latency_p50_s", {stretch.latency_s(0.5), 3}},
                {"latency_p95_s", {stretch.latency_s(0.95), 3}},
                {"latency_max_s", {stretch.latency_s(1), 3}},
-               {"bzip2_share", {libbz2_s / stretch.daemon_cpu_s, 3}},
+               {"bzip2_share", {bunzip_s / stretch.daemon_cpu_s, 3}},
                {"peak_mib", {stretch.memory.peak_mib, 0}},
                {"anonymous_mib", {stretch.memory.anonymous_mib, 0}},
                {"file_mib", {stretch.memory.file_mib, 0}},

@@ -5,7 +5,7 @@
 // station's grid appears anew has completed a sweep (or the volume).
 // Columns: as: appended to one file, closed each time, or one file a chunk; sweeps: with a grid, of
 // those with the moment in the volume; latency_*: from the close of the chunk to the rename of the
-// grid, by this program's clock; bzip2_*: libbz2 alone for that chunk, in this process; beyond_*:
+// grid, by this program's clock; bzip2_*: bunzip alone for that chunk, in this process; beyond_*:
 // the one less the other, chunk by chunk. End of volume: the last one, whose grid is made of all
 // and synced, stands apart.
 #include <algorithm>
@@ -102,7 +102,7 @@ double bzip2_of(std::span<const std::byte> piece) {
     const auto records = ldm_records(bytes, peeled);
     double least_s = 1e9;
     for (int run = 0; run < 3; ++run)
-        keep_least_seconds(least_s, [&] { decompress_all(records); });
+        keep_least_seconds(least_s, [&] { bunzip_all(records); });
     return least_s;
 }
 

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bunzip/bunzip.h"
 #include "level2/archive_header.h"
 #include "level2/gzip_stream.h"
 #include "level2/ldm_framer.h"
@@ -67,6 +68,16 @@ void decompress_all(std::span<const std::span<const std::byte>> records) {
     std::vector<char> buffer(std::size_t{1} << 20);
     for (const auto record : records)
         decompress(record, buffer);
+}
+
+void bunzip_all(std::span<const std::span<const std::byte>> records) {
+    bunzip::Workspace workspace;
+    std::vector<std::byte> buffer(std::size_t{1} << 20);
+    for (const auto record : records) {
+        bunzip::Reader reader(record, workspace);
+        while (!reader.ended())
+            static_cast<void>(reader.read(buffer));
+    }
 }
 
 double cpu_s() {

@@ -36,6 +36,8 @@ void keep_least_seconds(double& least, Work work) {
 
 // libbz2 alone over all records, one stream each, into pieces of one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);
+// The same by bunzip's usual path, as level2 does it.
+void bunzip_all(std::span<const std::span<const std::byte>> records);
 
 // Runs this program with these arguments in a process of its own and gives what it prints, up to 64
 // KiB. None where it failed.

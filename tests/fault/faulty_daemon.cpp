@@ -23,7 +23,8 @@ constexpr const char* quick =
 std::size_t settled_in(const fs::path& database) {
     try {
         const SQLite::Database opened(database.native(), SQLite::OPEN_READONLY, 1000);
-        SQLite::Statement count(opened, "SELECT count(*) FROM file WHERE state NOT IN ('seen', 'gone')");
+        SQLite::Statement count(opened,
+                                "SELECT count(*) FROM file WHERE state NOT IN ('seen', 'gone')");
         count.executeStep();
         return static_cast<std::size_t>(count.getColumn(0).getInt64());
     } catch (const SQLite::Exception&) {
