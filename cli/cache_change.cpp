@@ -125,11 +125,13 @@ int run_pin(const PinOptions& options, bool pin) {
         const auto entries = store->list(options.domain, moment, range->from, range->to);
         if (!entries) return report_error(entries.error());
         for (const StoreEntry& entry : *entries) {
-            const Status done =
-                pin ? cache::pin_grid(real_file_system(), entry.path)
-                    : Status(cache::unpin_grid(real_file_system(), entry.path).map([](bool) {}));
+            // Whether there was anything to do.
+            const Result<bool> done =
+                pin ? cache::pin_grid(real_file_system(), entry.path).map([] { return true; })
+                    : cache::unpin_grid(real_file_system(), entry.path);
             if (!done && done.error().code == ErrorCode::not_found) continue;
             if (!done) return report_error(done.error());
+            if (!*done) continue;
             changed.push_back(json_of(entry));
             if (!options.json) fmt::print("{}\n", printable(entry.path.native()));
         }

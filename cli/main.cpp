@@ -57,11 +57,14 @@ std::string help_of(const CLI::App& app) {
 
 // A misspelt option is the cause where a required one is missing too; CLI11 would name the other.
 std::string reason_of(const CLI::ParseError& error, const CLI::App& app) {
-    const std::vector<std::string> unknown = app.remaining(true);
-    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::RequiredError) ||
-        unknown.empty()) {
-        return error.what();
-    }
+    // Of "--prodct volume" the option, not what follows it.
+    std::vector<std::string> unknown = app.remaining(true);
+    std::stable_partition(unknown.begin(), unknown.end(),
+                          [](const std::string& word) { return word.starts_with('-'); });
+    const int code = error.get_exit_code();
+    const bool may_be_misspelt = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||
+                                 code == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    if (!may_be_misspelt || unknown.empty()) return error.what();
     return fmt::format("The following argument was not expected: {}", unknown.front());
 }
 

@@ -1,6 +1,7 @@
 // stormcellar replay SOURCE... DROP: play files into a drop directory as LDM would.
 #include "synth/replay.h"
 
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,14 +9,18 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/counted.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
 #include "cli/query_options.h"
+#include "cli/status_table.h"
 
 namespace stormcellar::cli {
 namespace {
+
+constexpr double worth_a_hint_s = 600;
 
 struct ReplayCommandOptions {
     std::vector<std::string> places;  // sources, and the drop directory as the last
@@ -26,9 +31,42 @@ struct ReplayCommandOptions {
     bool json = false;
 };
 
+// "4.5 d": how long it is to take, or "no time".
+std::string duration_of(double seconds) {
+    return seconds < 0.001 ? "no time" : short_duration(seconds);
+}
+
+void say_plan(const synth::ReplayPlan& plan) {
+    std::string times;
+    if (plan.first)
+        times = fmt::format(" of {} to {}", format_utc(*plan.first), format_utc(*plan.last));
+    fmt::print(stderr, "stormcellar: {}{}, to be played in {}{}\n", counted(plan.files, "file"),
+               times, duration_of(plan.takes_s),
+               plan.takes_s > worth_a_hint_s
+                   ? " (--speed N: faster; --interval S: one every S seconds, whatever their times)"
+                   : "");
+}
+
+// Says so at the first wait, and again when one is more than twice as long as what was said.
+class WaitNotes {
+  public:
+    explicit WaitNotes(Progress& progress) : progress_(progress) {}
+    void note(double seconds, const std::filesystem::path& source) {
+        if (seconds < 2 * said_s_) return;
+        said_s_ = seconds;
+        progress_.clear();
+        fmt::print(stderr, "stormcellar: waiting {} for {}\n", short_duration(seconds),
+                   printable(source.native()));
+    }
+
+  private:
+    Progress& progress_;
+    double said_s_ = 0;
+};
+
 int report_stop(const synth::ReplayReport& report, std::size_t items, Interrupt& interrupt) {
-    fmt::print(stderr, "stormcellar: interrupted after {} of {} {}\n", report.files, items,
-               plural(items, "file"));
+    fmt::print(stderr, "stormcellar: interrupted after {} of {}\n", report.files,
+               counted(items, "file"));
     for (const auto& unfinished : report.unfinished) {
         fmt::print(stderr, "stormcellar: {} stays unfinished\n", printable(unfinished.native()));
     }
@@ -53,7 +91,12 @@ nlohmann::json json_of(const synth::ReplayReport& report, double total_s) {
                           {"bytes", made.bytes},
                           {"kept_bytes", made.kept_bytes}});
     }
-    return {{"files", report.files},
+    nlohmann::json unfinished = nlohmann::json::array();
+    for (const auto& name : report.unfinished)
+        unfinished.push_back(printable(name.native()));
+    return {{"interrupted", report.stopped},
+            {"unfinished", unfinished},
+            {"files", report.files},
             {"writes", report.writes},
             {"bytes", report.bytes},
             {"faults", faults},
@@ -87,17 +130,22 @@ int run_replay(const ReplayCommandOptions& options) {
     replay_options.speed = options.speed;
     replay_options.stop = &interrupt.flag();
     replay_options.replayed = [&](std::size_t done) { progress.show(done); };
+    WaitNotes waits(progress);
+    replay_options.waits = [&](double seconds, const auto& source) { waits.note(seconds, source); };
+    say_plan(synth::plan_replay(*items, replay_options));
     const auto report =
         synth::replay(*items, options.places.back(), real_file_system(), replay_options);
     progress.clear();
     if (!report) return report_error(report.error());
-    if (report->stopped) return report_stop(*report, items->size(), interrupt);
     const double total_s = seconds_since(start);
-    if (options.json) {
-        print_json(json_of(*report, total_s));
-    } else {
-        fmt::print(stderr, "{} {}, {} bytes, {:.1f} s\n", report->files,
-                   plural(report->files, "file"), report->bytes, total_s);
+    if (options.json) print_json(json_of(*report, total_s));
+    if (report->stopped) {
+        std::fflush(stdout);  // the signal that ends the program does not
+        return report_stop(*report, items->size(), interrupt);
+    }
+    if (!options.json) {
+        fmt::print(stderr, "{}, {} bytes, {:.1f} s\n", counted(report->files, "file"),
+                   report->bytes, total_s);
         print_faults(report->faults);
     }
     return exit_done;

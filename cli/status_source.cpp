@@ -11,8 +11,10 @@
 #include <utility>
 
 #include <fmt/ranges.h>
+#include <grp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -164,6 +166,17 @@ void add_loops(nlohmann::json& document, const fs::path& loops) {
                        (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
 }
 
+std::string how_to_be_let_in(const fs::path& socket) {
+    struct stat found {};
+    if (::stat(socket.c_str(), &found) != 0) return "";
+    const struct group* known = ::getgrgid(found.st_gid);  // one thread
+    if (known == nullptr) return "";
+    return fmt::format(
+        "; members of the group {0} may ask: sudo usermod -aG {0} USER, then log in "
+        "again",
+        known->gr_name);
+}
+
 Result<nlohmann::json> ask_socket(const fs::path& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -174,7 +187,10 @@ Result<nlohmann::json> ask_socket(const fs::path& path) {
     if (socket.number() < 0) return tl::unexpected(system_error(path, errno));
     if (::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) !=
         0) {
-        return tl::unexpected(system_error(path, errno));
+        const int error_number = errno;
+        Error refused = system_error(path, error_number);
+        if (error_number == EACCES) refused.message += how_to_be_let_in(path);
+        return tl::unexpected(refused);
     }
     const auto end = Clock::now() + longest_wait;
     if (!wait_for(socket.number(), POLLOUT, end) ||

@@ -42,6 +42,10 @@ struct StatusAnswer {
 // whether that process is there.
 void add_loops(nlohmann::json& document, const std::filesystem::path& loops);
 
+// "; members of the group GROUP may ask: sudo usermod -aG GROUP USER, then log in again": what to
+// do where a socket may not be opened. Empty where its group is not known.
+[[nodiscard]] std::string how_to_be_let_in(const std::filesystem::path& socket);
+
 // The document of whoever listens at the path: io with the system's reason, or corrupt when it is
 // no status. Waits 5 s at most and reads 16 MiB at most.
 [[nodiscard]] Result<nlohmann::json> ask_socket(const std::filesystem::path& path);

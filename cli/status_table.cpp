@@ -73,6 +73,14 @@ std::string heading(const json& status, UtcTime now) {
                        text(status, "started"), short_duration(age(status, "started", now)));
 }
 
+std::string drop_line(const json& status) {
+    const std::uint64_t directories = count(status, "directories");
+    const bool is_lost = at(status, "drop_lost").is_string();
+    return fmt::format("drop     {}: {} {}{}\n", text(status, "drop"), directories,
+                       directories == 1 ? "directory" : "directories",
+                       is_lost ? "; LOST: " + text(status, "drop_lost") : "");
+}
+
 std::string cache_line(const json& status) {
     const json& rolling = at(status, "rolling");
     std::string line = "cache    " + text(status, "cache");
@@ -287,10 +295,7 @@ std::string short_duration(std::optional<double> seconds) {
 std::string status_table(const json& status, UtcTime now) {
     const std::vector<const json*> stations = sorted_stations(status);
     std::string page = heading(status, now);
-    page +=
-        fmt::format("drop     {}: {}\n", text(status, "drop"),
-                    fmt::format("{} {}", count(status, "directories"),
-                                count(status, "directories") == 1 ? "directory" : "directories"));
+    page += drop_line(status);
     page += cache_line(status) + counts_lines(status) + loops_line(status) + "\n";
     page += stations_table(stations, now);
     if (const std::uint64_t more = count(status, "stations_left_out"); more > 0)

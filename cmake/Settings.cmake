@@ -26,6 +26,11 @@ endif()
 # A program starts with the libraries that it uses, not with all that its rooms name.
 add_link_options(-Wl,--as-needed)
 
+# What is released resolves its symbols at the start and may not write to their table afterwards.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT STORMCELLAR_SANITIZE)
+  add_link_options(-Wl,-z,relro,-z,now)
+endif()
+
 if(STORMCELLAR_SANITIZE)
   add_compile_options(-fsanitize=${STORMCELLAR_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/byte_size.h"
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 
@@ -45,9 +46,10 @@ CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
 
 void CacheKeeper::log(const CacheRolled& rolled, SteadyTime now) {
     if (rolled.report.evicted > 0 && rolled.usage) {
-        log_info({Event::cache_rolled}, "cache: {} grids went ({}), {} stay ({})",
-                 rolled.report.evicted, format_byte_size(rolled.report.evicted_bytes),
-                 rolled.usage->grids, format_byte_size(rolled.usage->bytes));
+        log_info({Event::cache_rolled}, "cache: {} went ({}), {} left ({})",
+                 counted(static_cast<std::uint64_t>(rolled.report.evicted), "grid"),
+                 format_byte_size(rolled.report.evicted_bytes), rolled.usage->grids,
+                 format_byte_size(rolled.usage->bytes));
     }
     if (rolled.report.problems.empty()) {
         next_reminder_ = {};

@@ -37,6 +37,7 @@ struct HttpListener::Callbacks {
         if (info == nullptr) return;
         const SteadyTime ends =
             std::chrono::steady_clock::now() + listener->limits_.longest_connection;
+        listener->make_room();
         listener->open_[connection] = {info->connect_fd, ends, false};
     }
 };
@@ -77,6 +78,21 @@ std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
     for (const auto& [connection, open] : open_)
         if (!open.is_cut) take(open.ends);
     return next;
+}
+
+// Whoever asks gets an answer at once; those that have stood for longest ask for nothing.
+void HttpListener::make_room() {
+    const auto stands = [](const auto& one) { return !one.second.is_cut; };
+    const auto standing = std::count_if(open_.begin(), open_.end(), stands);
+    if (4 * standing < 3 * std::ptrdiff_t{limits_.most_connections}) return;
+    auto oldest = open_.end();
+    for (auto one = open_.begin(); one != open_.end(); ++one) {
+        if (stands(*one) && (oldest == open_.end() || one->second.ends < oldest->second.ends))
+            oldest = one;
+    }
+    if (oldest == open_.end()) return;
+    ::shutdown(oldest->second.descriptor, SHUT_RDWR);
+    oldest->second.is_cut = true;
 }
 
 void HttpListener::turn(SteadyTime now) {

@@ -65,11 +65,13 @@ class Inotify final : public EventSource {
         const int number = ::inotify_add_watch(descriptor_.number(), directory.c_str(), wanted);
         if (number >= 0) return number;
         const int error_number = errno;
+        const std::filesystem::path named =
+            directory.filename() == "." ? directory.parent_path() : directory;
         if (error_number == ENOSPC) {
             return fail(ErrorCode::no_space, "{}: no inotify watches left; raise the sysctl {}",
-                        directory.native(), limit_named("user_watches"));
+                        named.native(), limit_named("user_watches"));
         }
-        return fail(code_of(error_number), "{}: {}", directory.native(),
+        return fail(code_of(error_number), "{}: {}", named.native(),
                     std::system_category().message(error_number));
     }
 

@@ -30,7 +30,8 @@ class EventSource {
     // Readable when events wait; -1: nothing to poll.
     [[nodiscard]] virtual int descriptor() const = 0;
     // The number of the watch; the same one again for a directory that is watched. no_space when
-    // the system's limit of watches is reached; not_found, permission, io.
+    // the system's limit of watches is reached; not_found, permission, io. "DIR/." may be reached
+    // through a link, DIR itself not.
     virtual Result<int> watch(const std::filesystem::path& directory) = 0;
     virtual void unwatch(int watch) = 0;
     // Why changes in the directory may come without events, so that it must be polled; none where

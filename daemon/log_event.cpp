@@ -33,6 +33,8 @@ constexpr std::array<std::string_view, event_count> names = {
     "behind",
     "caught_up",
     "stations_unknown",
+    "state_lost",
+    "state_mended",
     "database_mended",
     "cache_rolled",
     "cache_problem",

@@ -45,6 +45,8 @@ enum class Event {
     caught_up,
     // of what is stored
     stations_unknown,
+    state_lost,
+    state_mended,
     database_mended,
     cache_rolled,
     cache_problem,

@@ -1,13 +1,17 @@
 #include "daemon/loop_check.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string>
+#include <system_error>
 
 #include <poll.h>
 #include <unistd.h>
 
 #include "base/printable.h"
+#include "base/station_table.h"
+#include "cache/grid_name.h"
 #include "daemon/child.h"
 
 namespace stormcellar::daemon {
@@ -55,7 +59,38 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
     return fail(ErrorCode::io, "[[loop]] {}: stormcellar loop does not answer", loop.name);
 }
 
+bool is_known(const std::string& name, const std::vector<pipeline::Domain>& domains) {
+    // "north.KTLX": a part of north.
+    const std::string_view whole = cache::group_of(name);
+    return find_station(name) || std::any_of(domains.begin(), domains.end(),
+                                             [&](const auto& one) { return one.name == whole; });
+}
+
 }  // namespace
+
+std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
+                                      const std::vector<pipeline::Domain>& domains) {
+    std::vector<std::string> doubts;
+    const auto doubt = [&](const LoopConfig& loop, const std::string& what) {
+        doubts.push_back(fmt::format("[[loop]] {}: {}", printable(loop.name), printable(what)));
+    };
+    for (const LoopConfig& loop : loops) {
+        if (!loop.domain.empty() && !is_known(loop.domain, domains)) {
+            doubt(loop, fmt::format("domain '{}' is neither a known station nor a [[domain]]: it "
+                                    "waits for grids of that name",
+                                    loop.domain));
+        }
+        for (const std::string& output : loop.outputs) {
+            const std::filesystem::path path(output);
+            const auto directory = (path.has_filename() ? path : path.parent_path()).parent_path();
+            std::error_code error;
+            if (std::filesystem::is_directory(directory, error)) continue;
+            doubt(loop, fmt::format("{}: there is no directory {} (yet): it cannot be written",
+                                    output, directory.native()));
+        }
+    }
+    return doubts;
+}
 
 Status check_loops(const std::vector<LoopConfig>& loops, const std::filesystem::path& cache,
                    std::filesystem::path program) {

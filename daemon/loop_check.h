@@ -7,10 +7,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "daemon/loop_config.h"
+#include "pipeline/domain.h"
 
 namespace stormcellar::daemon {
 
@@ -20,5 +22,11 @@ namespace stormcellar::daemon {
 [[nodiscard]] Status check_loops(const std::vector<LoopConfig>& loops,
                                  const std::filesystem::path& cache,
                                  std::filesystem::path program = {});
+
+// What may be meant, but has no picture as things are: an output's directory that is not there, a
+// domain that is neither a known station nor one of `domains`. "[[loop]] NAME: what", printable. Of
+// what the loop's own table says; what its scene says is not looked at.
+[[nodiscard]] std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
+                                                    const std::vector<pipeline::Domain>& domains);
 
 }  // namespace stormcellar::daemon

@@ -9,6 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 #include "daemon/schedule.h"
@@ -186,11 +187,13 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
+    slot.last_line.clear();  // of what was not made before: it is no reason of an end
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(number("frames"));
     const double took_s = number("total_s");
     log_info({.event = Event::loop_made, .took_s = took_s, .loop = slot.state.name},
-             "loop {}: made of {} frames in {:.1f} s", slot.state.name, slot.state.frames, took_s);
+             "loop {}: made of {} in {:.1f} s", slot.state.name,
+             counted(static_cast<std::uint64_t>(std::max(0, slot.state.frames)), "frame"), took_s);
 }
 
 void LoopKeeper::note_line(Slot& slot, const std::string& line) {
@@ -213,8 +216,10 @@ void LoopKeeper::note_end(Slot& slot, const std::string& how, SteadyTime now) {
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
+    // What is killed has no reason of its own.
+    const bool was_killed = how.starts_with("signal");
     slot.state.last_problem =
-        slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
+        was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);
     log_error({.event = Event::loop_failed, .loop = slot.state.name},
               "loop {}: ended with {}; again in {} s", slot.state.name, slot.state.last_problem,
               Schedule::retry_delay(slot.failures).count());

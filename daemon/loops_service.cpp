@@ -7,6 +7,7 @@
 
 #include <poll.h>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 #include "daemon/status.h"
@@ -39,7 +40,7 @@ void LoopsService::request_stop() {
 void LoopsService::run() {
     publish("running");
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: keeping {} loops of {}", config_.loops.size(),
+    log_info({Event::ready}, "ready: keeping {} of {}", counted(config_.loops.size(), "loop"),
              printable(config_.cache.native()));
     keeper_.set(config_.loops);
     while (true) {
@@ -92,7 +93,7 @@ void LoopsService::reload() {
         config_.log_level = fresh->log_level;
         keeper_.set(config_.loops);
         set_log_level(config_.log_level);
-        log_info({Event::reloaded}, "reloaded: {} loops", config_.loops.size());
+        log_info({Event::reloaded}, "reloaded: {}", counted(config_.loops.size(), "loop"));
     } else {
         log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
                   printable(fresh.error().message));

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "base/version.h"
@@ -21,6 +22,7 @@
 #include "daemon/loop_check.h"
 #include "daemon/loops_service.h"
 #include "daemon/service.h"
+#include "daemon/state_keeper.h"
 #include "daemon/status_server.h"
 #include "pipeline/instance_lock.h"
 
@@ -47,8 +49,8 @@ struct Arguments {
     bool version = false;
 };
 
-// None when the arguments make no sense.
-std::optional<Arguments> parse(int argc, char** argv) {
+// bad_argument: what makes no sense.
+Result<Arguments> parse(int argc, char** argv) {
     Arguments arguments;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
@@ -66,12 +68,16 @@ std::optional<Arguments> parse(int argc, char** argv) {
             arguments.version = true;
         } else if (word == "--help" || word == "-h") {
             arguments.help = true;
+        } else if (word == "--config") {
+            return fail(ErrorCode::bad_argument, "--config: no file is named");
         } else {
-            return std::nullopt;
+            return fail(ErrorCode::bad_argument, "{}: there is no such option", word);
         }
     }
-    if (!arguments.help && !arguments.version && !arguments.config) return std::nullopt;
-    if (arguments.no_loops && arguments.loops_only) return std::nullopt;
+    if (!arguments.help && !arguments.version && !arguments.config)
+        return fail(ErrorCode::bad_argument, "--config is needed");
+    if (arguments.no_loops && arguments.loops_only)
+        return fail(ErrorCode::bad_argument, "--no-loops and --loops-only exclude each other");
     return arguments;
 }
 
@@ -96,16 +102,17 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-Status check_drop(const std::filesystem::path& drop) {
-    std::error_code error;
-    const auto status = std::filesystem::status(drop, error);
-    if (!std::filesystem::exists(status)) {
-        return fail(ErrorCode::not_found, "{}: the drop directory does not exist", drop.native());
+// What is no mistake, but may not be meant: the service starts all the same.
+void print_notes(const Config& config) {
+    const auto note = [](const std::string& what) {
+        fmt::print(stderr, "stormcellard: note: {}\n", what);
+    };
+    if (const auto names = names_beneath(config.drop, config.drop); !names) {
+        note(fmt::format("drop directory {}: the service waits for it",
+                         printable(names.error().message)));
     }
-    if (!std::filesystem::is_directory(status)) {
-        return fail(ErrorCode::not_a_file, "{}: the drop directory is no directory", drop.native());
-    }
-    return {};
+    for (const std::string& doubt : doubts_about(config.loops, config.ingest.domains))
+        note(doubt);
 }
 
 std::unique_ptr<EventSource> open_events() {
@@ -146,12 +153,9 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
     cache::install_map_guard();
     raise_descriptor_limit();
     set_up_logging(config.log_level, usual_outlet());
-    const Status ready = check_drop(config.drop)
-                             .and_then([&] { return make_directory(config.state); })
-                             .and_then([&] { return make_directory(config.cache); });
+    StateKeeper state(config.state);
+    const Status ready = make_directory(config.cache).and_then([&] { return state.hold(); });
     if (!ready) return complain(ready.error());
-    const auto lock = pipeline::InstanceLock::acquire(config.state);
-    if (!lock) return complain(lock.error());
     const Result<Signals> signals = Signals::open();
     if (!signals) return complain(signals.error());
     const Result<std::unique_ptr<IngestSink>> sink = IngestSink::open(config);
@@ -167,7 +171,8 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
                      .file_system = real_file_system(),
                      .signals = &*signals,
                      .keeps_loops = keeps_loops,
-                     .board = &board});
+                     .board = &board,
+                     .state = &state});
     know_stations((*sink)->catalog(), service);
     const StatusServer status_server(
         {.socket = config.status.socket, .http_port = config.status.http_port}, pages_of(board));
@@ -181,8 +186,6 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
     switch (service.run()) {
         case Stopped::cleanly:
             return EXIT_SUCCESS;
-        case Stopped::at_start:
-            return exit_failed;
         case Stopped::with_jobs:
             // What the jobs have written appears whole or not at all, so this loses nothing.
             std::_Exit(exit_failed);
@@ -191,8 +194,9 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
 }
 
 int run(int argc, char** argv) {
-    const std::optional<Arguments> arguments = parse(argc, argv);
+    const Result<Arguments> arguments = parse(argc, argv);
     if (!arguments) {
+        (void)complain(arguments.error());
         fmt::print(stderr, "{}", usage);
         return exit_bad_usage;
     }
@@ -209,6 +213,7 @@ int run(int argc, char** argv) {
             return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
                                                             fine.error().message)});
         }
+        print_notes(*config);
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }

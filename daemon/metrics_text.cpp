@@ -163,6 +163,15 @@ void write_station_files(MetricsWriter& out, PerStation& each) {
         });
 }
 
+// Of any station. Where nothing has come, the start: a feed that is dead at the start is silent
+// too.
+UtcTime last_data(const StatusFacts& facts) {
+    std::optional<UtcTime> last;
+    for (const auto& [station, state] : facts.stations.stations())
+        last = std::max(last, state.data_at);
+    return last.value_or(facts.started);
+}
+
 void write_stations(MetricsWriter& out, const StatusFacts& facts, UtcTime now) {
     const StationBook& book = facts.stations;
     out.family("stormcellar_stations", Type::gauge, "Stations of which something is known.");
@@ -170,6 +179,10 @@ void write_stations(MetricsWriter& out, const StatusFacts& facts, UtcTime now) {
     out.family("stormcellar_stations_left_out_total", Type::counter,
                "Files and chunks of stations beyond those that are remembered.");
     out.sample(book.left_out());
+    out.family("stormcellar_last_data_age_seconds", Type::gauge,
+               "Since a file or a piece of one of any station was last looked at, or since the "
+               "start where none has been.");
+    out.sample(seconds_between(last_data(facts), now));
     PerStation each(out, book);
     each.age("stormcellar_station_last_volume_age_seconds",
              "Since the start of the newest volume that was gridded, by the radar's clock.",

@@ -7,6 +7,7 @@
 
 #include <poll.h>
 
+#include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 
@@ -18,7 +19,7 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
-constexpr std::chrono::seconds between_backlog_looks{1}, behind_after{20};
+constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1}, behind_after{20};
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
@@ -69,7 +70,7 @@ void Service::request_stop() {
 }
 
 Stopped Service::run() {
-    if (!start()) return Stopped::at_start;
+    start();
     turn();
     while (!stop_requested_) {
         wait();
@@ -78,17 +79,24 @@ Stopped Service::run() {
     return stop();
 }
 
-bool Service::start() {
-    if (!scan()) return false;
+void Service::start() {
+    scan();
     const Pending pending = intake_.pending();
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: watching {} ({} directories), {} files to look at, {} workers",
-             printable(config_.drop.native()), watcher_.directory_count(),
-             pending.waiting + pending.growing, config_.worker_count());
+    const std::string workers =
+        counted(static_cast<std::uint64_t>(config_.worker_count()), "worker");
+    if (drop_missing_) {
+        log_info({Event::ready}, "ready: waiting for {}, {}", printable(config_.drop.native()),
+                 workers);
+    } else {
+        log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
+                 printable(config_.drop.native()),
+                 counted(watcher_.directory_count(), "directory", "directories"),
+                 counted(pending.waiting + pending.growing, "file"), workers);
+    }
     if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
-    return true;
 }
 
 void Service::turn() {
@@ -172,15 +180,14 @@ void Service::apply(const Config& fresh) {
     intake_.set_times(config_);
     next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
     set_log_level(config_.log_level);
-    log_info({Event::reloaded}, "reloaded: {} workers, quiet after {} s, log level {}",
-             config_.worker_count(), std::chrono::duration<double>(config_.quiet).count(),
-             config_.log_level);
+    log_info({Event::reloaded}, "reloaded: {}, quiet after {} s, log level {}",
+             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"),
+             std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
 }
 
 void Service::collect() {
     for (const Finished& finished : pool_.collect()) {
-        Reporter::report(finished);
-        status_.add(finished);
+        if (status_.add(finished)) Reporter::report(finished);
         intake_.job_ended(finished);
         status_file_.changed();
     }
@@ -197,12 +204,7 @@ void Service::scan_if_due() {
     if (now >= next_scan_ || (intake_.needs_scan() && now >= rested_)) scan();
 }
 
-bool Service::scan() {
-    const SteadyTime began = parts_.clock.steady();
-    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
-    intake_.begin_scan();
-    const Status scanned = watcher_.scan();
-    intake_.end_scan(scanned.has_value());
+void Service::note_drop(const Status& scanned) {
     if (!scanned && !drop_missing_) {
         log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
                   printable(scanned.error().message),
@@ -211,15 +213,24 @@ bool Service::scan() {
         log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
+    status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
+}
+
+void Service::scan() {
+    const SteadyTime began = parts_.clock.steady();
+    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
+    intake_.begin_scan();
+    const Status scanned = watcher_.scan();
+    intake_.end_scan(scanned.has_value());
+    note_drop(scanned);
     if (scanned && !is_poll) mark_missing();
-    status_.count_scan(watcher_.directory_count());
+    status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
     rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
     if (!is_poll) next_rescan_ = ended + config_.rescan;
     const auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
     next_scan_ = std::max(ended + gap, rested_);
-    return scanned.has_value();
 }
 
 // In a thread of its own: it looks at every file of the catalog.
@@ -234,7 +245,8 @@ void Service::mark_missing() {
             log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
                         printable(marked.error().message));
         } else if (*marked > 0) {
-            log_info({Event::files_gone}, "{} files went while nobody watched", *marked);
+            log_info({Event::files_gone}, "{} went while nobody watched",
+                     counted(static_cast<std::uint64_t>(*marked), "file"));
         }
     };
     try {
@@ -267,6 +279,7 @@ void Service::keep_house() {
         log_warning({Event::overflow},
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
+    keep_state(now);
     status_.count_unseen(intake_.take_unseen());
     report_repairs();
     report_backlog(now);
@@ -298,10 +311,30 @@ std::optional<Step> Service::oldest_step() const {
     return oldest;
 }
 
+// A state directory that was deleted. Files that could not be stored meanwhile are tried again.
+void Service::keep_state(SteadyTime now) {
+    if (parts_.state == nullptr || now < next_state_look_) return;
+    next_state_look_ = now + between_state_looks;
+    const std::optional<Status> made = parts_.state->look();
+    if (made && *made) {
+        log_warning({Event::state_mended}, "state directory {} was deleted: it is made again",
+                    printable(config_.state.native()));
+        status_file_.changed();
+    } else if (made && !state_lost_) {
+        log_error({Event::state_lost},
+                  "state directory {} was deleted, and cannot be made again: {}",
+                  printable(config_.state.native()), printable((*made).error().message));
+    }
+    state_lost_ = made && !*made;
+}
+
 void Service::publish(bool at_once) {
     const Pending pending = intake_.pending();
     if (pending != published_) status_file_.changed();
     published_ = pending;
+    const std::size_t directories = watcher_.directory_count();
+    if (directories != status_.facts().directories) status_file_.changed();
+    status_.set_directories(directories);
     if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
 }
@@ -323,7 +356,7 @@ void Service::report_backlog(SteadyTime now) {
         }
         is_behind_ = true;
     } else if (is_behind_ && wait < behind_after / 2) {
-        log_info({Event::caught_up}, "no longer behind: {} files wait", waiting);
+        log_info({Event::caught_up}, "no longer behind: {} waiting", counted(waiting, "file"));
         is_behind_ = false;
     }
 }
@@ -380,8 +413,8 @@ Stopped Service::stop() {
     }
     status_.set_state("stopped");
     publish(true);
-    log_info({Event::stopped}, "stopped: {} files ingested, {} left for the next start",
-             status_.ingested(), left);
+    log_info({Event::stopped}, "stopped: {} ingested, {} left for the next start",
+             counted(status_.ingested(), "file"), left);
     return Stopped::cleanly;
 }
 

@@ -2,7 +2,8 @@
 //
 // One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
 // in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start    scan the drop directory, queue what is there, then say READY
+//   start    scan the drop directory, queue what is there, then say READY; where it is not there or
+//            cannot be read, that is said, and all is taken when it can be
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
 // Loops are other programs, which end with the service (daemon/loop_keeper.h), unless a service of
@@ -29,6 +30,7 @@
 #include "daemon/reporter.h"
 #include "daemon/signals.h"
 #include "daemon/sink.h"
+#include "daemon/state_keeper.h"
 #include "daemon/status_board.h"
 #include "daemon/status_file.h"
 #include "daemon/wake_up.h"
@@ -48,11 +50,11 @@ struct ServiceParts {
     Clock clock = real_clock();
     bool keeps_loops = true;       // false: another process does (daemon/loops_service.h)
     StatusBoard* board = nullptr;  // none: the status is in its file alone
+    StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
 };
 
 enum class Stopped {
     cleanly,
-    at_start,   // the drop directory cannot be read
     with_jobs,  // jobs did not end in time: the process must be ended without waiting for them
 };
 
@@ -74,7 +76,7 @@ class Service {
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
-    bool start();
+    void start();
     void turn();
     void wait();
     Stopped stop();
@@ -83,13 +85,15 @@ class Service {
     void apply(const Config& fresh);
     void collect();
     void scan_if_due();
-    bool scan();
+    void scan();
+    void note_drop(const Status& scanned);
     void mark_missing();
     void start_jobs();
     void report_backlog(SteadyTime now);
     void keep_house();
     void report_repairs();
     void report_sites();
+    void keep_state(SteadyTime now);
     void publish(bool at_once);
     [[nodiscard]] std::optional<Step> oldest_step() const;
     [[nodiscard]] SteadyTime next_time() const;
@@ -114,7 +118,9 @@ class Service {
     // The earliest next scan, the regular one, and the next that looks for rows of missing files
     // when the regular ones are polls.
     SteadyTime rested_{}, next_scan_{}, next_rescan_{};
-    bool is_behind_ = false;  // and it stands in the log
+    SteadyTime next_state_look_{};
+    bool state_lost_ = false;  // and it stands in the log
+    bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;

@@ -64,6 +64,7 @@ void StationBook::add(const pipeline::IngestOutcome& outcome, std::optional<doub
 }
 
 void StationBook::add_data(const std::string& station, UtcTime at) {
+    if (station.empty()) return;
     if (StationState* state = find(station))
         state->data_at = std::max(state->data_at, std::optional{at});
 }

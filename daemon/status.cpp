@@ -36,18 +36,17 @@ void StatusBook::set_listening(std::filesystem::path socket, int http_port) {
     facts_.http_port = http_port;
 }
 
-void StatusBook::count_scan(std::size_t directories) {
-    ++facts_.scans;
-    facts_.directories = directories;
-}
-
-void StatusBook::add(const Finished& finished, UtcTime at) {
+bool StatusBook::add(const Finished& finished, UtcTime at) {
     if (!finished.taken) {
         ++facts_.failures;
         ++facts_.failed.at(index_of(finished.taken.error().code));
-        return;
+        return true;
     }
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
+    if (!rejected_.is_news(finished.job.path, outcome)) {
+        facts_.stations.add_data(outcome.station, at);
+        return false;
+    }
     ++facts_.results.at(index_of(outcome.result));
     facts_.living_left_out += outcome.living_left_out ? 1 : 0;
     facts_.given_up += outcome.given_up;
@@ -62,6 +61,7 @@ void StatusBook::add(const Finished& finished, UtcTime at) {
     if (!outcome.living.empty()) add_living(finished);
     if (outcome.result == IngestResult::gridded) add_ingested(finished, at);
     if (outcome.result == IngestResult::rejected) add_rejected(finished, at);
+    return true;
 }
 
 void StatusBook::add(pipeline::PairReport report) {
@@ -98,9 +98,11 @@ void StatusBook::add_rejected(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     const ErrorCode code = outcome.rejected_with.value_or(ErrorCode::internal);
     ++facts_.rejected.at(index_of(code));
+    std::string file = printable(finished.job.path.native());
+    std::erase_if(facts_.rejected_files, [&](const RejectedFile& one) { return one.file == file; });
     push_bounded(
         facts_.rejected_files,
-        RejectedFile{printable(finished.job.path.native()), printable(outcome.station),
+        RejectedFile{std::move(file), printable(outcome.station),
                      printable(outcome.reason.substr(0, longest_reason)), name_of(code), at});
 }
 
@@ -109,12 +111,14 @@ std::string StatusBook::json(const Pending& pending, UtcTime now) const {
 }
 
 std::string StatusBook::line(const Pending& pending) const {
+    const std::string lost =
+        facts_.drop_lost.empty() ? "" : fmt::format("drop directory {}; ", facts_.drop_lost);
     std::string latest;
     if (!facts_.volumes.empty()) {
         const RecentVolume& volume = facts_.volumes.back();
         latest = fmt::format(" (latest {} {})", volume.station, volume.time);
     }
-    return fmt::format("ingested {}{}, rejected {}, waiting {}, running {}, growing {}",
+    return fmt::format("{}ingested {}{}, rejected {}, waiting {}, running {}, growing {}", lost,
                        facts_.ingested, latest, facts_.results.at(index_of(IngestResult::rejected)),
                        pending.waiting, pending.running, pending.growing);
 }

@@ -19,6 +19,7 @@
 #include "base/utc_time.h"
 #include "cache/store.h"
 #include "daemon/loop_config.h"
+#include "daemon/rejected_paths.h"
 #include "daemon/station_book.h"
 #include "daemon/status_names.h"
 #include "daemon/timings.h"
@@ -48,6 +49,7 @@ struct RejectedFile {
 
 struct StatusFacts {
     std::filesystem::path drop, cache, socket;  // no socket: empty
+    std::string drop_lost;                      // why it cannot be read; empty: it can
     int http_port = 0;                          // none: 0
     UtcTime started = now_utc();
     std::string state = "starting";
@@ -64,12 +66,12 @@ struct StatusFacts {
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
     Timings close_to_cache{4096};
-    std::uint64_t living = 0;          // grids of volumes that had not ended, each time
-    Timings close_to_living{4096};     // of the chunk with which a sweep was complete
-    Timings antenna_to_cache{4096};    // of data that can have come live
-    std::uint64_t not_live = 0;        // volumes that it leaves out
-    std::deque<RecentVolume> volumes;  // the last 64, oldest first, as the next
-    std::deque<RejectedFile> rejected_files;
+    std::uint64_t living = 0;                 // grids of volumes that had not ended, each time
+    Timings close_to_living{4096};            // of the chunk with which a sweep was complete
+    Timings antenna_to_cache{4096};           // of data that can have come live
+    std::uint64_t not_live = 0;               // volumes that it leaves out
+    std::deque<RecentVolume> volumes;         // the last 64, oldest first, as the next
+    std::deque<RejectedFile> rejected_files;  // each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
 };
@@ -78,12 +80,15 @@ class StatusBook {
   public:
     StatusBook(std::filesystem::path drop, std::filesystem::path cache);
 
-    // `at`: when it ended, by the clock on the wall.
-    void add(const Finished& finished, UtcTime at = now_utc());
+    // `at`: when it ended, by the clock on the wall. False: the file was rejected before, for the
+    // same reason, and is not counted again.
+    bool add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
     void count_unseen(std::uint64_t count) { facts_.unseen += count; }
     void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
-    void count_scan(std::size_t directories);
+    void count_scan() { ++facts_.scans; }
+    void set_directories(std::size_t watched) { facts_.directories = watched; }
+    void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
     void set_state(std::string state) { facts_.state = std::move(state); }
     void set_listening(std::filesystem::path socket, int http_port);
     void add(pipeline::PairReport report);
@@ -94,7 +99,8 @@ class StatusBook {
 
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
-    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=.
+    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=. It
+    // begins with "drop directory DIR: WHY; " while that cannot be read.
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 
@@ -104,6 +110,7 @@ class StatusBook {
     void add_living(const Finished& finished);
 
     StatusFacts facts_;
+    RejectedPaths rejected_;
 };
 
 // The document and the STATUS= line of a process that keeps loops alone (daemon/loops_service.h):

@@ -185,6 +185,7 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"started", format_utc(facts.started)},
             {"updated", format_utc(now)},
             {"drop", printable(facts.drop.native())},
+            {"drop_lost", facts.drop_lost.empty() ? Json() : Json(facts.drop_lost)},
             {"cache", printable(facts.cache.native())},
             {"listening", listening_of(facts)},
             {"ingested", facts.ingested},

@@ -5,12 +5,14 @@
 //   state          "starting" | "running" | "stopping" | "stopped"
 //   pid, version, started, updated
 //   drop, cache    the directories (bytes that are not UTF-8 escaped)
+//   drop_lost      why the drop directory cannot be read (null: it can); it is looked at again
 //   listening      {"socket" (null: none),"http_port" (null: none)}: where it was told to answer
 //   ingested       files whose volumes were gridded, each time they were
 //   grids          grids committed to the cache
 //   living_grids   grids of volumes that had not ended, each time a sweep entered one
 //   partial        how many of `ingested` were of volumes that had not ended or were damaged
-//   rejected, no_moment, no_position, unchanged, vanished   files that ended so
+//   rejected, no_moment, no_position, unchanged, vanished   files that ended so; a rejected one
+//                  counts once for a reason, however often it is looked at
 //   rejected_by    {"corrupt": 3, ...}: what was wrong; only what occurred
 //   failures       attempts that failed because the catalog or the cache could not be written
 //   failures_by    {"no_space": 2, ...}
@@ -32,7 +34,7 @@
 //   volumes        the last 64 ingested files, oldest first: {"file","station","time","grids",
 //                  "latency_s" (null: not seen closing),"antenna_to_cache_s","read_s","decode_s",
 //                  "grid_s","commit_s"}
-//   rejected_files the last 64, oldest first: {"file","station","at","by","reason"}
+//   rejected_files the last 64, oldest first, each path once: {"file","station","at","by","reason"}
 //   stations       by name: {"station","volume_time","volume_age_s","newest_radial","ingested_at",
 //                  "ingested_age_s","data_at","data_age_s","gridded","partial","rejected",
 //                  "no_moment","no_position","latency_s","living_grids","sweep_latency_s",

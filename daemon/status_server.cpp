@@ -56,7 +56,8 @@ class StatusServer::Worker {
         std::function<Result<ListeningSocket>()> listen;
         bool may_lack = false;  // a machine without IPv6 is no error
         std::unique_ptr<HttpListener> listener = nullptr;
-        bool failing = false;  // said once, until it works again
+        bool failing = false;   // said once, until it works again
+        bool hopeless = false;  // not tried again
     };
     struct Page {
         ResponsePointer response{nullptr, &MHD_destroy_response};
@@ -94,7 +95,7 @@ StatusServer::Worker::Worker(StatusServerOptions options, Render render)
 }
 
 void StatusServer::Worker::open(Address& address) {
-    if (address.listener && address.listener->still_stands()) return;
+    if (address.hopeless || (address.listener && address.listener->still_stands())) return;
     address.listener.reset();
     Result<ListeningSocket> socket = address.listen();
     Status opened = socket ? Status{} : Status{pass_on(socket)};
@@ -111,10 +112,13 @@ void StatusServer::Worker::open(Address& address) {
     if (opened) {
         log_info({Event::status_answered}, "the status is answered at {}", printable(address.name));
     } else if (!address.failing) {
-        log_line(address.may_lack ? Severity::debug : Severity::error,
-                 {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
-                 fmt::format("the status cannot be asked for: {}; trying again",
-                             printable(opened.error().message)));
+        address.hopeless = opened.error().code == ErrorCode::bad_argument;
+        log_line(
+            address.may_lack ? Severity::debug : Severity::error,
+            {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
+            fmt::format(
+                "the status cannot be asked for: {}; {}", printable(opened.error().message),
+                address.hopeless ? "name another [status] socket and restart" : "trying again"));
     }
     address.failing = !opened;
 }

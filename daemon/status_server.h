@@ -6,10 +6,11 @@
 // Everything else is 404, 405 or 400; each answer ends its connection. HTTP itself is
 // libmicrohttpd's business.
 // One thread of its own, at a lower priority. Clients can be as hostile as they like: connections
-// are few and end after 10 seconds whatever they do, a request has at most a few KiB, and a page is
-// made at most five times a second. What cannot be opened is logged once and tried again; so is a
-// socket whose path somebody has removed.
-// Thread contract: any one thread makes and destroys it; `render` is called from its own thread.
+// are few and end after 10 seconds whatever they do, sooner where more come, a request has at most
+// a few KiB, and a page is made at most five times a second. What cannot be opened is logged once
+// and tried again; so is a socket whose path somebody has removed. A path that is too long for a
+// socket is said and left. Thread contract: any one thread makes and destroys it; `render` is
+// called from its own thread.
 #pragma once
 
 #include <atomic>

@@ -120,7 +120,8 @@ Status walk(const std::filesystem::path& root, const WalkVisitor& visitor, int d
         return {};
     }
     visitor.directory(root);
-    const DirectoryHandle directory = open_directory(AT_FDCWD, root.c_str());
+    const std::filesystem::path opened = depth == 0 ? root / "." : root;
+    const DirectoryHandle directory = open_directory(AT_FDCWD, opened.c_str());
     if (!directory) {
         const int error_number = errno;
         const ErrorCode code = error_number == ENOENT || error_number == ENOTDIR

@@ -30,7 +30,7 @@ struct WalkVisitor {
 };
 
 // Fails (not_found, permission, io) when the root itself cannot be read. `depth`: of the root below
-// the directory from which depth counts.
+// the directory from which depth counts; one of depth 0 may be a link itself.
 [[nodiscard]] Status walk(const std::filesystem::path& root, const WalkVisitor& visitor,
                           int depth = 0);
 

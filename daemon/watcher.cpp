@@ -61,7 +61,8 @@ void Watcher::look_for_silence(const std::filesystem::path& directory) {
 
 void Watcher::add_watch(const std::filesystem::path& directory) {
     look_for_silence(directory);
-    const Result<int> watch = events_.watch(directory);
+    // The drop directory itself may be reached through a link.
+    const Result<int> watch = events_.watch(directory == drop_ ? drop_ / "." : directory);
     if (!watch) {
         // One that went away meanwhile is no problem, and of one that may not be read the walk
         // says so.

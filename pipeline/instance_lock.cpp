@@ -26,7 +26,7 @@ std::string holder(int descriptor) {
 }  // namespace
 
 Result<InstanceLock> InstanceLock::acquire(const std::filesystem::path& state) {
-    const std::filesystem::path path = state / "stormcellard.lock";
+    const std::filesystem::path path = state / file_name;
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
     if (descriptor < 0) {
         return fail(errno == EACCES ? ErrorCode::permission : ErrorCode::io, "{}: {}",

@@ -11,6 +11,8 @@ namespace stormcellar::pipeline {
 // that happens) with the process id in it.
 class InstanceLock {
   public:
+    static constexpr const char* file_name = "stormcellard.lock";
+
     // bad_argument, with the process id, when another daemon holds it; io, permission.
     static Result<InstanceLock> acquire(const std::filesystem::path& state);
     InstanceLock(InstanceLock&& other) noexcept;

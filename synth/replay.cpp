@@ -88,7 +88,7 @@ class Player {
         for (const Arrival& arrival : arrivals_of(options_.faults, 0, items_.size())) {
             // One that comes behind the next comes at the next one's time.
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
-            if (!wait_until(due_s)) return {};
+            if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
             const auto bytes = read_file(item.source);
             if (!bytes) return pass_on(bytes);
@@ -114,7 +114,7 @@ class Player {
         while (!queue.empty()) {
             const Due due = queue.top();
             queue.pop();
-            if (!wait_until(due.seconds)) break;
+            if (!wait_until(due.seconds, due.item)) break;
             auto played = play_next(due.item);
             if (!played) {
                 return fail(played.error().code, "{}{}", played.error().message,
@@ -210,9 +210,11 @@ class Player {
     }
 
     // Looks at the flag ten times a second; false when it is set.
-    [[nodiscard]] bool wait_until(double seconds) const {
+    [[nodiscard]] bool wait_until(double seconds, std::size_t item) const {
         const auto end = begin_ + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(seconds));
+        const double wait_s = std::chrono::duration<double>(end - Clock::now()).count();
+        if (wait_s > long_wait_s && options_.waits) options_.waits(wait_s, items_[item].source);
         while (!stopped() && Clock::now() < end) {
             std::this_thread::sleep_until(
                 std::min(end, Clock::now() + std::chrono::milliseconds(100)));
@@ -233,6 +235,20 @@ class Player {
 };
 
 }  // namespace
+
+ReplayPlan plan_replay(const std::vector<ReplayItem>& items, const ReplayOptions& options) {
+    ReplayPlan plan;
+    plan.files = items.size();
+    for (const ReplayItem& item : items) {
+        if (!item.time) continue;
+        plan.first = std::min(plan.first.value_or(*item.time), *item.time);
+        plan.last = std::max(plan.last.value_or(*item.time), *item.time);
+    }
+    const bool whole = options.delivery == Delivery::whole;
+    for (const ReplayTurn& turn : turns_of(items, options))
+        plan.takes_s = std::max(plan.takes_s, turn.start_s + (whole ? 0 : turn.span_s));
+    return plan;
+}
 
 Result<ReplayReport> replay(const std::vector<ReplayItem>& items, const fs::path& drop,
                             FileSystem& file_system, const ReplayOptions& options) {

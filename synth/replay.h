@@ -67,7 +67,20 @@ struct ReplayOptions {
     FaultRates faults;
     const std::atomic<bool>* stop = nullptr;  // when set, the replay ends, between two pieces
     std::function<void(std::size_t done)> replayed;  // after each file
+    // Before each wait of more than `long_wait_s`: how long, and for the file of which source.
+    std::function<void(double seconds, const std::filesystem::path& source)> waits;
 };
+
+inline constexpr double long_wait_s = 10;
+
+// What a replay is going to do.
+struct ReplayPlan {
+    std::size_t files = 0;
+    std::optional<UtcTime> first, last;  // of the files' times; none where no file has one
+    double takes_s = 0;                  // but for the time that the work takes
+};
+[[nodiscard]] ReplayPlan plan_replay(const std::vector<ReplayItem>& items,
+                                     const ReplayOptions& options);
 
 // What was done wrong on purpose.
 struct FaultMade {

@@ -154,6 +154,14 @@ TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {
 }
 
 // Whoever answers may send anything: it is not obeyed by the terminal.
+TEST(StatusTable, SaysWhenTheDropDirectoryIsLost) {
+    const json status = {
+        {"drop", "/d"}, {"directories", 0U}, {"drop_lost", "/d: Permission denied"}};
+    EXPECT_NE(
+        status_table(status, now).find("drop     /d: 0 directories; LOST: /d: Permission denied\n"),
+        std::string::npos);
+}
+
 TEST(StatusTable, ControlCharactersAreNotPassedOn) {
     const json status = {{"state", "\x1b[2J"}, {"stations", {{{"station", "K\n\x07"}}}}};
     const std::string page = status_table(status, now);

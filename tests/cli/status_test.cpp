@@ -3,6 +3,7 @@
 #include <fstream>
 #include <thread>
 
+#include <grp.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -225,6 +226,17 @@ ErrorCode code_of_answer(const std::string& answer) {
     server.join();
     ::close(listening);
     return document ? ErrorCode::bad_argument : document.error().code;
+}
+
+TEST(AskSocket, WhoMayNotAskIsToldHowToBeLetIn) {
+    const testing::TemporaryDirectory directory;
+    write_file(directory / "s", "");
+    ASSERT_EQ(::chown((directory / "s").c_str(), static_cast<uid_t>(-1), ::getgid()), 0);
+    const std::string group = ::getgrgid(::getgid())->gr_name;
+    EXPECT_EQ(how_to_be_let_in(directory / "s"), "; members of the group " + group +
+                                                     " may ask: sudo usermod -aG " + group +
+                                                     " USER, then log in again");
+    EXPECT_EQ(how_to_be_let_in(directory / "none"), "");
 }
 
 TEST(AskSocket, WhoIsNoDaemonIsSeen) {

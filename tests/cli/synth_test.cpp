@@ -112,6 +112,9 @@ TEST_F(Synth, ReplayDeliversTheVolumes) {
         run({"replay", at("volumes"), at("drop"), "--as", "growing", "--interval", "0", "--json"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(nlohmann::json::parse(result.out)["files"], 2);
+    EXPECT_EQ(nlohmann::json::parse(result.out)["interrupted"], false);
+    EXPECT_THAT(result.err, HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to "
+                                      "2024-06-01T22:01:00Z, to be played in no time\n"));
     EXPECT_THAT(names_in(at("drop")), ElementsAre(first_volume, second_volume));
     for (const char* name : {first_volume, second_volume}) {
         EXPECT_EQ(fs::file_size(at("drop/") + name), fs::file_size(at("volumes/") + name));
@@ -169,6 +172,27 @@ TEST_F(Synth, ReplayNamesMistakes) {
     const auto faults = run({"replay", at("volumes"), drop, "--faults", "lose=1"});
     EXPECT_EQ(faults.status, 2);
     EXPECT_THAT(faults.err, HasSubstr("faults: there is no 'lose'"));
+}
+
+// 2026-11-22: it said nothing of how long it would take or wait, and printed no document.
+TEST_F(Synth, AReplayThatWaitsSaysSoAndAnInterruptedOneWhatWasDone) {
+    synthesise();
+    fs::create_directory(at("drop"));
+    testing::RunningProgram replay(
+        STORMCELLAR_PROGRAM, {"replay", at("volumes"), at("drop"), "--interval", "3600", "--json"});
+    ASSERT_TRUE(testing::RunningProgram::wait_for(
+        [&] { return replay.err().find("waiting") != std::string::npos; }));
+    EXPECT_EQ(replay.end(SIGINT), -SIGINT);
+    EXPECT_THAT(replay.err(),
+                HasSubstr("stormcellar: 2 files of 2024-06-01T22:00:00Z to 2024-06-01T22:01:00Z, "
+                          "to be played in 60 min (--speed N: faster; --interval S: "));
+    EXPECT_THAT(replay.err(), HasSubstr("stormcellar: waiting 60 min for " + at("volumes/") +
+                                        second_volume + "\n"));
+    EXPECT_THAT(replay.err(), HasSubstr("stormcellar: interrupted after 1 of 2 files\n"));
+    const auto report = nlohmann::json::parse(replay.out());
+    EXPECT_EQ(report["interrupted"], true);
+    EXPECT_EQ(report["files"], 1);
+    EXPECT_EQ(report["unfinished"], nlohmann::json::array());
 }
 
 TEST_F(Synth, AnInterruptedReplayNamesTheUnfinishedFile) {

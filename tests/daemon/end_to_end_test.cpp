@@ -212,7 +212,7 @@ TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
     EXPECT_EQ(daemon.terminate(), 0);
     fs::remove(daemon.drop() / "a");
     daemon.start(quick);
-    ASSERT_TRUE(daemon.wait_for_log("1 files went while nobody watched")) << daemon.log();
+    ASSERT_TRUE(daemon.wait_for_log("1 file went while nobody watched")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_EQ(rows(daemon, "KBGM").at(0).state, FileState::gone);
 }
@@ -330,6 +330,18 @@ TEST(EndToEnd, OneDaemonAStateDirectory) {
     EXPECT_EQ(daemon.terminate(), 0);
 }
 
+// It can never be had, so nothing is promised.
+TEST(EndToEnd, ASocketPathThatIsTooLongIsSaid) {
+    RunningDaemon daemon;
+    daemon.start({}, {{"RUNTIME_DIRECTORY", (daemon.root() / std::string(120, 's')).native()}});
+    EXPECT_TRUE(
+        daemon.wait_for_log(": a socket's path has 1 to 107 bytes; name another [status] "
+                            "socket and restart"))
+        << daemon.log();
+    EXPECT_EQ(daemon.log().find("trying again"), std::string::npos);
+    EXPECT_EQ(daemon.terminate(), 0);
+}
+
 TEST(EndToEnd, EndsAtOnceWhenKilledByInterrupt) {
     RunningDaemon daemon;
     daemon.start();
@@ -343,8 +355,17 @@ TEST(EndToEnd, EndsAtOnceWhenKilledByInterrupt) {
 TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
     const testing::TemporaryDirectory directory;
     EXPECT_EQ(testing::run_program(STORMCELLARD, {}).status, 2);
-    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--config"}).status, 2);
-    EXPECT_EQ(testing::run_program(STORMCELLARD, {"--config", "x", "more"}).status, 2);
+    const auto refused = [](const std::vector<std::string>& arguments, const std::string& why) {
+        const auto ran = testing::run_program(STORMCELLARD, arguments);
+        EXPECT_EQ(ran.status, 2);
+        EXPECT_TRUE(ran.err.starts_with("stormcellard: " + why + "\nusage: ")) << ran.err;
+    };
+    refused({"--config"}, "--config: no file is named");
+    refused({"--config", "x", "more"}, "more: there is no such option");
+    refused({"--bogus", "--config", "x"}, "--bogus: there is no such option");
+    refused({"--no-loops"}, "--config is needed");
+    refused({"--config", "x", "--loops-only", "--no-loops"},
+            "--no-loops and --loops-only exclude each other");
     EXPECT_EQ(testing::run_program(STORMCELLARD, {"--help"}).status, 0);
     EXPECT_TRUE(testing::run_program(STORMCELLARD, {"--version"}).out.starts_with("stormcellard "));
 
@@ -362,15 +383,38 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
                                    file.native()));
     const auto good = run("[paths]\ndrop = \"none\"\n", {"--check-config"});
     EXPECT_EQ(good.status, 0) << "the directories need not be there to be checked";
+    EXPECT_EQ(good.err, fmt::format("stormcellard: note: drop directory {}: No such file or "
+                                    "directory: the service waits for it\n",
+                                    (directory / "none").native()));
+    fs::create_directory(directory / "there");
+    EXPECT_EQ(run("[paths]\ndrop = \"there\"\n", {"--check-config"}).err, "");
     const auto unseen =
         run("[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\nscene = \"gone.toml\"\n",
             {"--check-config"});
     EXPECT_EQ(unseen.status, 1);
     EXPECT_NE(unseen.err.find("c.toml:5: [loop] scene: "), std::string::npos) << unseen.err;
-    const auto missing = run("[paths]\ndrop = \"none\"\nstate = \"s\"\ncache = \"c\"\n");
-    EXPECT_EQ(missing.status, 1);
-    EXPECT_NE(missing.err.find("the drop directory does not exist"), std::string::npos);
-    EXPECT_FALSE(fs::exists(directory / "s")) << "nothing is made when it cannot start";
+}
+
+// As with a spool that is mounted late.
+TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
+    STORMCELLAR_NEED_DATA();
+    const std::vector<fs::path> volumes =
+        sorted_files(*testing::data_directory() / "sequence-kbgm");
+    RunningDaemon daemon;
+    fs::remove(daemon.drop());
+    daemon.start("[watch]\nrescan_seconds = 1\n");
+    ASSERT_TRUE(daemon.wait_for_log("ready: waiting for " + daemon.drop().native() + ", "))
+        << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() +
+                                    ": No such file or directory; looking again every 1 s"));
+    ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["drop_lost"].is_string(); }));
+    fs::create_directory(daemon.drop());
+    fs::copy_file(volumes[0], daemon.drop() / "a");
+    ASSERT_TRUE(daemon.wait_for([](const json& s) {
+        return s["drop_lost"].is_null() && s["ingested"] == 1;
+    })) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() + " is back"));
+    EXPECT_EQ(daemon.terminate(), 0);
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST_F(HostileDrop, AGrowingFileWhoseDirectoryBecomesALinkIsNotReadOn) {
     ASSERT_EQ(::renameat2(AT_FDCWD, (drop() / "day").c_str(), AT_FDCWD, (drop() / "link").c_str(),
                           RENAME_EXCHANGE),
               0);
-    ASSERT_TRUE(was_said("1 files went while nobody watched"));
+    ASSERT_TRUE(was_said("1 file went while nobody watched"));
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_EQ(sweeps_known().count(3), 0U) << daemon_.log();
     EXPECT_EQ(facts_below(outside()), before);

@@ -102,6 +102,25 @@ TEST_F(LoopKeeperTest, AKilledLoopIsStartedAgain) {
     EXPECT_EQ(states_[0].last_problem, "signal 9");
 }
 
+// 2026-11-22: "signal 9: note: no grid ...; waiting for one" minutes after that note.
+TEST_F(LoopKeeperTest, AnOldLineIsNoReasonOfAnEnd) {
+    keep(program(
+        "echo 'note: waiting' >&2\nsleep 0.2\necho '{\"frames\": 3}'\nsleep 0.2\nexit 7\n"));
+    keeper_->set({loop("ktlx", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return !states_.empty() && !states_[0].last_problem.empty(); }));
+    EXPECT_EQ(states_[0].last_problem, "status 7");
+    keep(program(
+        std::string("echo 'note: waiting' >&2\ntouch " + (directory_ / "said").native() + "\n") +
+        for_ever));
+    states_.clear();
+    const std::size_t before = starts().size();
+    keeper_->set({loop("ktlx", "KTLX")});
+    ASSERT_TRUE(wait_for([&] { return fs::exists(directory_ / "said"); }));
+    ASSERT_EQ(::kill(process_of(starts().at(before)), SIGKILL), 0);
+    ASSERT_TRUE(wait_for([&] { return !states_.empty() && !states_[0].last_problem.empty(); }));
+    EXPECT_EQ(states_[0].last_problem, "signal 9");
+}
+
 TEST_F(LoopKeeperTest, OnlyWhatChangesIsStoppedAndStarted) {
     keep(program(for_ever));
     keeper_->set({loop("a", "AAAA"), loop("b", "BBBB"), loop("c", "CCCC")});

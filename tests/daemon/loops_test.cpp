@@ -81,6 +81,13 @@ TEST_F(Loops, AVolumeThatComesIsInTheLoop) {
         EXPECT_EQ(entry.path(), output()) << "was left behind";
 }
 
+TEST_F(Loops, ThatOneWaitsForItsFirstGridIsSaidOnce) {
+    daemon_.start(one_loop, with_program());
+    EXPECT_TRUE(daemon_.wait_for_log("loop binghamton: note: no grid of domain 'KBGM' is there"))
+        << daemon_.log();
+    EXPECT_EQ(daemon_.terminate(), 0) << daemon_.log();
+}
+
 TEST_F(Loops, IngestGoesOnWithoutTheProgram) {
     STORMCELLAR_NEED_DATA();
     daemon_.start(one_loop, {{"PATH", "/nowhere"}});
@@ -153,6 +160,19 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
     EXPECT_EQ(good.status, 0) << good.err;
     EXPECT_TRUE(good.out.ends_with("c.toml: ok\n")) << good.out;
     EXPECT_FALSE(fs::exists(directory / "gone")) << "nothing is made";
+    const std::string gone = (directory / "gone").native();
+    EXPECT_NE(good.err.find("stormcellard: note: [[loop]] a: " + gone +
+                            "/a.webp: there is no directory " + gone + " (yet)"),
+              std::string::npos)
+        << good.err;
+    EXPECT_EQ(good.err.find("neither a known station"), std::string::npos) << good.err;
+    const auto unknown = check("", "domain = \"nosuch\"\noutputs = [\"a.webp\", \"b/\"]\n", path);
+    EXPECT_EQ(unknown.status, 0);
+    EXPECT_NE(unknown.err.find("stormcellard: note: [[loop]] a: domain 'nosuch' is neither a known "
+                               "station nor a [[domain]]"),
+              std::string::npos)
+        << unknown.err;
+    EXPECT_EQ(unknown.err.find("no directory"), std::string::npos) << unknown.err;
 
     const auto refused = [&](const testing::ProgramResult& ran, const std::string& why) {
         EXPECT_EQ(ran.status, 1);

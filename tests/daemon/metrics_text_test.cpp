@@ -157,6 +157,7 @@ TEST(Metrics, SayWhatTheBookCounted) {
     expect("stormcellar_cache_budget_bytes", "", 5000);
     expect("stormcellar_cache_evicted_grids_total", "", 3);
     expect("stormcellar_stations", "", 2);
+    expect("stormcellar_last_data_age_seconds", "", 5);
     expect("stormcellar_station_last_volume_age_seconds", R"({station="KTLX"})", 20 * 60 - 522);
     expect("stormcellar_station_last_radial_age_seconds", R"({station="KTLX"})", 30);
     expect("stormcellar_station_last_ingest_age_seconds", R"({station="KTLX"})", 10);
@@ -170,6 +171,17 @@ TEST(Metrics, SayWhatTheBookCounted) {
         read_metrics(text)
             .at("stormcellar_station_last_ingest_age_seconds")
             .samples.contains(R"(stormcellar_station_last_ingest_age_seconds{station="KOUN"})"));
+}
+
+// 2026-11-22: where no file had come since the start, nothing told of the silence.
+TEST(Metrics, TheFeedsAgeCountsFromTheStartWhereNothingHasCome) {
+    StatusBook book("/d", "/c");
+    book.stations().add_known("KTLX", now, now);
+    StatusFacts facts = book.facts();
+    facts.started = now - std::chrono::seconds{1000};
+    EXPECT_DOUBLE_EQ(value_of(metrics_text(facts, {}, now), "stormcellar_last_data_age_seconds",
+                              "stormcellar_last_data_age_seconds"),
+                     1000);
 }
 
 // No file can make a line that is not one, nor more series than are remembered.

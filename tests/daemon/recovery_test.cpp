@@ -92,6 +92,25 @@ TEST_F(Recovery, ADeletedDatabaseIsFilledAgain) {
     EXPECT_EQ(rows().size(), 2U);
 }
 
+// 2026-11-22: nothing could be stored until a restart.
+TEST_F(Recovery, ADeletedStateDirectoryIsMadeAgain) {
+    put(first);
+    run_until_ingested(1);
+    fs::remove_all(daemon_.root() / "state");
+    put(second);
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 3; }))
+        << daemon_.log();
+    EXPECT_TRUE(daemon_.wait_for_log("state directory " + (daemon_.root() / "state").native() +
+                                     " was deleted: it is made again"));
+    EXPECT_TRUE(fs::exists(daemon_.root() / "state/stormcellard.lock"));
+    const fs::path socket = daemon_.root() / "state/status.sock";
+    for (int i = 0; i < 3000 && !fs::is_socket(socket); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    EXPECT_TRUE(fs::is_socket(socket));
+    EXPECT_EQ(daemon_.terminate(), 0);
+    EXPECT_EQ(rows().size(), 2U);
+}
+
 TEST_F(Recovery, AWipedCacheAndADamagedGridAreMadeAgainAtTheStart) {
     put(first);
     put(second);

@@ -238,12 +238,65 @@ TEST_F(ServiceTest, GoesOnWhenTheDropDirectoryVanishesAndReturns) {
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
-TEST_F(ServiceTest, AMissingDropDirectoryEndsTheStart) {
+// 2026-11-22: as of the last scan, a minute ago, it was.
+TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
+    config_.rescan = std::chrono::hours{1};
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    ASSERT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
+    fs::create_directories(config_.drop / "KTLX/494");
+    EXPECT_TRUE(wait_for([&] { return status()["directories"] == 3; }));
+    fs::remove_all(config_.drop / "KTLX");
+    EXPECT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
+}
+
+// 2026-11-22: a drop directory that was mounted late, or that a group was let into late, ended the
+// start, and systemd gave up after ten of them.
+TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
+    config_.rescan = std::chrono::milliseconds{200};
     fs::remove(config_.drop);
     start(always(IngestResult::gridded));
-    thread_.join();
-    EXPECT_EQ(stopped_, Stopped::at_start);
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    const std::string why = config_.drop.native() + ": No such file or directory";
+    EXPECT_TRUE(wait_for_message("STATUS=drop directory " + why + "; ingested 0"));
+    ASSERT_TRUE(wait_for([&] { return fs::exists(root_ / "state/status.json"); }));
+    EXPECT_EQ(status()["state"], "running");
+    EXPECT_EQ(status()["drop_lost"], why);
     EXPECT_FALSE(fs::exists(config_.drop)) << "it belongs to LDM, so it is not made";
+    EXPECT_EQ(sink_->missing_looks(), 0)
+        << "no file is gone because its directory is not there yet";
+    fs::create_directory(root_ / "made");
+    write_file(root_ / "made/a", "1");
+    fs::rename(root_ / "made", config_.drop);
+    EXPECT_TRUE(sink_->wait_for_calls(1));
+    write_file(config_.drop / "b", "1");
+    EXPECT_TRUE(sink_->wait_for_calls(2));
+    EXPECT_EQ(stop(), Stopped::cleanly);
+    EXPECT_TRUE(status()["drop_lost"].is_null());
+}
+
+// As /srv/drop -> /mnt/spool/nexrad2 where /mnt/spool is mounted later.
+TEST_F(ServiceTest, StartsBeforeWhatItsDropDirectoryLinksTo) {
+    config_.rescan = std::chrono::milliseconds{200};
+    fs::remove(config_.drop);
+    fs::create_directory_symlink(root_ / "spool", config_.drop);
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    fs::create_directory(root_ / "spool");
+    write_file(root_ / "spool/a", "1");
+    EXPECT_TRUE(sink_->wait_for_calls(1));
+    EXPECT_EQ(stop(), Stopped::cleanly);
+}
+
+TEST_F(ServiceTest, AFileInPlaceOfTheDropDirectoryIsWaitedOutToo) {
+    config_.rescan = std::chrono::milliseconds{200};
+    fs::remove(config_.drop);
+    write_file(config_.drop, "1");
+    start(always(IngestResult::gridded));
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    EXPECT_TRUE(
+        wait_for_message("STATUS=drop directory " + config_.drop.native() + ": Not a directory; "));
+    EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
 TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {

@@ -200,6 +200,20 @@ TEST_F(StatusServerTest, MoreConnectionsThanThereMayBeWaitTheirTurn) {
     EXPECT_TRUE(answers()) << "once the silent ones were cut off";
 }
 
+// 2026-11-22: until the silent ones were cut off, 10 s later, nobody was answered.
+TEST_F(StatusServerTest, SilentConnectionsMakeRoomForWhoAsks) {
+    StatusServerOptions options = quick();
+    options.longest_connection = std::chrono::hours{1};
+    const StatusServer server(options, render());
+    std::vector<StatusClient> many;
+    for (int i = 0; i < 24; ++i) {
+        many.push_back(StatusClient::at_path(path()));
+        many.back().send("GET /metr");
+    }
+    EXPECT_EQ(body_of(ask(get("/metrics"))), metrics_);
+    EXPECT_TRUE(many.front().read_to_end()) << "the oldest has gone";
+}
+
 TEST_F(StatusServerTest, BrokenRequestsAndHastyGoodbyesChangeNothing) {
     const StatusServer server(impatient(), render());
     for (const std::string& request :

@@ -61,8 +61,9 @@ TEST(StatusBook, CountsEachEnd) {
     failed.taken = fail(ErrorCode::io, "no");
     book.add(failed);
     book.count_overflow();
+    book.count_scan();
+    book.set_directories(3);
     book.count_unseen(2);
-    book.count_scan(3);
     book.set_longest_wait(7.5);
     Finished growing = finished("/d/g", IngestResult::incomplete, 1);
     growing.taken->ingest.living_left_out = true;
@@ -81,6 +82,7 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_EQ(status["vanished"], 1);
     EXPECT_EQ(status["failures"], 1);
     EXPECT_EQ(status["overflows"], 1);
+    EXPECT_EQ(status["scans"], 1);
     EXPECT_EQ(status["unseen"], 2);
     EXPECT_EQ(status["directories"], 3);
     EXPECT_EQ(
@@ -123,6 +125,31 @@ TEST(StatusBook, SaysWhatWasWrongWithTheLastRejectedFiles) {
     const auto reason = files.back()["reason"].get<std::string>();
     EXPECT_TRUE(reason.starts_with("bad\\x0amagicxx"));
     EXPECT_LT(reason.size(), 600U);
+}
+
+// 2026-11-22: a file that was no volume counted and stood in the list with each append.
+TEST(StatusBook, AFileThatIsRejectedAgainAndAgainCountsOnce) {
+    StatusBook book("/d", "/c");
+    const auto reject = [&](const std::string& path, const std::string& reason) {
+        Finished rejected = finished(path, IngestResult::rejected, 1);
+        rejected.taken->ingest.reason = reason;
+        rejected.taken->ingest.rejected_with = ErrorCode::not_level2;
+        return book.add(rejected);
+    };
+    EXPECT_TRUE(reject("/d/a", "not a Level II file"));
+    for (int i = 0; i < 15; ++i)
+        EXPECT_FALSE(reject("/d/a", "not a Level II file"));
+    EXPECT_TRUE(reject("/d/b", "not a Level II file"));
+    EXPECT_TRUE(reject("/d/a", "another reason"));
+    const auto status = nlohmann::json::parse(book.json({}, now_utc()));
+    EXPECT_EQ(status["rejected"], 3);
+    EXPECT_EQ(status["rejected_by"], nlohmann::json({{"not_level2", 3}}));
+    EXPECT_EQ(status["stations"][0]["rejected"], 3);
+    const auto files = status["rejected_files"];
+    ASSERT_EQ(files.size(), 2U);
+    EXPECT_EQ(files[0]["file"], "/d/b");
+    EXPECT_EQ(files[1]["file"], "/d/a");
+    EXPECT_EQ(files[1]["reason"], "another reason");
 }
 
 TEST(StatusBook, EachStationHasAgesLatenciesAndWhatIsMissing) {
@@ -247,6 +274,17 @@ TEST(StatusBook, LoopsAreSummedAndListed) {
     EXPECT_EQ(each[1]["last_made"], "2024-06-01T22:00:00Z");
     EXPECT_EQ(each[2]["running"], false);
     EXPECT_TRUE(each[2]["last_problem"].is_null());
+}
+
+TEST(StatusBook, ADropDirectoryThatIsLostIsNamedFirst) {
+    StatusBook book("/d", "/c");
+    EXPECT_TRUE(nlohmann::json::parse(book.json({}, now_utc()))["drop_lost"].is_null());
+    book.set_drop_lost("/d: Permission denied");
+    EXPECT_EQ(book.line({}),
+              "drop directory /d: Permission denied; ingested 0, rejected 0, "
+              "waiting 0, running 0, growing 0");
+    EXPECT_EQ(nlohmann::json::parse(book.json({}, now_utc()))["drop_lost"],
+              "/d: Permission denied");
 }
 
 TEST(StatusBook, TheLineNamesTheLatestVolume) {

@@ -102,6 +102,17 @@ TEST(TreeWalk, PathsThatNoCallTakesAreLeftOut) {
     EXPECT_EQ(seen->problems.size(), too_long ? 1U : 0U) << "said once of their directory";
 }
 
+TEST(TreeWalk, OnlyItsOwnRootMayBeALink) {
+    const testing::TemporaryDirectory directory;
+    fs::create_directory(directory / "real");
+    write_file(directory / "real/a", "1");
+    fs::create_directory_symlink(directory / "real", directory / "link");
+    const Result<Seen> seen = walked(directory / "link");
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->files, std::set<std::string>{"a"});
+    EXPECT_FALSE(walked(directory / "link", 1)) << "below the drop directory no link is followed";
+}
+
 TEST(TreeWalk, GivesTheStampOfAFile) {
     const testing::TemporaryDirectory directory;
     write_file(directory / "a", "12345");

@@ -302,6 +302,19 @@ class FakeEvents final : public EventSource {
     std::vector<DirectoryEvent> waiting;
 };
 
+// The drop directory is watched as "DIR/.", which may be reached through a link.
+TEST(Inotify, NamesADirectoryAsItIsCalled) {
+    const testing::TemporaryDirectory directory;
+    const auto events = open_inotify();
+    ASSERT_TRUE(events);
+    fs::create_directory_symlink(directory.path(), directory / "link");
+    EXPECT_TRUE((*events)->watch(directory / "link/."));
+    EXPECT_FALSE((*events)->watch(directory / "link"));
+    const auto none = (*events)->watch(directory / "none/.");
+    ASSERT_FALSE(none);
+    EXPECT_TRUE(none.error().message.starts_with((directory / "none").native() + ": "));
+}
+
 TEST(ForcedWatcher, SaysWhenTheKernelDroppedEvents) {
     const testing::TemporaryDirectory directory;
     FakeEvents events;

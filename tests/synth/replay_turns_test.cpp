@@ -57,6 +57,25 @@ TEST(ReplayTurns, AnIntervalPutsOneBehindTheOther) {
                 ElementsAre(Turn(0, 2), Turn(2, 2), Turn(4, 2)));
 }
 
+// 2026-11-22: a mixed archive waited for days without a word.
+TEST(ReplayPlan, SaysWhichTimesAndHowLong) {
+    const std::vector<ReplayItem> items = {item("KTLX", 0), item("KFTG", 100),
+                                           item("KTLX", 157'680'000), item("", {})};
+    ReplayOptions options;
+    options.speed = 400;
+    const ReplayPlan plan = plan_replay(items, options);
+    EXPECT_EQ(plan.files, 4U);
+    EXPECT_EQ(plan.first, items[0].time);
+    EXPECT_EQ(plan.last, items[2].time);
+    EXPECT_DOUBLE_EQ(plan.takes_s, 157'680'000 / 400.0);
+    options.delivery = Delivery::growing;
+    EXPECT_DOUBLE_EQ(plan_replay(items, options).takes_s, (157'680'000 + longest_volume_s) / 400.0);
+    options.interval_s = 2;
+    EXPECT_DOUBLE_EQ(plan_replay(items, options).takes_s, 8);
+    EXPECT_FALSE(plan_replay({item("", {})}, options).first);
+    EXPECT_EQ(plan_replay({}, options).takes_s, 0);
+}
+
 TEST(ReplayTurns, ChunksLieByStationAndNumberEachVolumeInItsOwn) {
     const auto targets = targets_of({item("KTLX", 0, 998), item("KFTG", 0, 998),
                                      item("KTLX", 9, 998), item("KTLX", 12, 998), item("KTLX", 20)},
