@@ -33,7 +33,7 @@ class OddStreams : public ::testing::TestWithParam<Path> {
     }
     Workspace workspace_;
 };
-INSTANTIATE_TEST_SUITE_P(EachPath, OddStreams, ::testing::ValuesIn(available_paths()), test_name);
+INSTANTIATE_TEST_SUITE_P(EachPath, OddStreams, ::testing::ValuesIn(available_kernels()), test_name);
 
 Bytes noise(std::size_t size, unsigned kinds, unsigned seed) {
     std::mt19937 random(seed);
@@ -44,7 +44,7 @@ Bytes noise(std::size_t size, unsigned kinds, unsigned seed) {
 }
 
 TEST_P(OddStreams, AllLevelsAndBlockEnds) {
-    for (int level = 1; level <= 9; ++level) {
+    for (const int level : {1, 2, 5, 9}) {
         const auto block = static_cast<std::size_t>(level) * 100'000;
         // bzip2 keeps 19 bytes of a block free.
         for (const std::size_t size : {block - 20, block - 19, block - 18, block, 2 * block + 7}) {
@@ -209,7 +209,7 @@ TEST_P(OddStreams, EveryCut) {
 }
 
 TEST_P(OddStreams, EveryChangedBit) {
-    const Bytes stream = compressed(noise(900, 20, 7), 1);
+    const Bytes stream = compressed(noise(400, 20, 7), 1);
     int corrupt = 0;
     for (std::size_t bit = 0; bit < stream.size() * 8; ++bit) {
         Bytes changed = stream;
@@ -223,7 +223,7 @@ TEST_P(OddStreams, EveryChangedBit) {
 TEST_P(OddStreams, WhateverComesOfAnyChoices) {
     std::mt19937 random(8);
     int whole = 0;
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < 500; ++round) {
         Bytes choices(1 + random() % 1200);
         for (std::byte& byte : choices)
             byte = static_cast<std::byte>(random());
@@ -231,7 +231,7 @@ TEST_P(OddStreams, WhateverComesOfAnyChoices) {
         whole += check(stream_from(choices), std::size_t{1} << 20) == End::whole ? 1 : 0;
         if (HasFailure()) FAIL() << "round " << round;
     }
-    EXPECT_GT(whole, 300);
+    EXPECT_GT(whole, 100);
 }
 
 }  // namespace

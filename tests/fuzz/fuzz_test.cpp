@@ -57,7 +57,7 @@ TEST(Fuzz, Compress) {
 }
 
 TEST(Fuzz, Bunzip) {
-    check_seeds(bunzip_seeds(), 200, check_bunzip,
+    check_seeds(bunzip_seeds(), 50, check_bunzip,
                 [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
                     return mutate(bytes, most);
                 });
