@@ -43,6 +43,7 @@ bunzip_status bunzip_decompress(bunzip_workspace* workspace, const void* in, std
 }
 
 int bunzip_use_path(const char* name) {
+    if (name == nullptr) return 0;
     const auto path = stormcellar::bunzip::path_named(name);
     return path && stormcellar::bunzip::set_usual_path(*path) ? 1 : 0;
 }

@@ -62,6 +62,7 @@ TEST_F(BunzipC, Paths) {
     EXPECT_STREQ(bunzip_path(), "libbz2");
     EXPECT_EQ(decompress(compressed(bytes_of("a banana"), 9), 20), BUNZIP_WHOLE);
     EXPECT_EQ(bunzip_use_path("abacus"), 0);
+    EXPECT_EQ(bunzip_use_path(nullptr), 0);
     EXPECT_STREQ(bunzip_path(), "libbz2");
     EXPECT_EQ(bunzip_use_path(before.c_str()), 1);
 }
