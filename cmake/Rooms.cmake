@@ -1,10 +1,12 @@
-# stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS])
+# stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]
+#                  [ALONE])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
 # Headers are included by their room, as in "level2/volume.h". The headers beside the sources are
-# installed with the library, unless it is a room's second one (WITHOUT_HEADERS).
+# installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
+# names no other and does not use fmt, so the common precompiled headers are not for it.
 function(stormcellar_room name)
-  cmake_parse_arguments(ARG "WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target stormcellar_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(stormcellar::${name} ALIAS ${target})
@@ -15,7 +17,7 @@ function(stormcellar_room name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(STORMCELLAR_PRECOMPILE)
+  if(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
     target_precompile_headers(${target} REUSE_FROM stormcellar_headers)
   endif()
   install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
