@@ -28,19 +28,6 @@ Result<std::string> name_asked_for(std::string_view station) {
                 station);
 }
 
-// The station that a path seems to belong to, as a first guess of where its row stands: by its
-// name, its directory's (KTLX/FILE) or the one's above (KTLX/123/CHUNK).
-std::string guessed_station(const fs::path& path) {
-    std::string name = path.filename().string().substr(0, 4);
-    if (is_icao(name)) return name;
-    const fs::path directory = path.parent_path();
-    for (const fs::path& above : {directory, directory.parent_path()}) {
-        name = above.filename().string();
-        if (is_icao(name)) return name;
-    }
-    return std::string{unknown_station};
-}
-
 // Of another station's database: whether it concerns a file of this one. A damaged, foreign or
 // missing database does not; it is named when its own station's files come, or when it is asked.
 bool is_ours_to_solve(const Error& error) {
@@ -94,7 +81,7 @@ Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) 
     if (home && (home->empty() || *home == name)) return {};
     Status outcome;
     bool is_alone = true;
-    const auto names = impl_->names();
+    const auto names = impl_->names_that_may_have(path);
     if (!names) outcome = pass_on(names);
     for (const std::string& other : names ? *names : std::vector<std::string>{}) {
         if (other == name) continue;
@@ -113,6 +100,7 @@ Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) 
 Status Catalog::note_file(const FileFacts& facts) {
     const std::string name = database_name(facts.station);
     const auto noted = impl_->with(name, true, [&](StationDatabase& database) {
+        impl_->expect_row(facts.path, name);
         if (!database.is_settled(facts.path, 0, 0)) database.register_file(facts);
         return true;
     });
@@ -129,8 +117,10 @@ Status Catalog::note_file(const FileFacts& facts) {
 
 Result<Registered> Catalog::register_file(const FileFacts& facts) {
     const std::string name = database_name(facts.station);
-    auto registered = impl_->with(
-        name, true, [&](StationDatabase& database) { return database.register_file(facts); });
+    auto registered = impl_->with(name, true, [&](StationDatabase& database) {
+        impl_->expect_row(facts.path, name);
+        return database.register_file(facts);
+    });
     if (!registered) return registered;
     // What stood there before may have been of another station, or of none that was known.
     if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
@@ -140,6 +130,8 @@ Result<Registered> Catalog::register_file(const FileFacts& facts) {
 Status Catalog::register_files(const std::string& station, const std::vector<FileFacts>& files) {
     const std::string name = database_name(station);
     const auto registered = impl_->with(name, true, [&](StationDatabase& database) {
+        for (const FileFacts& file : files)
+            impl_->expect_row(file.path, name);
         database.register_files(files);
         return true;
     });
@@ -153,8 +145,8 @@ Status Catalog::register_files(const std::string& station, const std::vector<Fil
 Result<int> Catalog::mark_gone(const fs::path& path) {
     const auto home = impl_->homes.of(path);
     if (home && home->empty()) return 0;
-    const auto names =
-        home ? Result<std::vector<std::string>>{std::vector<std::string>{*home}} : impl_->names();
+    const auto names = home ? Result<std::vector<std::string>>{std::vector<std::string>{*home}}
+                            : impl_->names_that_may_have(path);
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
@@ -202,13 +194,13 @@ Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uin
     };
     const auto home = impl_->homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
-    const std::string guess = home.value_or(guessed_station(path));
+    const std::string guess = home.value_or(guessed_home(path));
     auto guessed = impl_->with(guess, false, ask);
     if (guessed && guessed->has_value()) return guessed;
     if (!guessed && guessed.error().code != ErrorCode::not_found) return guessed;
     if (home) return std::optional<bool>{};
 
-    const auto names = impl_->names();
+    const auto names = impl_->names_that_may_have(path);
     if (!names) return pass_on(names);
     bool is_sure = true;
     for (const std::string& name : *names) {

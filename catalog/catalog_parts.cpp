@@ -34,6 +34,7 @@ Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
     const fs::path path = path_of(name);
     if (place.database && place.file != FileIdentity::of(path)) {
         place.database.reset();  // what we write there would be seen by nobody
+        is_listing_old_ = true;
         if (writing) note_repair({station_of(name), path, {}, "was deleted or replaced"});
     }
     if (place.database) return {};
@@ -50,6 +51,8 @@ Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
     if (!opened) return pass_on(opened);
     place.database = std::move(*opened);
     place.file = FileIdentity::of(path);
+    place.is_without_strays = false;
+    is_listing_old_ = true;
     return {};
 }
 
@@ -79,6 +82,39 @@ Result<std::vector<std::string>> Catalog::Impl::names() const {
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
     std::sort(found.begin(), found.end());
     return found;
+}
+
+Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::path& path) {
+    if (!writing) return names();
+    std::vector<std::string> found;
+    {
+        const std::scoped_lock lock(listed_mutex_);
+        if (is_listing_old_.exchange(false) || !listed_) {
+            auto now = names();
+            if (!now) {
+                is_listing_old_ = true;
+                return now;
+            }
+            listed_ = std::move(*now);
+        }
+        found = *listed_;
+    }
+    const std::string home = guessed_home(path);
+    std::erase_if(found,
+                  [&](const std::string& name) { return name != home && !may_have_strays(name); });
+    return found;
+}
+
+bool Catalog::Impl::may_have_strays(const std::string& name) {
+    Slot& place = slot(name);
+    if (place.is_without_strays) return false;
+    const auto found = with(name, false, [&](StationDatabase& database) {
+        const bool has_one =
+            database.has_path([&](const fs::path& path) { return guessed_home(path) != name; });
+        place.is_without_strays = !has_one;
+        return has_one;
+    });
+    return !found || *found;  // one that cannot be looked at may
 }
 
 }  // namespace stormcellar::catalog

@@ -5,10 +5,12 @@
 // at a time.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,7 +24,6 @@
 
 namespace stormcellar::catalog {
 
-inline constexpr std::string_view unknown_station = "_unknown";
 inline constexpr std::string_view database_ending = ".sqlite";
 
 // Of a database's name; empty: of files whose station is not known.
@@ -42,6 +43,8 @@ struct Catalog::Impl {
         std::mutex mutex;  // guards what follows
         std::unique_ptr<StationDatabase> database;
         FileIdentity file;
+        // No row of it is a stray; written under the mutex, read without.
+        std::atomic<bool> is_without_strays = false;
     };
 
     std::filesystem::path directory;
@@ -105,6 +108,24 @@ struct Catalog::Impl {
 
     // The names of all databases in the directory, sorted.
     [[nodiscard]] Result<std::vector<std::string>> names() const;
+
+    // The names of those that may have a row of the path. A row in another database than
+    // guessed_home() says is a stray: of a file that is named like one station and holds another's,
+    // or none's. A writer, who sees all that is written, knows which databases have any: few, so a
+    // new file is not looked for in every station's.
+    [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
+        const std::filesystem::path& path);
+    // Called before the row is written, with the slot's mutex held.
+    void expect_row(const std::filesystem::path& path, const std::string& name) {
+        if (guessed_home(path) != name) slot(name).is_without_strays = false;
+    }
+
+  private:
+    [[nodiscard]] bool may_have_strays(const std::string& name);
+    // What names() gave, until a database is opened or found to have gone. Of a writer.
+    std::mutex listed_mutex_;
+    std::optional<std::vector<std::string>> listed_;
+    std::atomic<bool> is_listing_old_ = false;
 };
 
 }  // namespace stormcellar::catalog

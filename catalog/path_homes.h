@@ -1,7 +1,7 @@
-// catalog/path_homes.h -- which database alone may have a row of a path, of the paths that were
-// looked at last.
+// catalog/path_homes.h -- which database a path's row is likely to stand in, and which alone may
+// have it, of the paths that were looked at last.
 //
-// A new file is looked for in the databases of all stations, and should be once. Two paths with the
+// Each is asked for several times, and should be looked for once. Two paths with the
 // same 64-bit hash would be one: among 65,536 the odds are 1 in 9 billion. Used by Catalog alone.
 // Thread contract: any thread.
 #pragma once
@@ -13,12 +13,20 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "base/checksum.h"
 
 namespace stormcellar::catalog {
+
+// The database of files whose station is not known.
+inline constexpr std::string_view unknown_station = "_unknown";
+
+// The station that a path seems to belong to: by its name, its directory's (KTLX/FILE) or the one's
+// above (KTLX/123/CHUNK); else unknown_station.
+[[nodiscard]] std::string guessed_home(const std::filesystem::path& path);
 
 class PathHomes {
   public:

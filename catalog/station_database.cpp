@@ -49,53 +49,56 @@ constexpr const char* entry_join =
 
 }  // namespace
 
+LentStatement StationDatabase::prepared(const char* sql) {
+    return LentStatement(statements_.try_emplace(sql, database_, sql).first->second);
+}
+
 std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
                                            const VolumeFacts& facts) {
     const std::int64_t start = *milliseconds(facts.start_time);
     // The same volume in a file with the same contents is the same volume.
-    SQLite::Statement same(database_,
-                           "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
-                           "JOIN file f ON f.id = p.file_id "
-                           "WHERE v.start_ms = ? AND ifnull(v.number, -1) = ? "
-                           "AND f.content_hash = ? AND f.id <> ?");
-    same.bind(1, start);
-    same.bind(2, facts.volume_number.value_or(-1));
-    same.bind(3, static_cast<std::int64_t>(content_hash));
-    same.bind(4, file_id);
-    if (same.executeStep()) return same.getColumn(0).getInt64();
+    LentStatement same = prepared(
+        "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
+        "JOIN file f ON f.id = p.file_id "
+        "WHERE v.start_ms = ? AND ifnull(v.number, -1) = ? "
+        "AND f.content_hash = ? AND f.id <> ?");
+    same->bind(1, start);
+    same->bind(2, facts.volume_number.value_or(-1));
+    same->bind(3, static_cast<std::int64_t>(content_hash));
+    same->bind(4, file_id);
+    if (same->executeStep()) return same->getColumn(0).getInt64();
 
-    SQLite::Statement next(database_,
-                           "SELECT ifnull(max(generation) + 1, 0) FROM volume "
-                           "WHERE start_ms = ? AND ifnull(number, -1) = ?");
-    next.bind(1, start);
-    next.bind(2, facts.volume_number.value_or(-1));
-    next.executeStep();
-    return insert_volume(facts, next.getColumn(0).getInt());
+    LentStatement next = prepared(
+        "SELECT ifnull(max(generation) + 1, 0) FROM volume "
+        "WHERE start_ms = ? AND ifnull(number, -1) = ?");
+    next->bind(1, start);
+    next->bind(2, facts.volume_number.value_or(-1));
+    next->executeStep();
+    return insert_volume(facts, next->getColumn(0).getInt());
 }
 
 std::int64_t StationDatabase::insert_volume(const VolumeFacts& facts, int generation) {
-    SQLite::Statement insert(
-        database_,
+    LentStatement insert = prepared(
         "INSERT INTO volume (start_ms, end_ms, number, generation, vcp, sweep_count, "
         "radial_count, complete) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-    insert.bind(1, *milliseconds(facts.start_time));
-    bind_optional(insert, 2, milliseconds(facts.end_time));
-    bind_optional(insert, 3, facts.volume_number);
-    insert.bind(4, generation);
-    bind_optional(insert, 5, facts.vcp);
-    insert.bind(6, facts.sweep_count);
-    insert.bind(7, facts.radial_count);
-    insert.bind(8, facts.complete ? 1 : 0);
-    insert.exec();
+    insert->bind(1, *milliseconds(facts.start_time));
+    bind_optional(*insert, 2, milliseconds(facts.end_time));
+    bind_optional(*insert, 3, facts.volume_number);
+    insert->bind(4, generation);
+    bind_optional(*insert, 5, facts.vcp);
+    insert->bind(6, facts.sweep_count);
+    insert->bind(7, facts.radial_count);
+    insert->bind(8, facts.complete ? 1 : 0);
+    insert->exec();
     return database_.getLastInsertRowid();
 }
 
 void StationDatabase::insert_part(std::int64_t file_id, int ordinal, std::int64_t volume_id) {
-    SQLite::Statement part(database_, "INSERT INTO part VALUES (?, ?, ?)");
-    part.bind(1, file_id);
-    part.bind(2, ordinal);
-    part.bind(3, volume_id);
-    part.exec();
+    LentStatement part = prepared("INSERT INTO part VALUES (?, ?, ?)");
+    part->bind(1, file_id);
+    part->bind(2, ordinal);
+    part->bind(3, volume_id);
+    part->exec();
 }
 
 // What was settled survives a power cut: the file may be gone when we look again. A sync takes
@@ -123,50 +126,74 @@ void StationDatabase::register_files(const std::vector<FileFacts>& files) {
 }
 
 // Inside a transaction.
-Registered StationDatabase::register_row(const FileFacts& facts) {
-    SQLite::Statement known(database_,
-                            "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
-                            "FROM file WHERE path = ?");
-    bind_path(known, 1, facts.path);
-    const bool exists = known.executeStep();
-    if (exists && known.getColumn(1).getInt64() == static_cast<std::int64_t>(facts.size_bytes) &&
-        known.getColumn(2).getInt64() == facts.modified_ns &&
-        known.getColumn(3).getInt64() == static_cast<std::int64_t>(facts.content_hash) &&
-        known.getColumn(4).getString() == file_state_name(facts.state) &&
-        known.getColumn(5).getString() == facts.reason) {
-        return Registered::unchanged;
-    }
+std::optional<std::int64_t> StationDatabase::find_file(const FileFacts& facts, bool& is_same) {
+    LentStatement known = prepared(
+        "SELECT id, size_bytes, modified_ns, content_hash, state, reason "
+        "FROM file WHERE path = ?");
+    bind_path(*known, 1, facts.path);
+    if (!known->executeStep()) return std::nullopt;
+    is_same = known->getColumn(1).getInt64() == static_cast<std::int64_t>(facts.size_bytes) &&
+              known->getColumn(2).getInt64() == facts.modified_ns &&
+              known->getColumn(3).getInt64() == static_cast<std::int64_t>(facts.content_hash) &&
+              known->getColumn(4).getString() == file_state_name(facts.state) &&
+              known->getColumn(5).getString() == facts.reason;
+    return known->getColumn(0).getInt64();
+}
 
-    SQLite::Statement file(
-        database_,
+std::int64_t StationDatabase::write_file(const FileFacts& facts) {
+    LentStatement file = prepared(
         "INSERT INTO file (path, size_bytes, modified_ns, content_hash, state, reason, "
         "registered_ms) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (path) DO UPDATE SET "
         "size_bytes = excluded.size_bytes, modified_ns = excluded.modified_ns, "
         "content_hash = excluded.content_hash, state = excluded.state, reason = excluded.reason "
         "RETURNING id");
-    bind_path(file, 1, facts.path);
-    file.bind(2, static_cast<std::int64_t>(facts.size_bytes));
-    file.bind(3, facts.modified_ns);
-    file.bind(4, static_cast<std::int64_t>(facts.content_hash));
-    file.bind(5, std::string{file_state_name(facts.state)});
-    file.bind(6, facts.reason);
-    file.bind(7, now_utc().time_since_epoch().count());
-    file.executeStep();
-    const std::int64_t file_id = file.getColumn(0).getInt64();
-    file.reset();
+    bind_path(*file, 1, facts.path);
+    file->bind(2, static_cast<std::int64_t>(facts.size_bytes));
+    file->bind(3, facts.modified_ns);
+    file->bind(4, static_cast<std::int64_t>(facts.content_hash));
+    file->bind(5, std::string{file_state_name(facts.state)});
+    file->bind(6, facts.reason);
+    file->bind(7, now_utc().time_since_epoch().count());
+    file->executeStep();
+    return file->getColumn(0).getInt64();
+}
 
+// Its parts, and the volumes that are in no other file.
+void StationDatabase::drop_volumes(std::int64_t file_id) {
+    std::vector<std::int64_t> volumes;
+    {
+        LentStatement held = prepared("SELECT volume_id FROM part WHERE file_id = ?");
+        held->bind(1, file_id);
+        while (held->executeStep())
+            volumes.push_back(held->getColumn(0).getInt64());
+    }
+    if (volumes.empty()) return;
+    LentStatement drop = prepared("DELETE FROM part WHERE file_id = ?");
+    drop->bind(1, file_id);
+    drop->exec();
+    for (const std::int64_t volume : volumes) {
+        LentStatement unheld = prepared(
+            "DELETE FROM volume WHERE id = ?1 AND NOT EXISTS "
+            "(SELECT 1 FROM part WHERE volume_id = ?1)");
+        unheld->bind(1, volume);
+        unheld->exec();
+    }
+}
+
+// Inside a transaction.
+Registered StationDatabase::register_row(const FileFacts& facts) {
+    bool is_same = false;
+    const std::optional<std::int64_t> known = find_file(facts, is_same);
+    if (is_same) return Registered::unchanged;
+    const std::int64_t file_id = write_file(facts);
     // The file's volumes are described anew: a growing file must not become its own re-send.
-    SQLite::Statement drop_parts(database_, "DELETE FROM part WHERE file_id = ?");
-    drop_parts.bind(1, file_id);
-    drop_parts.exec();
-    database_.exec("DELETE FROM volume WHERE id NOT IN (SELECT volume_id FROM part)");
-
+    if (known) drop_volumes(file_id);
     int ordinal = 0;
     for (const VolumeFacts& volume : facts.volumes) {
         if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
         insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }
-    return exists ? Registered::updated : Registered::added;
+    return known ? Registered::updated : Registered::added;
 }
 
 std::int64_t StationDatabase::restore_volume(const SalvagedVolume& volume) {
@@ -231,36 +258,40 @@ std::vector<fs::path> StationDatabase::paths_below(const fs::path& directory) {
 }
 
 void StationDatabase::forget(const fs::path& path) {
-    SQLite::Statement known(database_, "SELECT 1 FROM file WHERE path = ?");
-    bind_path(known, 1, path);
-    if (!known.executeStep()) return;
-    known.reset();
+    std::int64_t file_id = 0;
+    {
+        LentStatement known = prepared("SELECT id FROM file WHERE path = ?");
+        bind_path(*known, 1, path);
+        if (!known->executeStep()) return;
+        file_id = known->getColumn(0).getInt64();
+    }
     set_durable(true);
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
-    SQLite::Statement remove(database_, "DELETE FROM file WHERE path = ?");
-    bind_path(remove, 1, path);
-    if (remove.exec() > 0) {
-        database_.exec("DELETE FROM volume WHERE id NOT IN (SELECT volume_id FROM part)");
-    }
+    drop_volumes(file_id);
+    LentStatement remove = prepared("DELETE FROM file WHERE path = ?");
+    bind_path(*remove, 1, path);
+    remove->exec();
     transaction.commit();
+}
+
+bool StationDatabase::has_path(const std::function<bool(const fs::path&)>& test) {
+    SQLite::Statement rows(database_, "SELECT path FROM file");
+    while (rows.executeStep()) {
+        if (test(rows.getColumn(0).getString())) return true;
+    }
+    return false;
 }
 
 std::optional<bool> StationDatabase::is_settled(const fs::path& path, std::uint64_t size_bytes,
                                                 std::int64_t modified_ns) {
-    if (!settled_) {
-        settled_.emplace(database_,
-                         "SELECT size_bytes = ? AND modified_ns = ? AND "
-                         "state IN ('complete', 'partial', 'rejected') FROM file WHERE path = ?");
-    }
-    SQLite::Statement& row = *settled_;
-    (void)row.tryReset();  // it may have failed the last time
-    row.bind(1, static_cast<std::int64_t>(size_bytes));
-    row.bind(2, modified_ns);
-    bind_path(row, 3, path);
-    std::optional<bool> settled;
-    if (row.executeStep()) settled = row.getColumn(0).getInt() != 0;
-    (void)row.tryReset();  // or it would keep a reader's lock
-    return settled;
+    LentStatement row = prepared(
+        "SELECT size_bytes = ? AND modified_ns = ? AND "
+        "state IN ('complete', 'partial', 'rejected') FROM file WHERE path = ?");
+    row->bind(1, static_cast<std::int64_t>(size_bytes));
+    row->bind(2, modified_ns);
+    bind_path(*row, 3, path);
+    if (!row->executeStep()) return std::nullopt;
+    return row->getColumn(0).getInt() != 0;
 }
 
 StationSummary StationDatabase::summary() {

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +22,24 @@ namespace stormcellar::catalog {
 // What an SQLite failure is to a caller. Every statement of ours fits a sound database and breaks
 // no constraint of it, so one that does not was met in a damaged one.
 [[nodiscard]] ErrorCode code_of(const SQLite::Exception& error);
+
+// A statement that is kept for the next time, lent. Given back it keeps no lock and no values.
+class LentStatement {
+  public:
+    explicit LentStatement(SQLite::Statement& statement) : statement_(statement) {}
+    ~LentStatement() {
+        (void)statement_.tryReset();
+        statement_.clearBindings();
+    }
+    LentStatement(const LentStatement&) = delete;
+    LentStatement& operator=(const LentStatement&) = delete;
+
+    SQLite::Statement& operator*() { return statement_; }
+    SQLite::Statement* operator->() { return &statement_; }
+
+  private:
+    SQLite::Statement& statement_;
+};
 
 class StationDatabase {
   public:
@@ -49,6 +69,8 @@ class StationDatabase {
     // Of the rows that are not gone.
     std::vector<std::filesystem::path> paths_below(const std::filesystem::path& directory);
     void forget(const std::filesystem::path& path);
+    // Whether there is a row, in any state, of a path that `test` is true of. Reads all rows.
+    bool has_path(const std::function<bool(const std::filesystem::path&)>& test);
     // None when the path has no row.
     std::optional<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                                    std::int64_t modified_ns);
@@ -60,8 +82,14 @@ class StationDatabase {
   private:
     StationDatabase(const std::string& uri, int flags, std::string station);
 
+    // The statement of that text, which has to live as long as the program.
+    LentStatement prepared(const char* sql);
     void set_durable(bool durable);
     Registered register_row(const FileFacts& facts);
+    // The id of its row; is_same is set where the row says the same already.
+    std::optional<std::int64_t> find_file(const FileFacts& facts, bool& is_same);
+    std::int64_t write_file(const FileFacts& facts);
+    void drop_volumes(std::int64_t file_id);
     std::int64_t restore_volume(const SalvagedVolume& volume);
     std::int64_t insert_volume(const VolumeFacts& facts, int generation);
     void insert_part(std::int64_t file_id, int ordinal, std::int64_t volume_id);
@@ -71,7 +99,7 @@ class StationDatabase {
 
     SQLite::Database database_;
     std::string station_;
-    std::optional<SQLite::Statement> settled_;  // asked of every station for each new file
+    std::map<const char*, SQLite::Statement> statements_;
     bool is_snapshot_ = false;
     bool is_durable_ = true;  // of the next transaction, where it may write
 };

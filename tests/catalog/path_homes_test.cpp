@@ -1,0 +1,84 @@
+// Where a file's row is looked for: in few databases, and never in too few.
+#include "catalog/path_homes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/catalog/catalog_fixture.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+TEST(GuessedHome, IsTheStationOfTheNameOrOfTheTwoDirectoriesAbove) {
+    EXPECT_EQ(guessed_home("/d/KTLX20220317_000000_V06"), "KTLX");
+    EXPECT_EQ(guessed_home("/d/KTLX/20220317"), "KTLX");
+    EXPECT_EQ(guessed_home("/d/KTLX/123/20220317-000000-001-S"), "KTLX");
+    EXPECT_EQ(guessed_home("/d/KTLX/KOUN/123/chunk"), "KOUN");
+    EXPECT_EQ(guessed_home("/KTLX/d/123/chunk"), unknown_station);
+    EXPECT_EQ(guessed_home("/d/KTLXES/chunk"), unknown_station);
+    EXPECT_EQ(guessed_home("chunk"), unknown_station);
+    EXPECT_EQ(guessed_home("KTLX"), "KTLX");
+    EXPECT_EQ(guessed_home(""), unknown_station);
+}
+
+// More paths than are remembered, so that what is known of the ones before is forgotten.
+void forget_homes(Catalog& catalog) {
+    for (int path = 0; path < 70'000; ++path)
+        ASSERT_FALSE(*catalog.is_known("/other/" + std::to_string(path)));
+}
+
+TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
+    ASSERT_TRUE(catalog_.register_file(file("/d/KTLX_a", {}, "KTLX")));
+    EXPECT_FALSE(*catalog_.is_known("/d/b")) << "by now no database has a stray";
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
+    ASSERT_TRUE(catalog_.register_files("KTLX", {file("/d/KOUN_c", {}, "KTLX")}));
+    forget_homes(catalog_);
+    for (const char* path : {"/d/KOUN_a", "/d/KTLX_a", "/d/KOUN_b", "/d/KOUN_c"})
+        EXPECT_TRUE(*catalog_.is_settled(path, 1000, 42)) << path;
+
+    // Rewritten as a file of the station that it is named like, it leaves the other's database.
+    catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KOUN")));
+    EXPECT_EQ(catalog_.list("KTLX", {{}, {}, true})->size(), 2U);
+    EXPECT_EQ(catalog_.list("KOUN", {{}, {}, true})->size(), 2U);
+    catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_c"), 1);
+}
+
+TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundAfterARestart) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_c", {}, "")));
+    catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    EXPECT_TRUE(*catalog_.is_known("/d/KOUN_b"));
+    EXPECT_TRUE(*catalog_.is_known("/d/KOUN_c"));
+    EXPECT_FALSE(*catalog_.is_known("/d/KOUN_d"));
+}
+
+TEST_F(CatalogTest, AStationThatIsNewSinceTheDatabasesWereListedIsAsked) {
+    EXPECT_FALSE(*catalog_.is_known("/d/a"));
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KTLX")));
+    forget_homes(catalog_);
+    EXPECT_TRUE(*catalog_.is_known("/d/KOUN_a"));
+}
+
+// The same volume twice with the same contents is one volume, as long as any file holds it.
+TEST_F(CatalogTest, AVolumeStaysWhileAnotherFileHoldsIt) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
+    ASSERT_TRUE(catalog_.register_file(file("/d/b", {volume("2022-03-17T00:00")})));
+    EXPECT_EQ(catalog_.stations()->front().volume_count, 1);
+    FileFacts rewritten = file("/d/a", {volume("2022-03-17T01:00")});
+    rewritten.content_hash = 3;
+    ASSERT_TRUE(catalog_.register_file(rewritten));
+    EXPECT_EQ(catalog_.stations()->front().volume_count, 2);
+    ASSERT_TRUE(catalog_.register_file(file("/d/b", {}, "KOUN")));
+    const auto entries = catalog_.list("KTLX", {}).value();
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_EQ(entries[0].path, "/d/a");
+    EXPECT_EQ(*entries[0].volume.start_time, at("2022-03-17T01:00"));
+    const auto stations = catalog_.stations().value();
+    for (const StationSummary& station : stations)
+        EXPECT_EQ(station.volume_count, station.station == "KTLX" ? 1 : 0) << station.station;
+}
+
+}  // namespace
+}  // namespace stormcellar::catalog
