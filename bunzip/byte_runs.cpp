@@ -12,6 +12,8 @@
 // After foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
+#include "bunzip/kernels-inl.h"
+
 #ifndef STORMCELLAR_BUNZIP_BYTE_RUNS_ONCE
 #define STORMCELLAR_BUNZIP_BYTE_RUNS_ONCE
 namespace stormcellar::bunzip {
@@ -330,14 +332,9 @@ ByteRun last_run(RunMaker& maker) {
 }
 
 MakeRuns make_runs_by(Path path) {
-#if HWY_TARGETS & HWY_AVX3_DL
-    if (path == Path::avx512) return N_AVX3_DL::make_runs;
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    if (path == Path::avx2) return N_AVX2::make_runs;
-#endif
-    static_cast<void>(path);
-    return make_runs_plainly;
+    return Kernels<MakeRuns>{make_runs_plainly, STORMCELLAR_BUNZIP_AVX2(make_runs),
+                             STORMCELLAR_BUNZIP_AVX512(make_runs)}
+        .of(path);
 }
 
 }  // namespace stormcellar::bunzip

@@ -12,6 +12,8 @@
 // After foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
+#include "bunzip/kernels-inl.h"
+
 #ifndef STORMCELLAR_BUNZIP_CHECKSUM_ONCE
 #define STORMCELLAR_BUNZIP_CHECKSUM_ONCE
 namespace stormcellar::bunzip {
@@ -117,14 +119,9 @@ HWY_AFTER_NAMESPACE();
 namespace stormcellar::bunzip {
 
 Checksum checksum_by(Path path) {
-#if HWY_TARGETS & HWY_AVX2
-    if (path == Path::avx2) return N_AVX2::checksum;
-#endif
-#if HWY_TARGETS & HWY_AVX3_DL
-    if (path == Path::avx512) return N_AVX3_DL::checksum;
-#endif
-    static_cast<void>(path);
-    return checksum_plainly;
+    return Kernels<Checksum>{checksum_plainly, STORMCELLAR_BUNZIP_AVX2(checksum),
+                             STORMCELLAR_BUNZIP_AVX512(checksum)}
+        .of(path);
 }
 
 }  // namespace stormcellar::bunzip

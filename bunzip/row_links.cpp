@@ -10,6 +10,8 @@
 // After foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
+#include "bunzip/kernels-inl.h"
+
 #ifndef STORMCELLAR_BUNZIP_ROW_LINKS_ONCE
 #define STORMCELLAR_BUNZIP_ROW_LINKS_ONCE
 namespace stormcellar::bunzip {
@@ -84,11 +86,8 @@ void link_rows_plainly(std::span<const ByteRun> runs, const std::array<std::uint
 }  // namespace
 
 LinkRows link_rows_by(Path path) {
-#if HWY_TARGETS & HWY_AVX3_DL
-    if (path == Path::avx512) return N_AVX3_DL::link_rows;
-#endif
-    static_cast<void>(path);
-    return link_rows_plainly;
+    return Kernels<LinkRows>{link_rows_plainly, nullptr, STORMCELLAR_BUNZIP_AVX512(link_rows)}.of(
+        path);
 }
 
 }  // namespace stormcellar::bunzip

@@ -12,6 +12,8 @@
 // After foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>
 
+#include "bunzip/kernels-inl.h"
+
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3_DL
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::bunzip::HWY_NAMESPACE {
@@ -121,14 +123,9 @@ RunExpander::Place expand_plainly(RunExpander::Place place, const std::uint8_t* 
 }
 
 RunExpander::Expand expand_by(Path path) {
-#if HWY_TARGETS & HWY_AVX2
-    if (path == Path::avx2) return N_AVX2::expand;
-#endif
-#if HWY_TARGETS & HWY_AVX3_DL
-    if (path == Path::avx512) return N_AVX3_DL::expand;
-#endif
-    static_cast<void>(path);
-    return expand_plainly;
+    return Kernels<RunExpander::Expand>{expand_plainly, STORMCELLAR_BUNZIP_AVX2(expand),
+                                        STORMCELLAR_BUNZIP_AVX512(expand)}
+        .of(path);
 }
 
 }  // namespace
