@@ -15,7 +15,6 @@
 #include <unistd.h>
 
 #include "bunzip/bunzip.h"
-#include "level2/archive_header.h"
 #include "level2/gzip_stream.h"
 #include "level2/ldm_framer.h"
 
@@ -53,15 +52,7 @@ void decompress(std::span<const std::byte> record, std::vector<char>& buffer) {
 
 std::vector<std::span<const std::byte>> ldm_records(const Bytes& file, Bytes& peeled) {
     peeled = without_gzip(file);
-    const std::span<const std::byte> bytes = peeled;
-    const bool header = level2::read_archive_header(bytes).has_value();
-    std::vector<std::span<const std::byte>> records;
-    if (!level2::is_ldm_record(bytes.subspan(header ? level2::archive_header_bytes : 0))) return {};
-    level2::LdmFramer framer(bytes);
-    while (const auto part = framer.next()) {
-        if (part->kind == level2::LdmPart::Kind::record) records.push_back(part->bytes);
-    }
-    return records;
+    return level2::ldm_records(peeled);
 }
 
 void decompress_all(std::span<const std::span<const std::byte>> records) {

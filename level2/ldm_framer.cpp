@@ -110,4 +110,15 @@ std::optional<LdmPart> LdmStreamFramer::next(std::span<const std::byte> rest, bo
     return part;
 }
 
+std::vector<std::span<const std::byte>> ldm_records(std::span<const std::byte> file) {
+    const bool header = read_archive_header(file).has_value();
+    std::vector<std::span<const std::byte>> records;
+    if (!is_ldm_record(file.subspan(header ? archive_header_bytes : 0))) return records;
+    LdmFramer framer(file);
+    while (const auto part = framer.next()) {
+        if (part->kind == LdmPart::Kind::record) records.push_back(part->bytes);
+    }
+    return records;
+}
+
 }  // namespace stormcellar::level2

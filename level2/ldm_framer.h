@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "level2/volume.h"
 
@@ -71,5 +72,9 @@ class LdmFramer {
 
 // Whether an LDM record begins with these bytes.
 [[nodiscard]] bool is_ldm_record(std::span<const std::byte> bytes);
+
+// The bzip2 streams of a file, in its order, cut ones included; none where the file does not begin
+// with an LDM record, behind a volume header or at once.
+[[nodiscard]] std::vector<std::span<const std::byte>> ldm_records(std::span<const std::byte> file);
 
 }  // namespace stormcellar::level2

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "bunzip/bunzip.h"
-#include "level2/archive_header.h"
+#include "level2/bzip2_stream.h"
 #include "level2/gzip_stream.h"
 #include "level2/ldm_framer.h"
 #include "tests/bunzip/each_path.h"
@@ -29,20 +29,11 @@ Bytes bytes_of_file(const fs::path& path) {
     return inflated;
 }
 
+// A file of one bzip2 stream, or of LDM records.
 std::vector<std::span<const std::byte>> streams_of(const Bytes& file) {
     const std::span<const std::byte> bytes = file;
-    if (bytes.size() > 4 && std::to_integer<char>(bytes[0]) == 'B' &&
-        std::to_integer<char>(bytes[1]) == 'Z') {
-        return {bytes};
-    }
-    const bool header = level2::read_archive_header(bytes).has_value();
-    std::vector<std::span<const std::byte>> streams;
-    if (!level2::is_ldm_record(bytes.subspan(header ? level2::archive_header_bytes : 0))) return {};
-    level2::LdmFramer framer(bytes);
-    while (const auto part = framer.next()) {
-        if (part->kind == level2::LdmPart::Kind::record) streams.push_back(part->bytes);
-    }
-    return streams;
+    if (level2::is_bzip2(bytes)) return {bytes};
+    return level2::ldm_records(bytes);
 }
 
 TEST(RealRecords, AreWhatLibbz2Makes) {

@@ -36,6 +36,19 @@ TEST(LdmFramer, CutsRecordsAndReadsTheSign) {
     EXPECT_FALSE(parts[1].cut || parts[1].bad_length);
 }
 
+TEST(LdmFramer, GivesTheStreamsOfAFileThatBeginsWithOne) {
+    const wire::Bytes header = wire::archive_header("AR2V0006.117");
+    const wire::Bytes file = wire::join({header, one, wire::Bytes(12), one, header, last});
+    const auto records = ldm_records(file);
+    ASSERT_EQ(records.size(), 3);
+    EXPECT_EQ(records[0].data(), file.data() + header.size() + 4);
+    EXPECT_EQ(records[0].size(), one.size() - 4);
+    EXPECT_EQ(ldm_records(wire::join({one, last})).size(), 2);
+    EXPECT_TRUE(ldm_records(wire::join({header, wire::Bytes(64), one})).empty());
+    EXPECT_TRUE(ldm_records(header).empty());
+    EXPECT_TRUE(ldm_records({}).empty());
+}
+
 TEST(LdmFramer, GoesOnBehindANegativeWord) {
     const wire::Bytes bytes = wire::join({last, last, one});
     EXPECT_EQ(parts_of(bytes).size(), 3);
