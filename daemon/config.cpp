@@ -287,7 +287,9 @@ std::filesystem::path default_socket(const std::filesystem::path& state,
 
 int Config::worker_count() const {
     if (workers > 0) return workers;
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    // Asked for at every turn of the service, and read from a file.
+    static const unsigned processors = std::thread::hardware_concurrency();
+    return std::max(1, static_cast<int>(processors));
 }
 
 bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions& b) {

@@ -19,7 +19,6 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
-constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1}, behind_after{20};
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
@@ -297,96 +296,6 @@ void Service::keep_house() {
     }
     publish(false);
     feed(watchdog_, parts_.notifier, now, oldest_step());
-}
-
-std::optional<Step> Service::oldest_step() const {
-    std::optional<Step> oldest = pulses_.oldest();
-    const auto look_at = [&](const char* what, const WorkerPool& pool) {
-        const auto job = pool.oldest();
-        if (job && (!oldest || job->since < oldest->since))
-            oldest = Step{what + job->path.native(), job->since};
-    };
-    look_at("ingest of ", pool_);
-    look_at("registration of ", registrar_);
-    return oldest;
-}
-
-// A state directory that was deleted. Files that could not be stored meanwhile are tried again.
-void Service::keep_state(SteadyTime now) {
-    if (parts_.state == nullptr || now < next_state_look_) return;
-    next_state_look_ = now + between_state_looks;
-    const std::optional<Status> made = parts_.state->look();
-    if (made && *made) {
-        log_warning({Event::state_mended}, "state directory {} was deleted: it is made again",
-                    printable(config_.state.native()));
-        status_file_.changed();
-    } else if (made && !state_lost_) {
-        log_error({Event::state_lost},
-                  "state directory {} was deleted, and cannot be made again: {}",
-                  printable(config_.state.native()), printable((*made).error().message));
-    }
-    state_lost_ = made && !*made;
-}
-
-void Service::publish(bool at_once) {
-    const Pending pending = intake_.pending();
-    if (pending != published_) status_file_.changed();
-    published_ = pending;
-    const std::size_t directories = watcher_.directory_count();
-    if (directories != status_.facts().directories) status_file_.changed();
-    status_.set_directories(directories);
-    if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
-    if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
-}
-
-// Once when it begins, each minute while it lasts, and once when it is over.
-void Service::report_backlog(SteadyTime now) {
-    if (now < next_backlog_) return;
-    next_backlog_ = now + between_backlog_looks;
-    const auto wait = intake_.longest_wait();
-    status_.set_longest_wait(std::chrono::duration<double>(wait).count());
-    const std::size_t waiting = intake_.pending().waiting;
-    if (wait >= behind_after) {
-        if (!is_behind_ || now >= next_behind_line_) {
-            log_warning({Event::behind},
-                        "behind: {} files wait, one of them for {} s; of growing volumes only the "
-                        "low sweeps are gridded, whole volumes all",
-                        waiting, std::chrono::duration_cast<std::chrono::seconds>(wait).count());
-            next_behind_line_ = now + std::chrono::minutes{1};
-        }
-        is_behind_ = true;
-    } else if (is_behind_ && wait < behind_after / 2) {
-        log_info({Event::caught_up}, "no longer behind: {} waiting", counted(waiting, "file"));
-        is_behind_ = false;
-    }
-}
-
-void Service::report_repairs() {
-    const std::vector<std::string> repairs = parts_.sink.take_repairs();
-    for (const std::string& line : repairs)
-        log_error({Event::database_mended}, "{}", printable(line));
-    if (!repairs.empty()) intake_.forget_seen();
-}
-
-void Service::sites_compared(pipeline::PairReport report) {
-    {
-        const std::scoped_lock lock(compared_mutex_);
-        compared_.push_back(std::move(report));
-    }
-    wake_up_.set();
-}
-
-void Service::report_sites() {
-    std::vector<pipeline::PairReport> reports;
-    {
-        const std::scoped_lock lock(compared_mutex_);
-        reports.swap(compared_);
-    }
-    for (pipeline::PairReport& report : reports) {
-        Reporter::report_sites(report);
-        status_.add(std::move(report));
-        status_file_.changed();
-    }
 }
 
 Stopped Service::stop() {
