@@ -1,0 +1,147 @@
+// A scene file beside what was typed: what excludes what, and what is left out for what.
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/scene_file_fixture.h"
+
+namespace stormcellar::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST_F(SceneFileTest, WhatIsWrongIsSaidBeforeWhatIsMissing) {
+    const auto file = write("[loop]\nfps = 100\n");
+    for (const auto& [add, name] : {std::pair{&add_frame, "frame"}, std::pair{&add_loop, "loop"}}) {
+        const auto ran = run(add, fmt::format("{} --cache x --scene {}", name, file.string()));
+        EXPECT_EQ(ran.status, exit_bad_usage);
+        EXPECT_THAT(ran.err, HasSubstr("s.toml:2: [loop] fps: 100 is out of range"));
+        const auto absent = run(add, fmt::format("{} --cache x --scene {}", name, at("absent")));
+        EXPECT_EQ(absent.status, exit_failed);
+        EXPECT_THAT(absent.err, HasSubstr("absent: No such file"));
+    }
+}
+
+TEST_F(SceneFileTest, WhatMakesNoSenseTogetherNamesTheFile) {
+    commit();
+    const auto said = [&](Command (*add)(CLI::App&), const std::string& arguments) {
+        const auto ran = run(
+            add, fmt::format("{} KBGM --cache {} --scene {}", arguments, cache(), at("s.toml")));
+        EXPECT_EQ(ran.status, exit_bad_usage) << ran.err;
+        return ran.err;
+    };
+    const std::string frame = "frame -o " + at("a.png");
+    const std::string loop = "loop -o " + at("a.webp");
+    write("[camera]\ntilt_deg = 120\n");
+    const std::string tilted = at("s.toml") + ": tilt must be 0 to 90, not 120";
+    EXPECT_THAT(said(add_frame, frame), HasSubstr(tilted));
+    EXPECT_THAT(said(add_loop, loop), HasSubstr(tilted));
+    EXPECT_THAT(said(add_frame, frame + " --width 500"), HasSubstr(tilted));
+    EXPECT_THAT(said(add_frame, frame + " --tilt 100"),
+                HasSubstr("tilt must be 0 to 90, not 100 (beside --scene " + at("s.toml") + ")"));
+    write("[picture]\nproduct = \"section\"\n");
+    EXPECT_THAT(said(add_frame, frame), HasSubstr(at("s.toml") + ": a section needs its two ends"));
+    const auto mended =
+        run(add_frame, fmt::format("{} KBGM --cache {} --scene {} --section 42,-76.1,42.3,-75.8",
+                                   frame, cache(), at("s.toml")));
+    EXPECT_EQ(mended.status, exit_done) << mended.err;
+}
+
+TEST_F(SceneFileTest, APlanIsLeftOutForAProductThatWasTyped) {
+    commit();
+    const auto draw = [&](const std::string& more) {
+        return run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} {}", cache(),
+                                          at("s.toml"), at("a.png"), more));
+    };
+    const std::string plan = "[plan]\ntolerance = \"dE 9\"\n[plan.effects]\nevery_pixel = \"on\"\n";
+    write(plan);
+    const auto typed = draw("--product composite");
+    EXPECT_EQ(typed.status, exit_done) << typed.err;
+    for (const char* more : {"--tolerance \"dE 5\"", "--explain", "--effect=every_pixel=off"}) {
+        const auto both = draw(std::string("--product composite ") + more);
+        EXPECT_EQ(both.status, exit_bad_usage) << more;
+        EXPECT_THAT(both.err, HasSubstr("--tolerance, --effect and --explain are for volumes"));
+    }
+    write("[picture]\nproduct = \"composite\"\n" + plan);
+    const auto within = draw("");
+    EXPECT_EQ(within.status, exit_bad_usage);
+    EXPECT_THAT(within.err,
+                HasSubstr(at("s.toml") + ": [plan] is for volumes: composite is drawn"));
+    EXPECT_EQ(draw("--product volume").status, exit_done) << "now the plan has something to say";
+}
+
+// 2026-11-22: keys that the picture did not use were dropped without a word.
+TEST_F(SceneFileTest, KeysAreLeftOutForAProductThatWasTyped) {
+    commit();
+    const auto draw = [&](const std::string& more) {
+        return run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} {}", cache(),
+                                          at("s.toml"), at("a.png"), more));
+    };
+    const std::string keys =
+        "[camera]\ntilt_deg = 40\n[light]\nkinds = [\"shadow\"]\n[volume]\nslices = 16\n"
+        "[labels]\nring_spacing_km = 20\n[loop]\norbit_deg = 90\n";
+    write(keys);
+    for (const char* product : {"composite", "vil", "section --section 42,-76.1,42.3,-75.8"}) {
+        const auto typed = draw(fmt::format("--product {}", product));
+        EXPECT_EQ(typed.status, exit_done) << typed.err;
+    }
+    const auto both = draw("--product composite --opacity 2");
+    EXPECT_EQ(both.status, exit_bad_usage);
+    EXPECT_THAT(both.err, HasSubstr("--opacity is for volume: composite does not use it (beside "));
+    write("[picture]\nproduct = \"composite\"\n" + keys);
+    for (const char* more : {"", "--product vil"}) {
+        const auto within = draw(more);
+        EXPECT_EQ(within.status, exit_bad_usage) << "the file is no good for its own product";
+        EXPECT_THAT(within.err, HasSubstr("[camera] tilt_deg is for volume: "));
+        EXPECT_THAT(within.err, HasSubstr(at("s.toml")));
+    }
+    EXPECT_EQ(draw("--product volume").status, exit_done) << "now they have something to say";
+}
+
+// 2026-11-22: the number of slices was dropped beside a tolerance, and rounded by --explain.
+TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
+    commit();
+    const auto draw = [&](const std::string& more) {
+        return run(add_frame, fmt::format("frame KBGM --cache {} --width 400 --height 300 -o {} {}",
+                                          cache(), at("a.png"), more));
+    };
+    const auto refused = [&](const std::string& more) {
+        const auto ran = draw(more);
+        EXPECT_EQ(ran.status, exit_bad_usage) << more;
+        return ran.err;
+    };
+    // The picture says itself how many slices it has.
+    const auto has_slices = [&](int count) {
+        const auto bytes = *read_file(at("a.png"));
+        const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        return all.find(fmt::format(", {} slices", count)) != std::string::npos;
+    };
+    EXPECT_THAT(refused("--slices 40 --tolerance \"dE 9\""),
+                HasSubstr("--slices and --tolerance exclude each other: the tolerance chooses"));
+    EXPECT_THAT(refused("--slices 40 --effect slices_128=on"),
+                HasSubstr("--slices and --effect slices_... exclude each other"));
+    EXPECT_EQ(draw("--slices 40 --effect every_pixel=off").status, exit_done);
+    EXPECT_TRUE(has_slices(40)) << "no rung, but asked for";
+    const auto explained = draw("--slices 40 --explain");
+    EXPECT_EQ(explained.status, exit_done) << explained.err;
+    EXPECT_THAT(explained.out,
+                HasSubstr("has the 40 slices that were asked for, the plan is of 64"));
+    EXPECT_TRUE(has_slices(40));
+    const std::string scene = "--scene " + at("s.toml");
+    write("[volume]\nslices = 40\n");
+    EXPECT_EQ(draw(scene + " --effect slices_128=on --effect slices_64=on").status, exit_done);
+    EXPECT_FALSE(has_slices(40)) << "what is typed wins";
+    EXPECT_EQ(draw(scene + " --tolerance \"dE 60\"").status, exit_done);
+    EXPECT_FALSE(has_slices(40)) << "what is typed wins";
+    write("[plan]\ntolerance = \"dE 9\"\n[plan.effects]\nslices_64 = \"on\"\n");
+    EXPECT_EQ(draw(scene + " --slices 40").status, exit_done);
+    EXPECT_TRUE(has_slices(40)) << "what is typed wins";
+    write("[volume]\nslices = 40\n[plan]\ntolerance = \"dE 9\"\n");
+    EXPECT_THAT(
+        refused(scene),
+        HasSubstr(at("s.toml") + ": [volume] slices and [plan] tolerance exclude each other"));
+}
+
+}  // namespace
+}  // namespace stormcellar::cli

@@ -1,0 +1,88 @@
+// tests/cli/scene_file_fixture.h -- a scene file, a grid to draw, and the commands that take them.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+#include "base/file_system.h"
+#include "cache/store.h"
+#include "cli/commands.h"
+#include "cli/scene_file.h"
+#include "grid/brick_grid.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+
+namespace fs = std::filesystem;
+
+struct AllSettings {
+    SceneOptions scene;
+    PicturePlanOptions plan;
+    LoopSettings loop;
+};
+
+class SceneFileTest : public ::testing::Test {
+  protected:
+    fs::path write(const std::string& text, const std::string& name = "s.toml") {
+        std::ofstream(directory_ / name) << text;
+        return directory_ / name;
+    }
+    Status read(const std::string& text) {
+        return read_scene_file(write(text), settings_.scene, settings_.plan, settings_.loop);
+    }
+    // The message without the directory, which differs in each run.
+    std::string complaint(const std::string& text) {
+        const Status status = read(text);
+        if (status) return "no complaint";
+        EXPECT_EQ(status.error().code, ErrorCode::bad_argument);
+        const std::string directory = directory_.path().native() + "/";
+        EXPECT_TRUE(status.error().message.starts_with(directory)) << status.error().message;
+        return status.error().message.substr(directory.size());
+    }
+    // A grid of REF about KBGM, and one of a domain of two sites.
+    void commit() {
+        const auto store =
+            cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+        ASSERT_TRUE(store) << store.error().message;
+        grid::Grid grid;
+        grid.spec = grid::default_spec(42.2, -75.98);
+        grid.spec.nx = grid.spec.ny = 40;
+        grid.time = parse_compact("20050822_024400").value();
+        grid.sites = {{"KBGM", 42.2, -75.98, 490}};
+        grid.values.assign(grid.spec.cell_count(), 33);
+        grid.status.assign(grid.spec.cell_count(), grid::CellStatus::value);
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+        const auto path = store->commit("KBGM", cache::describe(grid), bricks.view());
+        ASSERT_TRUE(path) << path.error().message;
+    }
+    struct Ran {
+        int status = -1;
+        std::string out, err;
+    };
+    Ran run(Command (*add)(CLI::App&), const std::string& arguments) {
+        CLI::App app;
+        const Command command = add(app);
+        app.parse(arguments);
+        ::testing::internal::CaptureStderr();
+        ::testing::internal::CaptureStdout();
+        Ran ran;
+        ran.status = command.run();
+        ran.out = ::testing::internal::GetCapturedStdout();
+        ran.err = ::testing::internal::GetCapturedStderr();
+        return ran;
+    }
+    [[nodiscard]] std::string cache() const { return (directory_ / "cache").string(); }
+    [[nodiscard]] std::string at(const std::string& name) const {
+        return (directory_ / name).string();
+    }
+
+    testing::TemporaryDirectory directory_;
+    AllSettings settings_;
+};
+
+}  // namespace stormcellar::cli
