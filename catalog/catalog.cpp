@@ -166,7 +166,12 @@ Result<int> Catalog::mark_missing(const fs::path& directory, const std::function
     int marked = 0;
     for (const std::string& name : *names) {
         const auto paths = impl_->with(name, false, [&](StationDatabase& database) {
-            return database.paths_below(directory);
+            bool has_strays = false;
+            auto found = database.paths_below(directory, [&](const fs::path& path) {
+                has_strays = has_strays || guessed_home(path) != name;
+            });
+            impl_->slot(name).is_without_strays = !has_strays;
+            return found;
         });
         if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
         if (!paths) continue;

@@ -12,6 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The rows of one database that are looked through for strays while a new file waits: some
+// milliseconds. Larger ones are looked through with mark_missing().
+constexpr std::int64_t most_looked_through = 10'000;
+
 std::string summary_of(const std::vector<std::string>& damage) {
     const std::string first = damage.front().substr(0, damage.front().find('\n'));
     if (damage.size() == 1) return first;
@@ -109,10 +113,10 @@ bool Catalog::Impl::may_have_strays(const std::string& name) {
     Slot& place = slot(name);
     if (place.is_without_strays) return false;
     const auto found = with(name, false, [&](StationDatabase& database) {
-        const bool has_one =
-            database.has_path([&](const fs::path& path) { return guessed_home(path) != name; });
-        place.is_without_strays = !has_one;
-        return has_one;
+        const auto has_one = database.has_path(
+            [&](const fs::path& path) { return guessed_home(path) != name; }, most_looked_through);
+        place.is_without_strays = has_one && !*has_one;
+        return has_one.value_or(true);
     });
     return !found || *found;  // one that cannot be looked at may
 }

@@ -246,13 +246,16 @@ int StationDatabase::mark_gone(const std::vector<fs::path>& paths) {
     return marked;
 }
 
-std::vector<fs::path> StationDatabase::paths_below(const fs::path& directory) {
+std::vector<fs::path> StationDatabase::paths_below(
+    const fs::path& directory, const std::function<void(const fs::path&)>& look) {
     const std::string start = directory.native() + "/";
-    SQLite::Statement rows(database_, "SELECT path FROM file WHERE state <> 'gone'");
+    SQLite::Statement rows(database_, "SELECT path, state = 'gone' FROM file");
     std::vector<fs::path> paths;
     while (rows.executeStep()) {
-        std::string path = rows.getColumn(0).getString();
-        if (path.starts_with(start)) paths.emplace_back(std::move(path));
+        fs::path path = rows.getColumn(0).getString();
+        look(path);
+        const bool is_gone = rows.getColumn(1).getInt() != 0;
+        if (!is_gone && path.native().starts_with(start)) paths.push_back(std::move(path));
     }
     return paths;
 }
@@ -274,10 +277,16 @@ void StationDatabase::forget(const fs::path& path) {
     transaction.commit();
 }
 
-bool StationDatabase::has_path(const std::function<bool(const fs::path&)>& test) {
-    SQLite::Statement rows(database_, "SELECT path FROM file");
-    while (rows.executeStep()) {
-        if (test(rows.getColumn(0).getString())) return true;
+std::optional<bool> StationDatabase::has_path(const std::function<bool(const fs::path&)>& test,
+                                              std::int64_t most) {
+    {
+        LentStatement last = prepared("SELECT ifnull(max(id), 0) FROM file");
+        last->executeStep();
+        if (last->getColumn(0).getInt64() > most) return std::nullopt;
+    }
+    LentStatement rows = prepared("SELECT path FROM file");
+    while (rows->executeStep()) {
+        if (test(rows->getColumn(0).getString())) return true;
     }
     return false;
 }

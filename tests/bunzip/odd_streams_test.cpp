@@ -199,6 +199,36 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
 }
 
+// What follows a block whose last byte fills the room is looked at still, as libbz2 does.
+TEST_P(OddStreams, WhatIsBehindTheLimitsLastByte) {
+    const BlockPlan sound = plan({0, 1, 2, 3}, std::vector<std::uint8_t>(6, 3), {2, 3, 2, 3, 5});
+    const Bytes alone = mended_stream('9', sound);
+    const std::size_t limit = decompressed(alone, most).bytes.size();
+    BlockPlan first = sound;
+    first.checksum = slow_checksum(decompressed(alone, most).bytes);
+    std::vector<BlockPlan> next(6, first);
+    next[1].checksum += 1;
+    next[2].origin = 100;
+    next[3].randomised = true;
+    next[4].randomised = true;
+    next[4].origin = 100;
+    next[5].randomised = true;
+    next[5].symbols = {2, 3};
+    for (std::size_t k = 0; k < next.size(); ++k) {
+        SCOPED_TRACE(k);
+        const BlockPlan blocks[] = {first, next[k]};
+        const Bytes stream = stream_of('9', blocks, 0);
+        const End end = check(stream, limit);
+        EXPECT_EQ(end, k == 2 || k == 4 ? End::corrupt : End::too_large);
+        for (const std::size_t more : {1U, 2U, 3U, 4U, 5U})
+            check(stream, limit + more);
+        for (std::size_t size = alone.size() - 10; size < stream.size(); ++size)
+            check(Bytes(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size)), limit);
+    }
+    EXPECT_EQ(check(stream_of('9', {&first, 1}, first.checksum), limit), End::whole);
+    EXPECT_EQ(check(stream_of('9', {&first, 1}, first.checksum + 1), limit), End::corrupt);
+}
+
 TEST_P(OddStreams, EveryCut) {
     const Bytes stream = compressed(noise(3000, 9, 6), 1);
     for (std::size_t size = 0; size < stream.size(); ++size) {

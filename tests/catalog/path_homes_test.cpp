@@ -54,6 +54,27 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundAfterARestart) {
     EXPECT_FALSE(*catalog_.is_known("/d/KOUN_d"));
 }
 
+// One of so many rows is looked through with mark_missing() alone.
+TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundInALargeDatabase) {
+    std::vector<FileFacts> files;
+    for (int k = 0; k < 10'001; ++k)
+        files.push_back(file("/d/KTLX_" + std::to_string(k), {}));
+    files.push_back(file("/d/KOUN_b", {}));
+    ASSERT_TRUE(catalog_.register_files("KTLX", files));
+    for (const bool is_looked_through : {false, true}) {
+        SCOPED_TRACE(is_looked_through);
+        catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+        if (is_looked_through) {
+            EXPECT_EQ(*catalog_.mark_missing("/elsewhere"), 0);
+        }
+        EXPECT_TRUE(*catalog_.is_known("/d/KOUN_b"));
+        EXPECT_TRUE(*catalog_.is_known("/d/KTLX_10000"));
+        EXPECT_FALSE(*catalog_.is_known("/d/KOUN_c"));
+    }
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KOUN")));
+    EXPECT_TRUE(*catalog_.is_known("/d/KOUN_b"));
+}
+
 TEST_F(CatalogTest, AStationThatIsNewSinceTheDatabasesWereListedIsAsked) {
     EXPECT_FALSE(*catalog_.is_known("/d/a"));
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KTLX")));
