@@ -27,7 +27,9 @@ class BitReader {
     explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
     [[nodiscard]] std::uint64_t position() const { return bit_; }
-    [[nodiscard]] std::uint64_t bits_left() const { return bytes_.size() * 8 - bit_; }
+    [[nodiscard]] std::uint64_t bits_left() const {
+        return std::uint64_t{bytes_.size()} * 8 - bit_;
+    }
     // Bytes that were begun.
     [[nodiscard]] std::size_t bytes_taken() const {
         return static_cast<std::size_t>((bit_ + 7) / 8);

@@ -25,7 +25,8 @@ Found BlockDecoder::read_runs(BitReader& reader, std::uint32_t most_bytes, Path 
     while (!symbols.ended()) {
         const auto batch = symbols.next_batch();
         run_count_ += make_runs(maker_, batch, runs_.get() + run_count_);
-        if (maker_.bytes > most_bytes) return Found::bad;
+        // The byte of the last move stands there already, its repetitions not yet.
+        if (maker_.bytes + maker_.times > most_bytes) return Found::bad;
         if (symbols.found() != Found::good) return symbols.found();
     }
     runs_[run_count_++] = last_run(maker_);

@@ -1,7 +1,6 @@
 // bunzip/block_decoder.h -- one block: its tables and symbols read, its rows sorted back.
 //
-// Memory: 11 MB, and 14 MB of address space of which 1 MB is touched by what radars send
-// (link_walk.h). Thread contract: one thread.
+// Memory: 10.2 MB at most (docs/bunzip.md). Thread contract: one thread.
 #pragma once
 
 #include <cstdint>

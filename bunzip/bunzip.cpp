@@ -191,7 +191,12 @@ Outcome decompress(std::span<const std::byte> stream, std::vector<std::byte>& bu
         const std::size_t room = std::min(buffer.size(), limit);
         made += reader.read(std::span{buffer}.first(room).subspan(made));
         if (reader.ended()) return {reader.status(), made, reader.input_bytes()};
-        if (made >= limit) return {Status::too_large, made, reader.input_bytes()};
+        if (made >= limit) {
+            // libbz2 stops where the room is full, and nothing was read where the limit is 0.
+            std::byte surplus{};
+            const bool is_longer = reader.read({&surplus, 1}) > 0;
+            return {is_longer ? Status::too_large : reader.status(), made, reader.input_bytes()};
+        }
         if (made == buffer.size()) buffer.resize(std::min(limit, 2 * buffer.size()));
     }
 }

@@ -11,9 +11,10 @@
 //            and everything where Path::libbz2 is asked for.
 // Safe       never reads outside `stream` nor writes outside `out`, whatever the stream holds; what
 //            is given out before the end may still turn out to be corrupt. Output is bounded by
-//            what the caller gives room for: a byte can stand for 4 MB.
-// Memory     a Workspace: 10.2 MB at most, for blocks of 900,000 bytes; libbz2 takes 3.7 where it
-//            reads. What cannot be had is thrown as std::bad_alloc.
+//            what the caller gives room for: a byte can stand for some 2 MB.
+// Memory     a Workspace: 10.2 MB at most, for blocks of 900,000 bytes; while libbz2 reads a
+//            randomised stream, its 3.7 besides. What cannot be had is thrown as std::bad_alloc;
+//            a Reader that has thrown is not to be read on.
 // Speed      docs/performance.md; how it works: docs/bunzip.md.
 // Thread contract: a Workspace and its Reader belong to one thread.
 #pragma once
@@ -90,8 +91,8 @@ struct Job {
     Outcome outcome = {};
 };
 // Each job, as decompress() does it, by a thread for each workspace, of which the caller is one;
-// fewer where the system has no more.
-// Throws std::bad_alloc where a job could not be done for want of memory.
+// fewer where the system has no more. With no workspace the caller does them all in one of its own.
+// Throws std::bad_alloc where a job could not be done for want of memory; no outcome counts then.
 void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
                     Path path = usual_path());
 

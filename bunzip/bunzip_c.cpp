@@ -28,6 +28,7 @@ bunzip_status bunzip_decompress(bunzip_workspace* workspace, const void* in, std
                                 void* out, std::size_t out_bytes, std::size_t* made,
                                 std::size_t* taken) {
     *made = *taken = 0;
+    if (workspace == nullptr) return BUNZIP_NO_MEMORY;
     try {
         Reader reader({static_cast<const std::byte*>(in), in_bytes}, workspace->workspace);
         // A stream of nothing needs no room, but a reader only reads where there is some.

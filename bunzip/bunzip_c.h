@@ -23,7 +23,7 @@ enum bunzip_status {
     BUNZIP_TRUNCATED = 1, /* the bytes end inside the stream */
     BUNZIP_CORRUPT = 2,   /* they contradict the format or a checksum */
     BUNZIP_TOO_LARGE = 3, /* `out` is full and the stream goes on */
-    BUNZIP_NO_MEMORY = 4
+    BUNZIP_NO_MEMORY = 4  /* or `workspace` is NULL, since there was none for it */
 };
 
 typedef struct bunzip_workspace bunzip_workspace;
@@ -35,7 +35,8 @@ void bunzip_workspace_free(bunzip_workspace* workspace);
 
 /* One stream. Both counts are always set: the bytes written to `out`, which are the stream's only
  * where the result is BUNZIP_WHOLE (or its first where it is BUNZIP_TOO_LARGE), and those of `in`
- * that it took. `in` and `out` may be NULL where their size is 0. */
+ * that it took; neither may be NULL. `in` and `out` may be NULL where their size is 0. What is in
+ * `out` behind the bytes written may change. */
 enum bunzip_status bunzip_decompress(bunzip_workspace* workspace, const void* in, size_t in_bytes,
                                      void* out, size_t out_bytes, size_t* made, size_t* taken);
 

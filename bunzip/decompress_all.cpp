@@ -10,6 +10,10 @@ namespace stormcellar::bunzip {
 
 void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace> workspaces,
                     Path path) {
+    if (workspaces.empty()) {
+        Workspace only;
+        return decompress_all(jobs, limit, {&only, 1}, path);
+    }
     std::atomic<std::size_t> next = 0;
     std::atomic<bool> out_of_memory = false;
     const auto work = [&](Workspace& workspace) {
@@ -30,7 +34,7 @@ void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace>
     } catch (const std::bad_alloc&) {
         // The same.
     }
-    if (!workspaces.empty()) work(workspaces.front());
+    work(workspaces.front());
     for (std::thread& thread : threads)
         thread.join();
     if (out_of_memory) throw std::bad_alloc{};

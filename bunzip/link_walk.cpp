@@ -26,8 +26,21 @@ struct LinkWalk::Lanes {
     std::uint32_t busy = 0;   // lanes
 };
 
+std::uint32_t LinkWalk::mark_count(std::uint32_t rows) {
+    return std::min(most_segments - 1, rows / rows_a_segment);
+}
+
+// One in each of as many equal pieces, somewhere in it: by the golden ratio, which agrees with no
+// period.
+std::uint32_t LinkWalk::marked_row(std::uint32_t i, std::uint32_t rows) {
+    const std::uint64_t count = mark_count(rows);
+    const std::uint64_t begin = rows * std::uint64_t{i} / count;
+    const std::uint64_t end = rows * (std::uint64_t{i} + 1) / count;
+    const std::uint32_t share = i * 0x9E37'79B9U;
+    return static_cast<std::uint32_t>(begin + ((end - begin) * share >> 32));
+}
+
 void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t origin) {
-    const std::uint32_t wanted = std::min(most_segments, rows / rows_a_segment + 1);
     segment_count_ = 0;
     const auto add = [&](std::uint32_t row) {
         Segment& segment = segments_[segment_count_];
@@ -36,8 +49,9 @@ void LinkWalk::mark(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
         links[row] = marked | segment_count_++;
     };
     add(origin);
-    for (std::uint32_t i = 1; i < wanted; ++i) {
-        const auto row = static_cast<std::uint32_t>(std::uint64_t{rows} * i / wanted);
+    const std::uint32_t count = mark_count(rows);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t row = marked_row(i, rows);
         if (row != origin) add(row);
     }
 }
@@ -115,10 +129,10 @@ void LinkWalk::read(std::span<Link> links, std::uint32_t rows, std::uint32_t ori
     if (!lane_bytes_)
         lane_bytes_ = std::make_unique_for_overwrite<std::uint8_t[]>(lanes * lane_stride);
     mark(links, rows, origin);
-    const bool done = walk(links, rows);
+    walked_alone_ = !walk(links, rows);
     for (std::uint32_t i = 0; i < segment_count_; ++i)
         links[segments_[i].row] = segments_[i].link;
-    if (done) return join(bytes);
+    if (!walked_alone_) return join(bytes);
     Link link = links[origin];
     for (std::uint8_t& byte : bytes) {
         byte = static_cast<std::uint8_t>(link);

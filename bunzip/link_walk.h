@@ -7,7 +7,8 @@
 // row that none has begun at. What they read are the segments of the block; following the marks
 // from the origin says their order. docs/bunzip.md has a drawing, and why this is right.
 // Each walk has room for an eighth of the block and 8 KiB. Where that is too little, which takes a
-// stream made to that end, the block is read by one walk alone, as libbz2 reads it.
+// stream made to that end, the block is read by one walk alone, as libbz2 reads it. The marks do
+// not stand at even distances: those of data that repeats itself would be close together then.
 // Memory: 1.9 MB.
 // Thread contract: one thread.
 #pragma once
@@ -30,8 +31,14 @@ class LinkWalk {
     void read(std::span<Link> links, std::uint32_t rows, std::uint32_t origin,
               std::span<std::uint8_t> bytes);
 
+    // Whether that was done by one walk.
+    [[nodiscard]] bool walked_alone() const { return walked_alone_; }
+
     static constexpr std::uint32_t lanes = 16;
     static constexpr std::uint32_t most_segments = 1024;
+    // How many rows are marked besides the origin, at most, and which is the i-th of them.
+    [[nodiscard]] static std::uint32_t mark_count(std::uint32_t rows);
+    [[nodiscard]] static std::uint32_t marked_row(std::uint32_t i, std::uint32_t rows);
 
   private:
     struct Segment {
@@ -50,6 +57,7 @@ class LinkWalk {
 
     std::array<Segment, most_segments> segments_;
     std::uint32_t segment_count_ = 0;
+    bool walked_alone_ = false;
     std::unique_ptr<std::uint8_t[]> lane_bytes_;  // lane behind lane
 };
 

@@ -49,7 +49,7 @@ bool inflate_all(std::span<const std::byte> from, std::span<std::byte> out) {
 }
 
 bool bunzip_all(std::span<const std::byte> from, std::span<std::byte> out) {
-    bunzip::Workspace workspace;
+    static thread_local bunzip::Workspace workspace;  // empty where no radial is so
     bunzip::Reader reader{from, workspace};
     const std::size_t made = reader.read(out);
     std::byte surplus{};

@@ -46,6 +46,15 @@ TEST_F(BunzipC, NoRoom) {
     EXPECT_EQ(made_, 0U);
 }
 
+TEST_F(BunzipC, NoWorkspace) {
+    const Bytes stream = compressed(bytes_of("a banana"), 9);
+    made_ = taken_ = 7;
+    EXPECT_EQ(
+        bunzip_decompress(nullptr, stream.data(), stream.size(), out_.data(), 8, &made_, &taken_),
+        BUNZIP_NO_MEMORY);
+    EXPECT_EQ(made_ + taken_, 0U);
+}
+
 TEST_F(BunzipC, CutAndDamaged) {
     Bytes stream = compressed(bytes_of("a banana"), 9);
     stream.pop_back();

@@ -41,13 +41,15 @@ std::vector<Link> links_of(const std::vector<std::uint32_t>& rings, std::mt19937
     return links;
 }
 
-void expect_as_alone(std::vector<Link> links, std::uint32_t rows, std::uint32_t origin) {
+void expect_as_alone(std::vector<Link> links, std::uint32_t rows, std::uint32_t origin,
+                     bool by_one_walk = false) {
     static LinkWalk walk;
     const Octets wanted = walk_alone(links, origin, rows + 1);
     const std::vector<Link> before(links.begin(), links.begin() + rows);
     Octets bytes(rows + 1);
     walk.read(links, rows, origin, bytes);
     EXPECT_TRUE(bytes == wanted) << rows << " rows from " << origin;
+    EXPECT_EQ(walk.walked_alone(), by_one_walk) << rows << " rows from " << origin;
     links.resize(rows);
     EXPECT_TRUE(links == before) << "the links are not as they were";
 }
@@ -76,11 +78,10 @@ TEST(LinkWalk, ManyRings) {
 // room for it.
 TEST(LinkWalk, OneWalkThatHasItAll) {
     constexpr std::uint32_t rows = 600'000;
-    const std::uint32_t segments = std::min(LinkWalk::most_segments, rows / 256 + 1);
     std::vector<std::uint32_t> order;
     std::vector<bool> first(rows);
-    for (std::uint32_t i = 0; i < segments; ++i) {
-        order.push_back(static_cast<std::uint32_t>(std::uint64_t{rows} * i / segments));
+    for (std::uint32_t i = 0; i < LinkWalk::mark_count(rows); ++i) {
+        order.push_back(LinkWalk::marked_row(i, rows));
         first[order.back()] = true;
     }
     for (std::uint32_t row = 0; row < rows; ++row) {
@@ -89,8 +90,45 @@ TEST(LinkWalk, OneWalkThatHasItAll) {
     std::vector<Link> links(rows + 1 + link_slack);
     for (std::uint32_t i = 0; i < rows; ++i)
         links[order[i]] = order[(i + 1) % rows] << link_shift | (i % 251);
-    expect_as_alone(links, rows, 0);
-    expect_as_alone(links, rows, 599'999);
+    expect_as_alone(links, rows, 0, true);
+    expect_as_alone(links, rows, 599'999, true);
+}
+
+TEST(LinkWalk, MarksAreRowsAndAllDiffer) {
+    for (const std::uint32_t rows : {1U, 255U, 256U, 600U, 100'000U, 262'144U, 900'000U}) {
+        std::uint32_t least = 0;
+        for (std::uint32_t i = 0; i < LinkWalk::mark_count(rows); ++i) {
+            const std::uint32_t row = LinkWalk::marked_row(i, rows);
+            EXPECT_GE(row, least);
+            EXPECT_LT(row, rows);
+            least = row + 1;
+        }
+    }
+}
+
+// 2026-11-23: marks at even distances all stood at the same places of a period, close together on
+// the ring, where the period was 256 bytes or twice, four or eight times as many.
+TEST(LinkWalk, DataThatRepeatsItselfIsNotReadByOneWalk) {
+    constexpr std::uint32_t rows = 450'000;
+    std::mt19937 random(11);
+    for (const std::uint32_t period :
+         {100U, 128U, 256U, 512U, 1000U, 1024U, 2048U, 2432U, 65'536U}) {
+        // The rows that begin at the same place of the period stand together, in order.
+        std::vector<std::uint32_t> places(period), begin(period);
+        std::iota(places.begin(), places.end(), 0U);
+        std::shuffle(places.begin(), places.end(), random);
+        std::uint32_t row = 0;
+        for (const std::uint32_t place : places) {
+            begin[place] = row;
+            row += rows / period + (place < rows % period ? 1 : 0);
+        }
+        const auto row_of = [&](std::uint32_t at) { return begin[at % period] + at / period; };
+        std::vector<Link> links(rows + 1 + link_slack);
+        for (std::uint32_t at = 0; at < rows; ++at)
+            links[row_of(at)] = row_of((at + 1) % rows) << link_shift | (at % period % 251);
+        SCOPED_TRACE(period);
+        expect_as_alone(links, rows, row_of(7));
+    }
 }
 
 class RowLinksOf : public ::testing::TestWithParam<Path> {};

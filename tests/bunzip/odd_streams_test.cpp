@@ -199,6 +199,28 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
 }
 
+// 2026-11-23: a move that made a block one byte too long was not counted until the next, so a
+// stream that is cut there was called cut.
+TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
+    for (const bool is_full : {false, true}) {
+        // 100,000 in digits of 1 and 2, or one less; then a move, and the end.
+        std::vector<std::uint16_t> symbols;
+        for (unsigned left = is_full ? 100'000 : 99'999; left > 0;) {
+            const unsigned digit = left % 2 == 1 ? 1 : 2;
+            symbols.push_back(static_cast<std::uint16_t>(digit - 1));
+            left = (left - digit) / 2;
+        }
+        symbols.insert(symbols.end(), {2, 3});
+        const Bytes stream = mended_stream('1', plan({4, 5}, {2, 2, 2, 2}, symbols));
+        int corrupt = 0;
+        for (std::size_t size = 20; size <= stream.size(); ++size) {
+            const Bytes cut(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size));
+            corrupt += check(cut) == End::corrupt ? 1 : 0;
+        }
+        EXPECT_EQ(corrupt > 0, is_full);
+    }
+}
+
 // What follows a block whose last byte fills the room is looked at still, as libbz2 does.
 TEST_P(OddStreams, WhatIsBehindTheLimitsLastByte) {
     const BlockPlan sound = plan({0, 1, 2, 3}, std::vector<std::uint8_t>(6, 3), {2, 3, 2, 3, 5});

@@ -211,16 +211,18 @@ LibraryOutcome decompressed(std::span<const std::byte> stream, std::size_t limit
     int code = BZ_OK;
     for (;;) {
         const std::size_t made = outcome.bytes.size();
-        if (made == limit) {
-            outcome.status = Status::too_large;
-            break;
-        }
-        outcome.bytes.resize(std::min(limit, made + 65'536));
+        // Room for one more says whether there is one more.
+        outcome.bytes.resize(std::min(limit + 1, made + 65'536));
         bz.next_out = reinterpret_cast<char*>(outcome.bytes.data() + made);
         const auto room = static_cast<unsigned>(outcome.bytes.size() - made);
         bz.avail_out = room;
         code = BZ2_bzDecompress(&bz);
         outcome.bytes.resize(made + room - bz.avail_out);
+        if (outcome.bytes.size() > limit) {
+            outcome.bytes.pop_back();
+            outcome.status = Status::too_large;
+            break;
+        }
         if (code == BZ_OK && bz.avail_out == 0) continue;
         outcome.status = code == BZ_STREAM_END ? Status::whole
                          : code == BZ_OK       ? Status::truncated
@@ -267,8 +269,11 @@ Bytes stream_from(std::span<const std::byte> input) {
     const unsigned kind = choices.byte() % 4;
     if (kind == 0) return {choices.rest().begin(), choices.rest().end()};
     if (kind == 3) {
-        const char level = static_cast<char>('1' + choices.byte() % 9);
-        return mended_stream(level, plan_from(choices));
+        const unsigned first = choices.byte();
+        const unsigned cut = first < 234 ? 0 : choices.byte();
+        Bytes stream = mended_stream(static_cast<char>('1' + first % 9), plan_from(choices));
+        if (cut > 0) stream.resize(stream.size() - std::min<std::size_t>(cut, stream.size()));
+        return stream;
     }
     const int level = 1 + static_cast<int>(choices.byte() % 9);
     // Up to three changes, where the stream and they are.

@@ -34,13 +34,41 @@ void check_path(std::span<const std::byte> stream, const LibraryOutcome& wanted,
         if (!std::equal(given.begin(), given.end(), known.begin())) fail("other bytes");
         made += now;
     }
-    const bunzip::Status status = reader.ended() ? reader.status() : bunzip::Status::too_large;
+    std::byte surplus{};
+    const bool is_longer = !reader.ended() && reader.read({&surplus, 1}) > 0;
+    const bunzip::Status status = !is_longer ? reader.status() : bunzip::Status::too_large;
     const int end = static_cast<int>(status), wanted_end = static_cast<int>(wanted.status);
     if (end != wanted_end) fail(fmt::format("it ends as {} and not as {}", end, wanted_end));
     // Of a block that ends inside a run libbz2 gives out more or less, as its room is cut.
     if (status != bunzip::Status::corrupt && made != wanted.bytes.size()) fail("its output ends");
     if (status == bunzip::Status::whole && reader.input_bytes() != wanted.input_bytes)
         fail("the stream took other bytes");
+}
+
+// The same whole, where there is room for some of it, or for just all.
+void check_limit(std::span<const std::byte> stream, const LibraryOutcome& unlimited, Path path,
+                 std::size_t limit) {
+    static thread_local bunzip::Workspace workspace;
+    const LibraryOutcome wanted = bunzip::decompressed(stream, limit);
+    std::vector<std::byte> out;
+    const bunzip::Outcome outcome = bunzip::decompress(stream, out, limit, workspace, path);
+    const auto fail = [&](const char* what) {
+        throw PropertyError(fmt::format("{}, at most {} bytes: {}, {} bytes as {} and not {} as {}",
+                                        name_of(path), limit, what, outcome.output_bytes,
+                                        static_cast<int>(outcome.status), wanted.bytes.size(),
+                                        static_cast<int>(wanted.status)));
+    };
+    const auto made = std::span{out}.first(outcome.output_bytes);
+    const std::size_t both = std::min(made.size(), wanted.bytes.size());
+    if (made.size() > limit) fail("too many");
+    if (!std::equal(made.begin(), made.begin() + static_cast<std::ptrdiff_t>(both),
+                    wanted.bytes.begin())) {
+        fail("others");
+    }
+    // As above: what is corrupt there may be so behind the limit or before it.
+    if (unlimited.status == LibraryOutcome::Status::corrupt) return;
+    if (static_cast<int>(outcome.status) != static_cast<int>(wanted.status)) fail("another end");
+    if (made.size() != wanted.bytes.size()) fail("others");
 }
 
 }  // namespace
@@ -53,7 +81,9 @@ void check_bunzip(std::span<const std::byte> choices) {
     const std::size_t piece =
         pieces[choices.empty() ? 0 : std::to_integer<std::size_t>(choices.back()) % 4];
     for (const Path path : bunzip::all_paths) {
-        if (bunzip::is_available(path)) check_path(stream, wanted, path, piece, limit);
+        if (!bunzip::is_available(path)) continue;
+        check_path(stream, wanted, path, piece, limit);
+        check_limit(stream, wanted, path, wanted.bytes.size() * (choices.size() % 4) / 3);
     }
 }
 
