@@ -8,11 +8,14 @@
 
 #include "base/checksum.h"
 #include "base/floating_point.h"
+#include "base/parallel.h"
 
 namespace stormcellar::grid {
 namespace {
 
 constexpr std::size_t state_block_bytes = brick_cells / 4;
+// More than one, since storms make some bricks dearer than others.
+constexpr int pieces_a_thread = 4;
 
 // The nearest code; a value beyond the ends of the code range takes the end and is counted.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
@@ -150,12 +153,12 @@ std::array<std::byte, state_block_bytes> pack_states(const Code* codes) {
 }
 
 template <class Code>
-void read_all(const Grid& grid, const Quantization& quantization, BrickGrid& made) {
-    BricksWriter writer(made);
-    BrickReader<Code> reader(grid, quantization);
-    const BrickView shape = made.view();
-    std::size_t index = 0;
-    for (int bx = 0; bx < shape.bricks_x; ++bx) {
+void read_columns(const Grid& grid, const BrickView& shape, int begin_x, int end_x,
+                  BricksWriter& writer) {
+    BrickReader<Code> reader(grid, shape.quantization);
+    auto index = static_cast<std::size_t>(begin_x) * static_cast<std::size_t>(shape.bricks_y) *
+                 static_cast<std::size_t>(shape.bricks_z);
+    for (int bx = begin_x; bx < end_x; ++bx) {
         for (int by = 0; by < shape.bricks_y; ++by) {
             for (int bz = 0; bz < shape.bricks_z; ++bz, ++index) {
                 const BrickExtent extent = brick_extent(grid.spec, bx, by, bz);
@@ -165,7 +168,20 @@ void read_all(const Grid& grid, const Quantization& quantization, BrickGrid& mad
         }
     }
     writer.count_clamped(reader.clamped_count());
-    made.finish({&writer, 1});
+}
+
+// In pieces along x, one behind the other, so that what the writers hold is in order.
+template <class Code>
+void read_all(const Grid& grid, int threads, BrickGrid& made) {
+    const BrickView shape = made.view();
+    const int pieces = threads <= 1 ? 1 : std::min(shape.bricks_x, pieces_a_thread * threads);
+    std::vector<BricksWriter> writers(static_cast<std::size_t>(pieces), BricksWriter(made));
+    for_each_piece(pieces, threads, [&](int piece) {
+        read_columns<Code>(grid, shape, shape.bricks_x * piece / pieces,
+                           shape.bricks_x * (piece + 1) / pieces,
+                           writers[static_cast<std::size_t>(piece)]);
+    });
+    made.finish(writers);
 }
 
 }  // namespace
@@ -186,12 +202,12 @@ BrickGrid::BrickGrid(GridSpec spec, const Quantization& quantization)
                          static_cast<std::size_t>(quantization.code_bytes));
 }
 
-BrickGrid BrickGrid::from(const Grid& grid, const Quantization& quantization) {
+BrickGrid BrickGrid::from(const Grid& grid, const Quantization& quantization, int threads) {
     BrickGrid made(grid.spec, quantization);
     if (quantization.code_bytes == 1) {
-        read_all<std::uint8_t>(grid, quantization, made);
+        read_all<std::uint8_t>(grid, threads, made);
     } else {
-        read_all<std::uint16_t>(grid, quantization, made);
+        read_all<std::uint16_t>(grid, threads, made);
     }
     return made;
 }

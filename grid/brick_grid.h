@@ -27,7 +27,9 @@ class BrickGrid {
     // Every cell not seen.
     BrickGrid(GridSpec spec, const Quantization& quantization);
 
-    [[nodiscard]] static BrickGrid from(const Grid& grid, const Quantization& quantization);
+    // The same to the bit for any number of threads.
+    [[nodiscard]] static BrickGrid from(const Grid& grid, const Quantization& quantization,
+                                        int threads = 1);
 
     // Valid as long as this object lives and is not moved.
     [[nodiscard]] BrickView view() const;

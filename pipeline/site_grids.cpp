@@ -72,7 +72,8 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, boo
     const std::string& domain = grid.sites.front().icao;
     auto path = store_.path_of(domain, grid.moment, grid.time);
     if (!path) return path;
-    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(options_.moment));
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(options_.moment),
+                                              made.gridder.threads);
     if (!is_living) {
         const auto audited = grid::audit(bricks.view(), volume, grid.sites.front(), made.gridder);
         if (audited) grid.provenance.audit = audited->rows;

@@ -1,5 +1,6 @@
 #include "grid/brick_grid.h"
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -64,6 +65,25 @@ TEST(BrickGrid, HoldsEveryKindOfBrick) {
     for (const BrickEntry& brick : bricks.view().bricks)
         kinds.insert(brick.kind);
     EXPECT_EQ(kinds.size(), 3U);
+}
+
+TEST(BrickGrid, ThreadsChangeNothing) {
+    for (const Quantization& quantization : {Quantization{1, -32, 0.5F}, {2, -32, 0.25F}}) {
+        const Grid grid = mixed_grid(-40, 60);  // some of it below the least value
+        const BrickGrid wanted = BrickGrid::from(grid, quantization);
+        EXPECT_GT(wanted.clamped_count(), 0U);
+        EXPECT_GT(wanted.view().states.size(), 64U);
+        for (const int threads : {0, 2, 3, 50}) {
+            const BrickGrid bricks = BrickGrid::from(grid, quantization, threads);
+            EXPECT_EQ(bricks.clamped_count(), wanted.clamped_count()) << threads;
+            const auto same = [](auto a, auto b) {
+                return std::ranges::equal(std::as_bytes(a), std::as_bytes(b));
+            };
+            EXPECT_TRUE(same(bricks.view().codes, wanted.view().codes)) << threads;
+            EXPECT_TRUE(same(bricks.view().states, wanted.view().states)) << threads;
+            EXPECT_TRUE(same(bricks.view().bricks, wanted.view().bricks)) << threads;
+        }
+    }
 }
 
 TEST(BrickGrid, EntriesSumUpTheirBricks) {
