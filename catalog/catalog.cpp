@@ -166,12 +166,7 @@ Result<int> Catalog::mark_missing(const fs::path& directory, const std::function
     int marked = 0;
     for (const std::string& name : *names) {
         const auto paths = impl_->with(name, false, [&](StationDatabase& database) {
-            bool has_strays = false;
-            auto found = database.paths_below(directory, [&](const fs::path& path) {
-                has_strays = has_strays || guessed_home(path) != name;
-            });
-            impl_->slot(name).is_without_strays = !has_strays;
-            return found;
+            return impl_->paths_below(database, directory, name);
         });
         if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
         if (!paths) continue;
@@ -199,7 +194,7 @@ Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uin
     };
     const auto home = impl_->homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
-    const std::string guess = home.value_or(guessed_home(path));
+    const std::string guess = home.value_or(std::string{guessed_home(path.native())});
     auto guessed = impl_->with(guess, false, ask);
     if (guessed && guessed->has_value()) return guessed;
     if (!guessed && guessed.error().code != ErrorCode::not_found) return guessed;
@@ -241,12 +236,12 @@ Result<std::vector<std::string>> Catalog::station_names() const {
     return names;
 }
 
-Status Catalog::examine(std::string_view station) {
+Status Catalog::examine(std::optional<std::string_view> station) {
     const auto names = impl_->names();
     if (!names) return pass_on(names);
     Status outcome;
     for (const std::string& name : *names) {
-        if (!station.empty() && name != station) continue;
+        if (station && station_of(name) != *station) continue;
         // What a crash left unfinished, only one who writes can finish.
         const auto opened = impl_->with(name, false, [](StationDatabase&) { return true; });
         if (!opened) {

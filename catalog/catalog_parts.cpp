@@ -55,13 +55,14 @@ Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
     if (!opened) return pass_on(opened);
     place.database = std::move(*opened);
     place.file = FileIdentity::of(path);
-    place.is_without_strays = false;
+    place.strays = Strays::unknown;
     is_listing_old_ = true;
     return {};
 }
 
 bool Catalog::Impl::mend(Slot& place, const std::string& name) {
     place.database.reset();
+    place.strays = Strays::unknown;
     const fs::path path = path_of(name);
     const auto found = examine_database(path);
     if (!found || found->foreign) return false;
@@ -103,22 +104,41 @@ Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::pa
         }
         found = *listed_;
     }
-    const std::string home = guessed_home(path);
+    const std::string_view home = guessed_home(path.native());
     std::erase_if(found,
                   [&](const std::string& name) { return name != home && !may_have_strays(name); });
     return found;
 }
 
+std::vector<fs::path> Catalog::Impl::paths_below(StationDatabase& database, const fs::path& below,
+                                                 const std::string& name) {
+    Slot& place = slot(name);
+    if (place.strays == Strays::unknown || place.strays == Strays::too_many_rows) {
+        const auto has_one =
+            database.has_path([&](std::string_view path) { return guessed_home(path) != name; });
+        place.strays = *has_one ? Strays::some : Strays::none;
+    }
+    return database.paths_below(below);
+}
+
 bool Catalog::Impl::may_have_strays(const std::string& name) {
     Slot& place = slot(name);
-    if (place.is_without_strays) return false;
-    const auto found = with(name, false, [&](StationDatabase& database) {
-        const auto has_one = database.has_path(
-            [&](const fs::path& path) { return guessed_home(path) != name; }, most_looked_through);
-        place.is_without_strays = has_one && !*has_one;
-        return has_one.value_or(true);
-    });
-    return !found || *found;  // one that cannot be looked at may
+    if (place.strays == Strays::unknown) {
+        const std::scoped_lock lock(place.mutex);
+        // Damage is mended where the database is asked, or its own station's files come.
+        const auto looked = attempt(place, name, false, [&](StationDatabase& database) {
+            if (place.strays != Strays::unknown) return true;  // somebody else did meanwhile
+            const auto has_one =
+                database.has_path([&](std::string_view path) { return guessed_home(path) != name; },
+                                  most_looked_through);
+            place.strays = !has_one   ? Strays::too_many_rows
+                           : *has_one ? Strays::some
+                                      : Strays::none;
+            return true;
+        });
+        if (!looked && looked.error().code == ErrorCode::not_found) is_listing_old_ = true;
+    }
+    return place.strays != Strays::none;
 }
 
 }  // namespace stormcellar::catalog

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -38,13 +39,20 @@ struct FileIdentity {
     static FileIdentity of(const std::filesystem::path& path);
 };
 
+// Whether a database has a row of a path whose guessed_home() is another.
+enum class Strays : std::uint8_t {
+    unknown,
+    none,
+    some,
+    too_many_rows,  // to look through them while a file waits; mark_missing() does
+};
+
 struct Catalog::Impl {
     struct Slot {
         std::mutex mutex;  // guards what follows
         std::unique_ptr<StationDatabase> database;
         FileIdentity file;
-        // No row of it is a stray; written under the mutex, read without.
-        std::atomic<bool> is_without_strays = false;
+        std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
     };
 
     std::filesystem::path directory;
@@ -115,9 +123,13 @@ struct Catalog::Impl {
     // new file is not looked for in every station's.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
+    // The paths of rows that are not gone. Looks for strays on the way where nobody could.
+    [[nodiscard]] std::vector<std::filesystem::path> paths_below(StationDatabase& database,
+                                                                 const std::filesystem::path& below,
+                                                                 const std::string& name);
     // Called before the row is written, with the slot's mutex held.
     void expect_row(const std::filesystem::path& path, const std::string& name) {
-        if (guessed_home(path) != name) slot(name).is_without_strays = false;
+        if (guessed_home(path.native()) != name) slot(name).strays = Strays::some;
     }
 
   private:

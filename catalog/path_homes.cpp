@@ -4,18 +4,16 @@
 
 namespace stormcellar::catalog {
 
-std::string guessed_home(const std::filesystem::path& path) {
-    const std::string_view whole = path.native();
-    std::string_view rest = whole;
+std::string_view guessed_home(std::string_view path) {
     for (int level = 0; level < 3; ++level) {
-        const std::size_t slash = rest.rfind('/');
-        std::string_view name = slash == std::string_view::npos ? rest : rest.substr(slash + 1);
+        const std::size_t slash = path.rfind('/');
+        std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
         if (level == 0) name = name.substr(0, 4);
-        if (is_icao(name)) return std::string{name};
+        if (is_icao(name)) return name;
         if (slash == std::string_view::npos) break;
-        rest = rest.substr(0, slash);
+        path = path.substr(0, slash);
     }
-    return std::string{unknown_station};
+    return unknown_station;
 }
 
 }  // namespace stormcellar::catalog

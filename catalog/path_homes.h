@@ -26,7 +26,8 @@ inline constexpr std::string_view unknown_station = "_unknown";
 
 // The station that a path seems to belong to: by its name, its directory's (KTLX/FILE) or the one's
 // above (KTLX/123/CHUNK); else unknown_station.
-[[nodiscard]] std::string guessed_home(const std::filesystem::path& path);
+// The view is of the path's own bytes or of unknown_station.
+[[nodiscard]] std::string_view guessed_home(std::string_view path);
 
 class PathHomes {
   public:

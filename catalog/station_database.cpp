@@ -13,6 +13,12 @@ void bind_path(SQLite::Statement& statement, int index, const fs::path& path) {
     statement.bind(index, bytes.data(), static_cast<int>(bytes.size()));
 }
 
+// Until the statement is stepped on.
+std::string_view bytes_of(const SQLite::Column& blob) {
+    const auto* const bytes = static_cast<const char*>(blob.getBlob());
+    return {bytes, bytes == nullptr ? 0 : static_cast<std::size_t>(blob.getBytes())};
+}
+
 template <class T>
 void bind_optional(SQLite::Statement& statement, int index, const std::optional<T>& value) {
     if (value) {
@@ -246,16 +252,13 @@ int StationDatabase::mark_gone(const std::vector<fs::path>& paths) {
     return marked;
 }
 
-std::vector<fs::path> StationDatabase::paths_below(
-    const fs::path& directory, const std::function<void(const fs::path&)>& look) {
+std::vector<fs::path> StationDatabase::paths_below(const fs::path& directory) {
     const std::string start = directory.native() + "/";
-    SQLite::Statement rows(database_, "SELECT path, state = 'gone' FROM file");
+    SQLite::Statement rows(database_, "SELECT path FROM file WHERE state <> 'gone'");
     std::vector<fs::path> paths;
     while (rows.executeStep()) {
-        fs::path path = rows.getColumn(0).getString();
-        look(path);
-        const bool is_gone = rows.getColumn(1).getInt() != 0;
-        if (!is_gone && path.native().starts_with(start)) paths.push_back(std::move(path));
+        const std::string_view path = bytes_of(rows.getColumn(0));
+        if (path.starts_with(start)) paths.emplace_back(path);
     }
     return paths;
 }
@@ -277,7 +280,7 @@ void StationDatabase::forget(const fs::path& path) {
     transaction.commit();
 }
 
-std::optional<bool> StationDatabase::has_path(const std::function<bool(const fs::path&)>& test,
+std::optional<bool> StationDatabase::has_path(const std::function<bool(std::string_view)>& test,
                                               std::int64_t most) {
     {
         LentStatement last = prepared("SELECT ifnull(max(id), 0) FROM file");
@@ -286,7 +289,7 @@ std::optional<bool> StationDatabase::has_path(const std::function<bool(const fs:
     }
     LentStatement rows = prepared("SELECT path FROM file");
     while (rows->executeStep()) {
-        if (test(rows->getColumn(0).getString())) return true;
+        if (test(bytes_of(rows->getColumn(0)))) return true;
     }
     return false;
 }

@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -66,15 +68,13 @@ class StationDatabase {
     void restore_gone(const std::vector<SalvagedFile>& files);
     // In one transaction; gives how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);
-    // Of the rows that are not gone. Shows `look` the paths of all rows.
-    std::vector<std::filesystem::path> paths_below(
-        const std::filesystem::path& directory,
-        const std::function<void(const std::filesystem::path&)>& look);
+    // Of the rows that are not gone.
+    std::vector<std::filesystem::path> paths_below(const std::filesystem::path& directory);
     void forget(const std::filesystem::path& path);
     // Whether there is a row, in any state, of a path that `test` is true of. None where there may
     // be more than `most` rows, of which none is looked at then.
-    std::optional<bool> has_path(const std::function<bool(const std::filesystem::path&)>& test,
-                                 std::int64_t most);
+    std::optional<bool> has_path(const std::function<bool(std::string_view)>& test,
+                                 std::int64_t most = std::numeric_limits<std::int64_t>::max());
     // None when the path has no row.
     std::optional<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                                    std::int64_t modified_ns);

@@ -96,7 +96,6 @@ void Caretaker::examine_databases() {
     const auto stations = of_.catalog.station_names();
     if (!stations) return log_problem("cannot examine the catalog", stations.error());
     for (const std::string& station : *stations) {
-        if (station.empty()) continue;  // met by every file anyway
         if (!pause({})) return;
         if (const Status sound = of_.catalog.examine(station); !sound) {
             log_problem("cannot mend a database", sound.error());
