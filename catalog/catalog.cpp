@@ -236,30 +236,35 @@ Result<std::vector<std::string>> Catalog::station_names() const {
     return names;
 }
 
-Status Catalog::examine(std::optional<std::string_view> station) {
-    const auto names = impl_->names();
-    if (!names) return pass_on(names);
+Status Catalog::examine_all() {
+    const auto stations = station_names();
+    if (!stations) return pass_on(stations);
     Status outcome;
-    for (const std::string& name : *names) {
-        if (station && station_of(name) != *station) continue;
-        // What a crash left unfinished, only one who writes can finish.
-        const auto opened = impl_->with(name, false, [](StationDatabase&) { return true; });
-        if (!opened) {
-            outcome = pass_on(opened);
-            continue;
-        }
-        const fs::path path = impl_->path_of(name);
-        const auto found = examine_database(path);
-        if (!found) outcome = pass_on(found);
-        if (!found || found->damage.empty()) continue;
-        Impl::Slot& place = impl_->slot(name);
-        const std::scoped_lock lock(place.mutex);
-        if (!impl_->mend(place, name)) {
-            outcome = fail(ErrorCode::corrupt, "{}: {}, and cannot be mended", path.native(),
-                           found->damage.front());
-        }
+    for (const std::string& station : *stations) {
+        if (Status examined = examine(station); !examined) outcome = std::move(examined);
     }
     return outcome;
+}
+
+Status Catalog::examine(std::string_view station) {
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    const auto name = std::find_if(names->begin(), names->end(), [&](const std::string& each) {
+        return station_of(each) == station;
+    });
+    if (name == names->end()) return {};
+    // What a crash left unfinished, only one who writes can finish.
+    const auto opened = impl_->with(*name, false, [](StationDatabase&) { return true; });
+    if (!opened) return pass_on(opened);
+    const fs::path path = impl_->path_of(*name);
+    const auto found = examine_database(path);
+    if (!found) return pass_on(found);
+    if (found->damage.empty()) return {};
+    Impl::Slot& place = impl_->slot(*name);
+    const std::scoped_lock lock(place.mutex);
+    if (impl_->mend(place, *name)) return {};
+    return fail(ErrorCode::corrupt, "{}: {}, and cannot be mended", path.native(),
+                found->damage.front());
 }
 
 std::vector<Repair> Catalog::take_repairs() {

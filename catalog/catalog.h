@@ -134,10 +134,11 @@ class Catalog {
 
     // The stations that have a database, sorted; "" for files without one comes first.
     [[nodiscard]] Result<std::vector<std::string>> station_names() const;
-    // Reads the whole database of a station ("": of files without one), or of all where none is
-    // named, and mends it where it is damaged. For a writer. Errors: those of a database that
-    // cannot be looked at or mended, after all others were.
-    Status examine(std::optional<std::string_view> station);
+    // Reads the whole database of a station ("": of files without one), and mends it where it is
+    // damaged. For a writer. Errors: those of a database that cannot be looked at or mended.
+    Status examine(std::string_view station);
+    // The same of every station's. The last error, after all were looked at.
+    Status examine_all();
     // What was mended since the last call.
     std::vector<Repair> take_repairs();
 

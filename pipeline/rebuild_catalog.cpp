@@ -83,7 +83,9 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     }
     auto catalog = catalog::Catalog::open_for_writing(options.catalog);
     if (!catalog) return pass_on(catalog);
-    if (Status examined = catalog->examine(options.station); !examined) return pass_on(examined);
+    const Status examined =
+        options.station.empty() ? catalog->examine_all() : catalog->examine(options.station);
+    if (!examined) return pass_on(examined);
     auto files = files_below(drop, report);
     if (!files) return pass_on(files);
     std::erase_if(*files, [&](const fs::path& path) { return !may_be_of(path, options.station); });

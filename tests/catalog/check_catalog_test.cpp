@@ -75,7 +75,7 @@ TEST_F(CheckCatalog, DamageIsNamedAndNothingIsWritten) {
     EXPECT_EQ(fs::file_size(catalog_ / "KTLX.sqlite"), 6000U);
 
     auto catalog = *Catalog::open_for_writing(catalog_);
-    ASSERT_TRUE(catalog.examine(std::nullopt));
+    ASSERT_TRUE(catalog.examine_all());
     const auto mended = check_catalog(catalog_, "");
     ASSERT_TRUE(mended);
     EXPECT_TRUE(mended->stations[0].damage.empty());

@@ -178,7 +178,7 @@ TEST_F(DamagedDatabase, DamageOfAnyPageIsMended) {
             if (kind == 2) changed.resize(at + page / 2);
             overwrite(changed);
             auto catalog = *Catalog::open_for_writing(catalog_);
-            ASSERT_TRUE(catalog.examine(std::nullopt)) << "page " << at / page << ", kind " << kind;
+            ASSERT_TRUE(catalog.examine_all()) << "page " << at / page << ", kind " << kind;
             const auto repairs = catalog.take_repairs();
             mended += static_cast<int>(repairs.size());
             if (at > 0) {
@@ -269,7 +269,7 @@ TEST_F(DamagedDatabase, GenerationsAndSeveralVolumesOfAFileAreKept) {
         open.exec("DROP INDEX part_volume");
     }
     auto catalog = *Catalog::open_for_writing(catalog_);
-    ASSERT_TRUE(catalog.examine(std::nullopt));
+    ASSERT_TRUE(catalog.examine_all());
     const auto entries = *catalog.list("KTLX", {});
     ASSERT_EQ(entries.size(), 3U);
     EXPECT_EQ(entries[0].generation, 0);
