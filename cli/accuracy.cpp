@@ -125,8 +125,8 @@ void print_tables(const std::string& subject, const Measured& measured, accuracy
                format_truth(truth, unit, markdown));
 }
 
-void print_json(const std::string& subject, level2::Moment moment, const Measured& measured,
-                accuracy::ValueUnit unit) {
+void print_measured_json(const std::string& subject, level2::Moment moment,
+                         const Measured& measured, accuracy::ValueUnit unit) {
     nlohmann::ordered_json json;
     json["subject"] = subject;
     json["moment"] = level2::moment_name(moment);
@@ -254,7 +254,7 @@ int report_ladder(const AccuracyOptions& options, const GridRequest& request,
     }
     if (!options.picture) note_without_values(measured.rows);
     if (options.grid.json) {
-        print_json(subject, request.moment, measured, unit);
+        print_measured_json(subject, request.moment, measured, unit);
     } else {
         print_tables(subject, measured, unit, options.markdown,
                      options.picture ? Table::picture : Table::grid);

@@ -23,8 +23,8 @@ struct SynthOptions {
     bool json = false;
 };
 
-void print_report(const synth::WrittenScene& written, double total_s, bool json) {
-    if (!json) {
+void print_report(const synth::WrittenScene& written, double total_s, bool as_json) {
+    if (!as_json) {
         for (const auto& file : written.files) {
             fmt::print("{}\n", printable(file.native()));
         }

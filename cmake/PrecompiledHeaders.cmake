@@ -21,7 +21,7 @@ if(STORMCELLAR_TESTS)
   find_package(GTest REQUIRED)
   # A program, because programs are compiled with other options than libraries.
   add_executable(stormcellar_test_headers ${STORMCELLAR_NO_SOURCE})
-  target_compile_options(stormcellar_test_headers PRIVATE ${STORMCELLAR_SHORT_BUILD})
+  target_compile_options(stormcellar_test_headers PRIVATE ${STORMCELLAR_TEST_BUILD})
   target_link_libraries(stormcellar_test_headers PRIVATE fmt::fmt GTest::gtest GTest::gmock)
   target_precompile_headers(stormcellar_test_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS}
     <gmock/gmock.h> <gtest/gtest.h>)

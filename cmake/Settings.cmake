@@ -34,5 +34,6 @@ endif()
 if(STORMCELLAR_SANITIZE)
   add_compile_options(-fsanitize=${STORMCELLAR_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
+  add_compile_definitions(STORMCELLAR_SANITIZED)  # compilers have macros of their own for it
   add_link_options(-fsanitize=${STORMCELLAR_SANITIZE})
 endif()

@@ -29,7 +29,7 @@ long faults_of_a_volume() {
 }
 
 TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "another allocator";
 #endif
     keep_freed_memory();
@@ -51,7 +51,7 @@ TEST(LargePages, AnArrayIsAllZero) {
 
 // Where the system has large pages, 32 MiB come by few faults; where it has none, as before.
 TEST(LargePages, AreAHintThatCostsNoMoreFaults) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "another allocator";
 #endif
     constexpr std::size_t size = std::size_t{32} << 20;

@@ -22,7 +22,7 @@ inline constexpr long most_mib = 1024;
 // For what takes seconds where nothing else runs.
 inline constexpr double most_seconds = 60;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(STORMCELLAR_SANITIZED)
 inline constexpr bool memory_is_ours = false;
 #else
 inline constexpr bool memory_is_ours = true;

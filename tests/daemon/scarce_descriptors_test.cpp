@@ -36,7 +36,7 @@ class WithoutDescriptors {
 class ScarceDescriptors : public ::testing::Test {
   protected:
     void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(STORMCELLAR_SANITIZED)
         GTEST_SKIP()
             << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
 #endif

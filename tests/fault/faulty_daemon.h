@@ -15,7 +15,7 @@
 namespace stormcellar::fault {
 
 // Built with a sanitizer, which has to be loaded first and takes memory of its own.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(STORMCELLAR_SANITIZED)
 inline constexpr bool is_sanitized = true;
 #else
 inline constexpr bool is_sanitized = false;

@@ -69,10 +69,14 @@ double worst_off_plane_m(double elevation_deg, double farthest_m, double latitud
 
 // As far as a beam lies below 21 km.
 TEST(GatesInside, StandWhereThePlaneThroughTheCentreHasThem) {
-    for (const auto& [latitude_deg, altitude_m] :
-         {std::pair{35.0, 390.0}, {78.0, -100.0}, {0.0, 4000.0}, {-71.0, 0.0}}) {
+    struct Place {
+        double latitude_deg;
+        double altitude_m;
+    };
+    for (const Place& place : {Place{35, 390}, Place{78, -100}, Place{0, 4000}, Place{-71, 0}}) {
         const auto worst_m = [&](double elevation_deg, double farthest_m) {
-            return worst_off_plane_m(elevation_deg, farthest_m, latitude_deg, altitude_m);
+            return worst_off_plane_m(elevation_deg, farthest_m, place.latitude_deg,
+                                     place.altitude_m);
         };
         for (const double elevation_deg : {-5.0, -0.5, 0.0, 0.5})
             EXPECT_LT(worst_m(elevation_deg, 470e3), 2.5) << elevation_deg;

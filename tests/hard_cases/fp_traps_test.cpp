@@ -37,8 +37,16 @@ TEST(FpTrapsDeathTest, WhatIsNoNumberEndsTheProgram) {
     EXPECT_EXIT(trapped([] { keep(1 / zero); }), by_signal, "");
     EXPECT_EXIT(trapped([] { keep(zero / zero); }), by_signal, "");
     EXPECT_EXIT(trapped([] { keep(huge * huge); }), by_signal, "");
-    EXPECT_EXIT(trapped([] { keep(nan_value < zero ? 1 : 2); }), by_signal, "");
     EXPECT_EXIT(trapped([] { keep(std::log10(zero)); }), by_signal, "");
+}
+
+TEST(FpTrapsDeathTest, AComparisonWithWhatIsNoNumberEndsTheProgram) {
+#if defined(__clang__)
+    GTEST_SKIP() << "clang compares by an instruction that says nothing";
+#else
+    EXPECT_EXIT(trapped([] { keep(nan_value < zero ? 1 : 2); }), ::testing::KilledBySignal(SIGFPE),
+                "");
+#endif
 }
 
 TEST(FpTrapsDeathTest, OrdinaryArithmeticDoesNot) {

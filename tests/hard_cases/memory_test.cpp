@@ -58,7 +58,7 @@ long peak_mib(const std::function<void()>& work) {
 }
 
 // A sanitizer's own memory is not ours: what it keeps of freed memory counts in the peak too.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(STORMCELLAR_SANITIZED)
 constexpr bool peak_is_ours = false;
 #else
 constexpr bool peak_is_ours = true;

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(STORMCELLAR_SANITIZED)
 constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;

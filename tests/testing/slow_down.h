@@ -3,7 +3,7 @@
 
 namespace stormcellar::testing {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(STORMCELLAR_SANITIZED)
 inline constexpr int slow_down = 8;
 #else
 inline constexpr int slow_down = 1;
