@@ -19,10 +19,15 @@ target_precompile_headers(stormcellar_headers PRIVATE ${STORMCELLAR_COMMON_HEADE
 
 if(STORMCELLAR_TESTS)
   find_package(GTest REQUIRED)
-  # A program, because programs are compiled with other options than libraries.
-  add_executable(stormcellar_test_headers ${STORMCELLAR_NO_SOURCE})
-  target_compile_options(stormcellar_test_headers PRIVATE ${STORMCELLAR_TEST_BUILD})
-  target_link_libraries(stormcellar_test_headers PRIVATE fmt::fmt GTest::gtest GTest::gmock)
-  target_precompile_headers(stormcellar_test_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS}
-    <gmock/gmock.h> <gtest/gtest.h>)
+  # Programs, because programs are compiled with other options than libraries; two, because headers
+  # are of use only to what is optimised as they are.
+  function(stormcellar_test_headers name)
+    add_executable(${name} ${STORMCELLAR_NO_SOURCE})
+    target_compile_options(${name} PRIVATE ${ARGN})
+    target_link_libraries(${name} PRIVATE fmt::fmt GTest::gtest GTest::gmock)
+    target_precompile_headers(${name} PRIVATE ${STORMCELLAR_COMMON_HEADERS} <gmock/gmock.h>
+      <gtest/gtest.h>)
+  endfunction()
+  stormcellar_test_headers(stormcellar_test_headers ${STORMCELLAR_TEST_BUILD})
+  stormcellar_test_headers(stormcellar_computing_test_headers ${STORMCELLAR_SHORT_BUILD})
 endif()

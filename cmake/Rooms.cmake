@@ -38,7 +38,7 @@ if(STORMCELLAR_QUICK_TESTS)
   list(APPEND STORMCELLAR_SHORT_BUILD -O0 -fno-sanitize=undefined)
 endif()
 set(STORMCELLAR_TEST_BUILD ${STORMCELLAR_SHORT_BUILD})
-# Where everything is built once: two minutes less of a release build, half a minute more of its tests.
+# Where everything is built once: two minutes less of a release build.
 if(STORMCELLAR_PRECOMPILE)
   list(APPEND STORMCELLAR_TEST_BUILD -O0)
 endif()
@@ -50,17 +50,24 @@ function(stormcellar_with_modules program)
   endif()
 endfunction()
 
-# stormcellar_test(NAME SOURCES a_test.cpp [LIBS libs...] [TOGETHER filter])
+# stormcellar_test(NAME SOURCES a_test.cpp [LIBS libs...] [TOGETHER filter] [COMPUTES])
 #
 # One test program. Each GoogleTest case becomes a ctest case with the program's name as a label; a
 # case that skips itself is shown by ctest as skipped. Cases that share what takes long to make, named
-# by a filter of GoogleTest, are one ctest case (NAME_together).
+# by a filter of GoogleTest, are one ctest case (NAME_together). A program that
+# COMPUTES is optimised wherever it is built.
 function(stormcellar_test name)
-  cmake_parse_arguments(ARG "" "TOGETHER" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "TOGETHER" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_compile_options(${name} PRIVATE ${STORMCELLAR_TEST_BUILD})
+  set(build ${STORMCELLAR_TEST_BUILD})
+  set(headers stormcellar_test_headers)
+  if(ARG_COMPUTES)
+    set(build ${STORMCELLAR_SHORT_BUILD})
+    set(headers stormcellar_computing_test_headers)
+  endif()
+  target_compile_options(${name} PRIVATE ${build})
   if(STORMCELLAR_PRECOMPILE)
-    target_precompile_headers(${name} REUSE_FROM stormcellar_test_headers)
+    target_precompile_headers(${name} REUSE_FROM ${headers})
   endif()
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} stormcellar::testing stormcellar_fp_traps
     GTest::gtest GTest::gmock GTest::gtest_main)
