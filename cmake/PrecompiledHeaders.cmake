@@ -1,7 +1,7 @@
 # Headers that most sources include, read once for all of them: a build takes two thirds of the time.
 # Off by default: with them a source that forgets to include what it uses goes unnoticed, ccache
 # keeps nothing, and clang-tidy cannot read what gcc compiled. On where a fresh machine builds
-# everything once (.ci/run); the fuzzers' build never has them.
+# everything once (.ci/run).
 if(NOT STORMCELLAR_PRECOMPILE)
   return()
 endif()
@@ -17,10 +17,14 @@ add_library(stormcellar_headers STATIC ${STORMCELLAR_NO_SOURCE})
 target_link_libraries(stormcellar_headers PRIVATE fmt::fmt)
 target_precompile_headers(stormcellar_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS})
 
+# Programs are compiled with other options than libraries.
+add_executable(stormcellar_program_headers ${STORMCELLAR_NO_SOURCE})
+target_link_libraries(stormcellar_program_headers PRIVATE fmt::fmt)
+target_precompile_headers(stormcellar_program_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS})
+
 if(STORMCELLAR_TESTS)
   find_package(GTest REQUIRED)
-  # Programs, because programs are compiled with other options than libraries; two, because headers
-  # are of use only to what is optimised as they are.
+  # Two, because headers are of use only to what is optimised as they are.
   function(stormcellar_test_headers name)
     add_executable(${name} ${STORMCELLAR_NO_SOURCE})
     target_compile_options(${name} PRIVATE ${ARGN})

@@ -4,12 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/daemon/steady_start.h"
+
 namespace stormcellar::daemon {
 namespace {
 
 using std::chrono::seconds;
 
-const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
 constexpr FileStamp small{1, 100, 5};
 constexpr FileStamp large{1, 200, 6};
 

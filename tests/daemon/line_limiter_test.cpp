@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/daemon/steady_start.h"
+
 namespace stormcellar::daemon {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
 
 TEST(RateLimit, LetsSoManyThroughAndCountsTheRest) {
     RateLimit limit(3, seconds{10});

@@ -1,6 +1,7 @@
 #include "daemon/log.h"
 
 #include <cstdlib>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include "tests/daemon/journal_socket.h"
+#include "tests/daemon/steady_start.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::daemon {
@@ -16,7 +18,7 @@ namespace {
 
 using std::chrono::seconds;
 
-const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
+const About ktlx_rejected{.event = Event::rejected, .station = "KTLX"};
 
 TEST(JournalStream, IsRecognisedByWhatItNames) {
     struct stat facts {};
@@ -45,6 +47,16 @@ class LogTest : public ::testing::Test {
         int entries = 0;
         while (socket_->receive())
             ++entries;
+        return entries;
+    }
+    // How many entries have come of so many lines, read as they come: a socket may hold no more
+    // than ten.
+    int count_of(int lines, const std::function<void(int)>& log_line) {
+        int entries = 0;
+        for (int i = 0; i < lines; ++i) {
+            log_line(i);
+            entries += count();
+        }
         return entries;
     }
 
@@ -101,9 +113,7 @@ TEST_F(LogTest, TheLevelCounts) {
 
 TEST_F(LogTest, AFloodIsSummedUpOnceAMinute) {
     begin("info");
-    for (int i = 0; i < 1254; ++i)
-        log_warning({.event = Event::rejected, .station = "KTLX"}, "rejected {}", i);
-    EXPECT_EQ(count(), 20);
+    EXPECT_EQ(count_of(1254, [](int i) { log_warning(ktlx_rejected, "rejected {}", i); }), 20);
     now_ = t0 + seconds{59};
     log_held_back();
     EXPECT_EQ(count(), 0);
@@ -122,9 +132,7 @@ TEST_F(LogTest, AFloodIsSummedUpOnceAMinute) {
 
 TEST_F(LogTest, AtTheEndNothingHeldBackIsForgotten) {
     begin("info");
-    for (int i = 0; i < 25; ++i)
-        log_warning({.event = Event::rejected, .station = "KTLX"}, "rejected {}", i);
-    EXPECT_EQ(count(), 20);
+    EXPECT_EQ(count_of(25, [](int i) { log_warning(ktlx_rejected, "rejected {}", i); }), 20);
     log_held_back();
     EXPECT_EQ(count(), 0) << "the minute is not over";
     log_all_held_back();
@@ -135,9 +143,8 @@ TEST_F(LogTest, AtTheEndNothingHeldBackIsForgotten) {
 
 TEST_F(LogTest, OfALoopTheLoopIsNamed) {
     begin("info");
-    for (int i = 0; i < 21; ++i)
-        log_info({.event = Event::loop_said, .loop = "plains"}, "x");
-    EXPECT_EQ(count(), 20);
+    const auto say = [](int) { log_info({.event = Event::loop_said, .loop = "plains"}, "x"); };
+    EXPECT_EQ(count_of(21, say), 20);
     now_ = t0 + seconds{60};
     log_held_back();
     const auto fields = socket_->receive_fields();

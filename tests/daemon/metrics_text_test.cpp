@@ -16,7 +16,7 @@ using pipeline::IngestResult;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const UtcTime now = *parse_utc("2022-03-17T00:20:00Z", UtcTime{});
+const UtcTime asked_at = *parse_utc("2022-03-17T00:20:00Z", UtcTime{});
 
 Finished finished(const std::string& station, IngestResult result, int latency_ms) {
     Finished made{.job = {}, .taken = Taken{{}, outcome_of(result)}, .started = {}, .ended = {}};
@@ -97,7 +97,7 @@ TEST(MetricsReader, RefusesWhatTheFormatDoesNotAllow) {
 
 TEST(Metrics, AreValidWhenNothingHasHappenedYet) {
     const StatusBook book("/d", "/c");
-    const auto families = read_metrics(metrics_text(book.facts(), {}, now));
+    const auto families = read_metrics(metrics_text(book.facts(), {}, asked_at));
     EXPECT_EQ(families.at("stormcellar_state").samples.at("stormcellar_state{state=\"starting\"}"),
               1);
     EXPECT_FALSE(families.contains("stormcellar_cache_bytes")) << "not looked at yet";
@@ -112,20 +112,20 @@ TEST(Metrics, SayWhatTheBookCounted) {
     book.set_state("running");
     for (const int latency_ms : {100, 200, 400}) {
         Finished one = finished("KTLX", IngestResult::gridded, latency_ms);
-        one.taken->ingest.newest_radial = now - seconds{30};
+        one.taken->ingest.newest_radial = asked_at - seconds{30};
         one.taken->ingest.partial = latency_ms == 400;
-        book.add(one, now - seconds{10});
+        book.add(one, asked_at - seconds{10});
     }
     Finished rejected = finished("KOUN", IngestResult::rejected, 1);
     rejected.taken->ingest.rejected_with = ErrorCode::corrupt;
-    book.add(rejected, now - seconds{5});
+    book.add(rejected, asked_at - seconds{5});
     Finished sweep = finished("KTLX", IngestResult::incomplete, 600);
     sweep.taken->ingest.living = {"/c/living.scg"};
-    book.add(sweep, now - seconds{10});
+    book.add(sweep, asked_at - seconds{10});
     Finished failed = finished("KTLX", IngestResult::gridded, 1);
     failed.taken = fail(ErrorCode::no_space, "full");
-    book.add(failed, now);
-    book.stations().add_missing_chunks("KTLX", {now, 17, {3, 4}, 2});
+    book.add(failed, asked_at);
+    book.stations().add_missing_chunks("KTLX", {asked_at, 17, {3, 4}, 2});
     book.set_usage({.grids = 9,
                     .pinned = 2,
                     .bytes = 1000,
@@ -133,9 +133,9 @@ TEST(Metrics, SayWhatTheBookCounted) {
                     .evicted = 3,
                     .evicted_bytes = 300,
                     .not_kept = 1});
-    book.set_loops({{"a", true, 2, 10, now, 24, ""}});
+    book.set_loops({{"a", true, 2, 10, asked_at, 24, ""}});
     book.count_overflow();
-    const std::string text = metrics_text(book.facts(), {4, 2, 1}, now);
+    const std::string text = metrics_text(book.facts(), {4, 2, 1}, asked_at);
     const auto expect = [&](const std::string& family, const std::string& labels, double value) {
         EXPECT_DOUBLE_EQ(value_of(text, family, family + labels), value);
     };
@@ -176,20 +176,21 @@ TEST(Metrics, SayWhatTheBookCounted) {
 // 2026-11-22: where no file had come since the start, nothing told of the silence.
 TEST(Metrics, TheFeedsAgeCountsFromTheStartWhereNothingHasCome) {
     StatusBook book("/d", "/c");
-    book.stations().add_known("KTLX", now, now);
+    book.stations().add_known("KTLX", asked_at, asked_at);
     StatusFacts facts = book.facts();
-    facts.started = now - std::chrono::seconds{1000};
-    EXPECT_DOUBLE_EQ(value_of(metrics_text(facts, {}, now), "stormcellar_last_data_age_seconds",
-                              "stormcellar_last_data_age_seconds"),
-                     1000);
+    facts.started = asked_at - std::chrono::seconds{1000};
+    EXPECT_DOUBLE_EQ(
+        value_of(metrics_text(facts, {}, asked_at), "stormcellar_last_data_age_seconds",
+                 "stormcellar_last_data_age_seconds"),
+        1000);
 }
 
 // No file can make a line that is not one, nor more series than are remembered.
 TEST(Metrics, StayWholeWhateverFilesClaim) {
     StatusBook book("/d", "/c");
     for (int i = 0; i < 2000; ++i)
-        book.add(finished("K\n\"\\" + std::to_string(i), IngestResult::gridded, 1), now);
-    const auto families = read_metrics(metrics_text(book.facts(), {}, now));
+        book.add(finished("K\n\"\\" + std::to_string(i), IngestResult::gridded, 1), asked_at);
+    const auto families = read_metrics(metrics_text(book.facts(), {}, asked_at));
     EXPECT_EQ(families.at("stormcellar_station_last_ingest_age_seconds").samples.size(), 512U);
     EXPECT_EQ(families.at("stormcellar_stations_left_out_total")
                   .samples.at("stormcellar_stations_left_out_total"),

@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/daemon/steady_start.h"
+
 namespace stormcellar::daemon {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
 
 Job job(const std::string& path, std::int64_t newest_ns = 0) {
     Job made;

@@ -15,7 +15,8 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-const UtcTime t0 = *parse_utc("2022-03-17T00:08:42Z", UtcTime{});  // of outcome_of()'s volume
+const UtcTime volume_start =
+    *parse_utc("2022-03-17T00:08:42Z", UtcTime{});  // of outcome_of()'s volume
 
 IngestOutcome gridded(UtcTime volume, UtcTime newest_radial) {
     IngestOutcome outcome = outcome_of(IngestResult::gridded);
@@ -40,12 +41,13 @@ TEST(Timings, CountAllAndSummariseTheLast) {
 
 TEST(StationBook, KeepsTheNewestVolumeWhateverComesLater) {
     StationBook book;
-    book.add(gridded(t0, t0 + minutes{4}), 0.5, t0 + minutes{5});
-    book.add(gridded(t0 - hours{3}, t0 - hours{3}), std::nullopt, t0 + minutes{6});
+    book.add(gridded(volume_start, volume_start + minutes{4}), 0.5, volume_start + minutes{5});
+    book.add(gridded(volume_start - hours{3}, volume_start - hours{3}), std::nullopt,
+             volume_start + minutes{6});
     const StationState& state = book.stations().at("KTLX");
-    EXPECT_EQ(state.volume_time, t0);
-    EXPECT_EQ(state.newest_radial, t0 + minutes{4});
-    EXPECT_EQ(state.ingested_at, t0 + minutes{6});
+    EXPECT_EQ(state.volume_time, volume_start);
+    EXPECT_EQ(state.newest_radial, volume_start + minutes{4});
+    EXPECT_EQ(state.ingested_at, volume_start + minutes{6});
     EXPECT_EQ(state.results.at(index_of(IngestResult::gridded)), 2U);
     EXPECT_EQ(state.close_to_cache.count(), 1U);
 }
@@ -54,16 +56,16 @@ TEST(StationBook, KeepsTheNewestVolumeWhateverComesLater) {
 TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
     StationBook book;
     IngestOutcome chunk = outcome_of(IngestResult::incomplete);
-    book.add(chunk, 0.1, t0 + seconds{10});
+    book.add(chunk, 0.1, volume_start + seconds{10});
     const StationState& state = book.stations().at("KTLX");
-    EXPECT_EQ(state.data_at, t0 + seconds{10});
+    EXPECT_EQ(state.data_at, volume_start + seconds{10});
     EXPECT_EQ(state.living, 0U);
     EXPECT_EQ(state.close_to_living.count(), 0U) << "no sweep was complete with it";
     chunk.living = {"/c/living.scg"};
-    book.add(chunk, 0.3, t0 + seconds{15});
+    book.add(chunk, 0.3, volume_start + seconds{15});
     chunk.result = IngestResult::registered;  // one file a chunk
-    book.add(chunk, std::nullopt, t0 + seconds{20});
-    EXPECT_EQ(state.data_at, t0 + seconds{20});
+    book.add(chunk, std::nullopt, volume_start + seconds{20});
+    EXPECT_EQ(state.data_at, volume_start + seconds{20});
     EXPECT_EQ(state.living, 2U);
     EXPECT_EQ(state.close_to_living.count(), 1U) << "nobody saw the other's close";
     EXPECT_DOUBLE_EQ(state.close_to_living.sum_s(), 0.3);
@@ -73,21 +75,23 @@ TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
 
 TEST(StationBook, AVolumeOfTheFutureHidesNothing) {
     StationBook book;
-    book.add(gridded(t0, t0), std::nullopt, t0 + minutes{1});
-    book.add(gridded(t0 + hours{24}, t0 + hours{24}), std::nullopt, t0 + minutes{2});
-    EXPECT_EQ(book.stations().at("KTLX").volume_time, t0);
-    EXPECT_EQ(book.stations().at("KTLX").newest_radial, t0);
+    book.add(gridded(volume_start, volume_start), std::nullopt, volume_start + minutes{1});
+    book.add(gridded(volume_start + hours{24}, volume_start + hours{24}), std::nullopt,
+             volume_start + minutes{2});
+    EXPECT_EQ(book.stations().at("KTLX").volume_time, volume_start);
+    EXPECT_EQ(book.stations().at("KTLX").newest_radial, volume_start);
     EXPECT_EQ(book.stations().at("KTLX").not_live, 1U);
 }
 
 TEST(StationBook, ReplayedDataAreCountedApartFromTheTimings) {
     StationBook book;
-    book.add(gridded(t0, t0), std::nullopt, t0 + seconds{42});
-    book.add(gridded(t0, t0), std::nullopt, t0 + hours{1});
+    book.add(gridded(volume_start, volume_start), std::nullopt, volume_start + seconds{42});
+    book.add(gridded(volume_start, volume_start), std::nullopt, volume_start + hours{1});
     const StationState& state = book.stations().at("KTLX");
     EXPECT_EQ(state.antenna_to_cache.count(), 2U);
     EXPECT_EQ(state.antenna_to_cache.summary().median, 42);
-    book.add(gridded(t0, t0), std::nullopt, t0 + hours{1} + seconds{1});
+    book.add(gridded(volume_start, volume_start), std::nullopt,
+             volume_start + hours{1} + seconds{1});
     EXPECT_EQ(state.antenna_to_cache.count(), 2U);
     EXPECT_EQ(state.not_live, 1U);
     EXPECT_EQ(state.last_antenna_s, 3601) << "the number is kept";
@@ -99,35 +103,35 @@ TEST(StationBook, ReplayedDataAreCountedApartFromTheTimings) {
 TEST(StationBook, EveryFileIsASignOfLifeAndOnlyGridsAreVolumes) {
     StationBook book;
     IngestOutcome waiting = outcome_of(IngestResult::incomplete);
-    book.add(waiting, 0.1, t0);
-    EXPECT_EQ(book.stations().at("KTLX").data_at, t0);
+    book.add(waiting, 0.1, volume_start);
+    EXPECT_EQ(book.stations().at("KTLX").data_at, volume_start);
     EXPECT_FALSE(book.stations().at("KTLX").volume_time);
     EXPECT_FALSE(book.stations().at("KTLX").ingested_at);
     EXPECT_EQ(book.stations().at("KTLX").close_to_cache.count(), 0U);
-    book.add_data("KTLX", t0 + seconds{7});
-    EXPECT_EQ(book.stations().at("KTLX").data_at, t0 + seconds{7});
+    book.add_data("KTLX", volume_start + seconds{7});
+    EXPECT_EQ(book.stations().at("KTLX").data_at, volume_start + seconds{7});
     waiting.station.clear();
-    book.add(waiting, 0.1, t0);
+    book.add(waiting, 0.1, volume_start);
     EXPECT_EQ(book.stations().size(), 1U) << "no station, no entry";
 }
 
 TEST(StationBook, AStationKnownBeforeTheStartHasAnAgeAndNothingElse) {
     StationBook book;
-    book.add_known("KTLX", t0, t0 + hours{5});
-    book.add_known("KOUN", t0 + hours{50}, t0);
-    EXPECT_EQ(book.stations().at("KTLX").volume_time, t0);
+    book.add_known("KTLX", volume_start, volume_start + hours{5});
+    book.add_known("KOUN", volume_start + hours{50}, volume_start);
+    EXPECT_EQ(book.stations().at("KTLX").volume_time, volume_start);
     EXPECT_FALSE(book.stations().at("KTLX").data_at);
-    book.add_known("KBGM", t0, t0 + hours{7 * 24 + 1});
-    book.add_known("", t0, t0);
+    book.add_known("KBGM", volume_start, volume_start + hours{7 * 24 + 1});
+    book.add_known("", volume_start, volume_start);
     EXPECT_EQ(book.stations().size(), 1U) << "of the future, too old, of no station";
 }
 
 TEST(StationBook, MissingChunksAreSummedAndTheLastVolumesListed) {
     StationBook book;
-    book.add_missing_chunks("KTLX", {t0, 17, {}, 0});
+    book.add_missing_chunks("KTLX", {volume_start, 17, {}, 0});
     EXPECT_TRUE(book.stations().at("KTLX").missing.empty());
     for (int volume = 0; volume < 20; ++volume)
-        book.add_missing_chunks("KTLX", {t0, volume, {3, 9}, 0});
+        book.add_missing_chunks("KTLX", {volume_start, volume, {3, 9}, 0});
     const StationState& state = book.stations().at("KTLX");
     EXPECT_EQ(state.missing_chunks, 40U);
     ASSERT_EQ(state.missing.size(), 8U);
@@ -135,7 +139,7 @@ TEST(StationBook, MissingChunksAreSummedAndTheLastVolumesListed) {
     EXPECT_EQ(state.missing.back().numbers, (std::vector<int>{3, 9}));
     std::vector<int> many(1000);
     std::iota(many.begin(), many.end(), 1);
-    book.add_missing_chunks("KTLX", {t0, 20, many, 0});
+    book.add_missing_chunks("KTLX", {volume_start, 20, many, 0});
     EXPECT_EQ(state.missing.back().count, 1000U);
     EXPECT_EQ(state.missing.back().numbers.size(), 64U);
     EXPECT_EQ(state.missing_chunks, 1040U);
@@ -144,11 +148,11 @@ TEST(StationBook, MissingChunksAreSummedAndTheLastVolumesListed) {
 TEST(StationBook, StationsBeyondTheLimitAreCountedOnly) {
     StationBook book;
     for (std::size_t i = 0; i < StationBook::most_stations + 100; ++i)
-        book.add_data("S" + std::to_string(i), t0);
+        book.add_data("S" + std::to_string(i), volume_start);
     EXPECT_EQ(book.stations().size(), StationBook::most_stations);
     EXPECT_EQ(book.left_out(), 100U);
-    book.add_data("S0", t0 + seconds{1});
-    EXPECT_EQ(book.stations().at("S0").data_at, t0 + seconds{1}) << "who is known stays";
+    book.add_data("S0", volume_start + seconds{1});
+    EXPECT_EQ(book.stations().at("S0").data_at, volume_start + seconds{1}) << "who is known stays";
     EXPECT_EQ(book.left_out(), 100U);
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/daemon/fake_notifier.h"
+#include "tests/daemon/steady_start.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -13,8 +14,6 @@ namespace stormcellar::daemon {
 namespace {
 
 using std::chrono::milliseconds;
-
-const SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
 
 class StatusFileTest : public ::testing::Test {
   protected:

@@ -3,14 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "level2/volume_builder.h"
+#include "tests/level2/no_limits.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {
 namespace {
-
-constexpr std::uint64_t ample = std::uint64_t{1} << 30;
-const Selection everything;
 
 struct Outcome {
     Volume volume;

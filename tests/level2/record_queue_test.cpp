@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/level2/no_limits.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {
@@ -15,9 +16,6 @@ wire::Bytes many_records(unsigned count) {
     }
     return all;
 }
-
-constexpr std::uint64_t ample = std::uint64_t{1} << 30;
-const Selection everything;
 
 RecordQueue::Source parts_of(std::span<const std::byte> bytes) {
     return [framer = LdmFramer{bytes}]() mutable { return framer.next(); };

@@ -105,10 +105,10 @@ TEST(SelectionRealDamage, ALostRecordVoidsThePlan) {
 constexpr unsigned sweeps = 3;
 constexpr unsigned sweep_radials = 720;
 constexpr std::size_t records_of_a_cut = 6;
-constexpr std::array<float, sweeps> elevations_deg = {0.5F, 1.5F, 2.5F};
+constexpr std::array<float, sweeps> sweep_elevations_deg = {0.5F, 1.5F, 2.5F};
 
 std::vector<wire::Bytes> sound_records() {
-    std::vector<wire::Bytes> records = {wire::vcp_frame(212, elevations_deg)};
+    std::vector<wire::Bytes> records = {wire::vcp_frame(212, sweep_elevations_deg)};
     const wire::Bytes messages = wire::radial_messages(sweeps, sweep_radials, 20);
     const std::size_t size = messages.size() / (sweeps * records_of_a_cut);
     for (std::size_t at = 0; at < messages.size(); at += size) {

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "level2/fragment_builder.h"
+#include "tests/level2/no_limits.h"
 #include "tests/level2/same_volume.h"
 
 namespace stormcellar::level2 {
 namespace {
 
-constexpr std::uint64_t ample = std::uint64_t{1} << 30;
 constexpr std::size_t rows = 8;
-const Selection everything;
 
 struct Spec {
     int elevation_number = 1;

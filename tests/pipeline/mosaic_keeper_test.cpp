@@ -29,7 +29,7 @@ struct Loaded {
     std::string file;
 };
 
-Loaded load(const std::string& name) {
+Loaded load_volume(const std::string& name) {
     level2::DecodeOptions options;
     options.fallback_station = name.substr(0, 4);
     const auto path = *testing::data_directory() / "sequence-kbgm" / name;
@@ -79,12 +79,12 @@ const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM200508
                                            "KBGM20050822_025549.gz"};
 
 TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome) {
-    take(load(sequence[0]));
+    take(load_volume(sequence[0]));
     EXPECT_EQ(store_.list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size(),
               1U);
     // The middle of the first volume is 02:46:50: no frame is due between it and itself.
     const std::size_t first = frames().size();
-    const Kept second = take(load(sequence[1]));
+    const Kept second = take(load_volume(sequence[1]));
     EXPECT_GE(frames().size(), first);
     ASSERT_EQ(second.frames.size(), 1U);
     const auto frame = open(second.frames[0]);
@@ -94,7 +94,7 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
     EXPECT_EQ(frame.description().provenance.source_files, (std::vector{sequence[0], sequence[1]}));
 
     // A third volume brings the frame of 02:55 and leaves that of 02:50 alone.
-    const Kept third = take(load(sequence[2]));
+    const Kept third = take(load_volume(sequence[2]));
     ASSERT_EQ(third.frames.size(), 1U);
     EXPECT_EQ(format_utc(open(third.frames[0]).description().time), "2005-08-22T02:55:00Z");
     for (const cache::StoreEntry& entry : frames())
@@ -102,8 +102,8 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
 }
 
 TEST_F(MosaicKeeperTest, FramesSayWhatTheirRadarsReported) {
-    take(load(sequence[0]));
-    const Loaded loaded = load(sequence[1]);
+    take(load_volume(sequence[0]));
+    const Loaded loaded = load_volume(sequence[1]);
     VolumeSource source{loaded.volume, loaded.site, loaded.file};
     source.radar_troubles = {"KBGM: standby"};
     const auto kept = keeper_.take_in(source, 2);
@@ -115,10 +115,10 @@ TEST_F(MosaicKeeperTest, FramesSayWhatTheirRadarsReported) {
 }
 
 TEST_F(MosaicKeeperTest, AVolumeThatComesLateReplacesTheFramesAboutIt) {
-    take(load(sequence[0]));
-    const Kept last = take(load(sequence[2]));
+    take(load_volume(sequence[0]));
+    const Kept last = take(load_volume(sequence[2]));
     ASSERT_EQ(last.frames.size(), 2U);  // 02:50 and 02:55, from volumes 11 minutes apart
-    const Kept late = take(load(sequence[1]));
+    const Kept late = take(load_volume(sequence[1]));
     EXPECT_EQ(late.frames, last.frames);
     for (const auto& path : late.frames) {
         const auto frame = open(path);
@@ -132,7 +132,7 @@ TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
     GeometryCache geometries(4);
     std::vector<MadePartial> partials;
     for (const std::string& name : {sequence[0], sequence[1]}) {
-        const Loaded loaded = load(name);
+        const Loaded loaded = load_volume(name);
         take(loaded);
         PartialOptions options;
         const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
@@ -161,9 +161,9 @@ TEST_F(MosaicKeeperTest, AFrameIsWhatTheSameVolumesMakeWithoutTheStore) {
 
 // Of one site alone all bricks are its own, so all are merged; that it was an update is counted.
 TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
-    take(load(sequence[0]));
-    EXPECT_EQ(take(load(sequence[2])).updated, 0U) << "no frame stood";
-    EXPECT_EQ(take(load(sequence[1])).updated, 2U);
+    take(load_volume(sequence[0]));
+    EXPECT_EQ(take(load_volume(sequence[2])).updated, 0U) << "no frame stood";
+    EXPECT_EQ(take(load_volume(sequence[1])).updated, 2U);
     const auto updated = open(frames()[0].path);
     std::filesystem::remove(frames()[0].path);
     std::vector<std::string> problems;
@@ -180,8 +180,8 @@ TEST_F(MosaicKeeperTest, AFrameThatIsReplacedIsBroughtUpToDate) {
 
 // A code that was altered would be copied with a new checksum, and never be found again.
 TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
-    take(load(sequence[0]));
-    const auto path = take(load(sequence[1])).frames.at(0);
+    take(load_volume(sequence[0]));
+    const auto path = take(load_volume(sequence[1])).frames.at(0);
     const auto good = codes_of(open(path));
     alter_last_byte_of(path);
     std::vector<std::string> problems;
@@ -194,10 +194,10 @@ TEST_F(MosaicKeeperTest, ADamagedFrameIsNotCopiedFrom) {
 }
 
 TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
-    take(load(sequence[0]));
-    const auto damaged = take(load(sequence[1])).partials.at(0);
+    take(load_volume(sequence[0]));
+    const auto damaged = take(load_volume(sequence[1])).partials.at(0);
     alter_last_byte_of(damaged);
-    const Kept third = take(load(sequence[2]));
+    const Kept third = take(load_volume(sequence[2]));
     ASSERT_EQ(third.problems.size(), 1U);
     EXPECT_TRUE(third.problems[0].starts_with(damaged.native())) << third.problems[0];
     ASSERT_EQ(third.frames.size(), 1U);
@@ -208,7 +208,7 @@ TEST_F(MosaicKeeperTest, ADamagedPartialIsLeftOutAndNamed) {
 
 TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {
     for (const std::string& name : sequence)
-        take(load(name));
+        take(load_volume(name));
     const auto all = frames();
     ASSERT_EQ(all.size(), 2U);
     EXPECT_TRUE(keeper_.missing_frames(std::chrono::hours{6})->empty());
@@ -228,7 +228,7 @@ TEST_F(MosaicKeeperTest, MissingFramesAreThoseBetweenPartialsThatStand) {
 }
 
 TEST_F(MosaicKeeperTest, WhatCannotBeMadeAgainSaysWhy) {
-    take(load(sequence[0]));
+    take(load_volume(sequence[0]));
     std::vector<std::string> problems;
     const auto again = [&](const std::string& domain, const char* time) {
         const auto made = keeper_.make_again(
@@ -246,7 +246,7 @@ TEST_F(MosaicKeeperTest, ADomainThatTakesNotTheStationKeepsNothing) {
     Domain other = small_domain();
     other.stations = {"KTLX"};
     MosaicKeeper keeper(&store_, {other});
-    const Loaded loaded = load(sequence[0]);
+    const Loaded loaded = load_volume(sequence[0]);
     const auto kept = keeper.take_in({loaded.volume, loaded.site, loaded.file}, 1);
     ASSERT_TRUE(kept);
     EXPECT_TRUE(kept->partials.empty());

@@ -14,7 +14,6 @@ namespace stormcellar::render {
 namespace {
 
 using level2::Moment;
-using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using namespace std::string_view_literals;
 
@@ -124,8 +123,8 @@ TEST(PalFile, ErrorsNameTheLine) {
         const auto table = parse_pal(text, "t.pal");
         return table ? std::string{} : table.error().message;
     };
-    EXPECT_THAT(message(""), HasSubstr("no Color:"));
-    EXPECT_THAT(message("; nothing\n"), HasSubstr("no Color:"));
+    EXPECT_THAT(message(""), ::testing::HasSubstr("no Color:"));
+    EXPECT_THAT(message("; nothing\n"), ::testing::HasSubstr("no Color:"));
     EXPECT_THAT(message("Color: 1 2 3 4\nbogus\n"), StartsWith("t.pal:2: 'bogus'"));
     EXPECT_THAT(message("Colr: 1 2 3 4\n"), StartsWith("t.pal:1: unknown key 'COLR'"));
     EXPECT_THAT(message("\n\nColor: 1 2 3\n"), StartsWith("t.pal:3: a value and 3 or 6"));
@@ -140,7 +139,8 @@ TEST(PalFile, ErrorsNameTheLine) {
     for (int i = 0; i < 5000; ++i)
         many += "Color: " + std::to_string(i) + " 0 0 0\n";
     EXPECT_THAT(message(many), StartsWith("t.pal:4097: more than 4096"));
-    EXPECT_THAT(message("Color: 1 2 3 4\n\x1b[31mX: 1\n"), ::testing::Not(HasSubstr("\x1b")));
+    EXPECT_THAT(message("Color: 1 2 3 4\n\x1b[31mX: 1\n"),
+                ::testing::Not(::testing::HasSubstr("\x1b")));
 }
 
 constexpr std::string_view toml_example = R"(
@@ -196,22 +196,28 @@ TEST(TomlColours, ErrorsNameLineAndKey) {
         "[[point]]\nvalue = 1\ncolour = \"#000000\"\n"
         "[[point]]\nvalue = 2\ncolour = \"#ffffff\"\n";
     EXPECT_EQ(message(two), "");
-    EXPECT_THAT(message("moment = \"RAIN\"\n" + two), HasSubstr("t.toml:1: moment"));
-    EXPECT_THAT(message("unit = \"kt\"\nmoment = \"VEL\"\n" + two), HasSubstr("t.toml:1: unit"));
-    EXPECT_THAT(message("stepped = 1\n" + two), HasSubstr("stepped: must be true or false"));
-    EXPECT_THAT(message("colour = 1\n" + two), HasSubstr("unknown key"));
-    EXPECT_THAT(message(two + "opacity_per_km = 1\n"), HasSubstr("of all points or of none"));
+    EXPECT_THAT(message("moment = \"RAIN\"\n" + two), ::testing::HasSubstr("t.toml:1: moment"));
+    EXPECT_THAT(message("unit = \"kt\"\nmoment = \"VEL\"\n" + two),
+                ::testing::HasSubstr("t.toml:1: unit"));
+    EXPECT_THAT(message("stepped = 1\n" + two),
+                ::testing::HasSubstr("stepped: must be true or false"));
+    EXPECT_THAT(message("colour = 1\n" + two), ::testing::HasSubstr("unknown key"));
+    EXPECT_THAT(message(two + "opacity_per_km = 1\n"),
+                ::testing::HasSubstr("of all points or of none"));
     EXPECT_THAT(message(two + "[[point]]\nvalue = 2\ncolour = \"#000000\"\n"),
-                HasSubstr("t.toml:8: "));
+                ::testing::HasSubstr("t.toml:8: "));
     EXPECT_THAT(message(two + "[[point]]\nvalue = 3\ncolour = \"#00000\"\n"),
-                HasSubstr("t.toml:9: "));
-    EXPECT_THAT(message(two + "[[point]]\nvalue = 3\ncolour = [1, 2, 256]\n"), HasSubstr("colour"));
+                ::testing::HasSubstr("t.toml:9: "));
+    EXPECT_THAT(message(two + "[[point]]\nvalue = 3\ncolour = [1, 2, 256]\n"),
+                ::testing::HasSubstr("colour"));
     EXPECT_THAT(message(two + "[[point]]\nvalue = nan\ncolour = \"#000000\"\n"),
-                HasSubstr("out of range"));
-    EXPECT_THAT(message(two + "[[point]]\ncolour = \"#000000\"\n"), HasSubstr("is missing"));
-    EXPECT_THAT(message("end = 2\n" + two), HasSubstr("t.toml:1: end"));
-    EXPECT_THAT(message("[[point]]\nvalue = 1\ncolour = \"#000000\"\n"), HasSubstr("2 to 4096"));
-    EXPECT_THAT(message("point = 7\n"), HasSubstr("point"));
+                ::testing::HasSubstr("out of range"));
+    EXPECT_THAT(message(two + "[[point]]\ncolour = \"#000000\"\n"),
+                ::testing::HasSubstr("is missing"));
+    EXPECT_THAT(message("end = 2\n" + two), ::testing::HasSubstr("t.toml:1: end"));
+    EXPECT_THAT(message("[[point]]\nvalue = 1\ncolour = \"#000000\"\n"),
+                ::testing::HasSubstr("2 to 4096"));
+    EXPECT_THAT(message("point = 7\n"), ::testing::HasSubstr("point"));
 }
 
 // Whatever bytes a file holds: an error of one line, or a table that validate() accepts.
@@ -290,7 +296,7 @@ TEST(ColoursFrom, TakesANameOrAFile) {
     const auto unknown = colours_from("rainbow");
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ErrorCode::bad_argument);
-    EXPECT_THAT(unknown.error().message, HasSubstr("safe-velocity"));
+    EXPECT_THAT(unknown.error().message, ::testing::HasSubstr("safe-velocity"));
     EXPECT_EQ(colours_from((directory / "none.pal").string()).error().code, ErrorCode::not_found);
     EXPECT_EQ(read_colour_file(directory / "x.csv").error().code, ErrorCode::bad_argument);
     std::ofstream(directory / "large.pal") << std::string(std::size_t{1} << 21U, '\n');

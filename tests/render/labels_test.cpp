@@ -76,7 +76,7 @@ ColourTable uneven_table() {
     return table;
 }
 
-ColourTable smooth_table() {
+ColourTable smooth_labels_table() {
     ColourTable table = nws_reflectivity();
     table.unit = "degrees a kilometre";
     table.stops = {{-64.25F, {0, 0, 200, 255}, {200, 200, 200, 255}},
@@ -91,7 +91,7 @@ constexpr std::pair<int, int> sizes[] = {{400, 300},   {640, 480},   {796, 532},
                                          {480, 640},   {1080, 1920}, {2160, 3840}};
 
 void expect_tidy(const Fonts& fonts, const Scene& scene, const FrameFacts& facts) {
-    const ColourTable tables[] = {nws_reflectivity(), uneven_table(), smooth_table()};
+    const ColourTable tables[] = {nws_reflectivity(), uneven_table(), smooth_labels_table()};
     std::vector<PictureFacts> pictures;
     for (const ColourTable& table : tables)
         pictures.push_back(picture_of(scene, level2::Moment::ref, table));

@@ -12,8 +12,6 @@ namespace stormcellar::render {
 namespace {
 
 using grid::CellStatus;
-using ::testing::HasSubstr;
-
 FrameFacts facts_of(const grid::Grid& grid) {
     return {"KTLX", level2::Moment::ref, parse_compact("19990503_235621").value(), grid.sites,
             false};
@@ -88,7 +86,7 @@ TEST_F(ProbeTest, AtAPlaceIsThatColumn) {
     EXPECT_EQ(probe->value, 45);
     const auto outside = probe_place(view, facts_of(grid_), scene_, place(99.6, 5), 1);
     ASSERT_FALSE(outside);
-    EXPECT_THAT(outside.error().message, HasSubstr("outside the grid"));
+    EXPECT_THAT(outside.error().message, ::testing::HasSubstr("outside the grid"));
     EXPECT_EQ(probe_place(view, facts_of(grid_), scene_, {95, 0}, 1).error().code,
               ErrorCode::bad_argument);
 }

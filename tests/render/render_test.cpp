@@ -157,7 +157,7 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
     const auto moment = render_frame(bricks.view(), velocity, Scene{}, 1);
     ASSERT_FALSE(moment);
     EXPECT_EQ(moment.error().code, ErrorCode::bad_argument);
-    EXPECT_THAT(moment.error().message, testing::HasSubstr("VEL"));
+    EXPECT_THAT(moment.error().message, ::testing::HasSubstr("VEL"));
 
     Scene scene;
     scene.slices = 0;

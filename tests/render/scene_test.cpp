@@ -26,7 +26,7 @@ TEST(Product, UnknownNameListsTheKnownOnes) {
     const auto product = product_from_name("hologram");
     ASSERT_FALSE(product);
     EXPECT_EQ(product.error().code, ErrorCode::bad_argument);
-    EXPECT_THAT(product.error().message, testing::HasSubstr("volume, composite"));
+    EXPECT_THAT(product.error().message, ::testing::HasSubstr("volume, composite"));
 }
 
 TEST(Colours, AreTheScenesOrTheProductsOrTheMoments) {
@@ -104,7 +104,7 @@ TEST(SceneValidation, NamesTheFieldThatIsOutOfRange) {
         const Status status = validate(scene);
         ASSERT_FALSE(status) << c.name;
         EXPECT_EQ(status.error().code, ErrorCode::bad_argument);
-        EXPECT_THAT(status.error().message, testing::HasSubstr(c.name));
+        EXPECT_THAT(status.error().message, ::testing::HasSubstr(c.name));
     }
 }
 

@@ -8,12 +8,12 @@
 #include "grid/beam_geometry.h"
 #include "synth/beam_quadrature.h"
 #include "synth/radial_observer.h"
+#include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double width_deg = 0.95;
 
 template <typename Value>

@@ -10,6 +10,7 @@
 #include "level2/encode.h"
 #include "synth/effects.h"
 #include "synth/observe.h"
+#include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {
@@ -19,8 +20,6 @@ using level2::GateStatus;
 using level2::Moment;
 using level2::Sweep;
 using level2::SweepMoment;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Scene scene_of(const char* name) {
     auto scene = read_scene(testing::source_directory() / "scenes" / name);

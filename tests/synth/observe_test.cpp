@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include "grid/detection_limit.h"
 #include "level2/decode.h"
 #include "level2/encode.h"
+#include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {
@@ -19,8 +19,6 @@ namespace {
 using level2::GateStatus;
 using level2::Moment;
 using level2::Sweep;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Scene small_storm() {
     auto scene = read_scene(testing::source_directory() / "scenes/small-storm.toml");

@@ -1,17 +1,15 @@
 #include "synth/sampled_truth.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "grid/beam_geometry.h"
 #include "grid/site_frame.h"
+#include "tests/synth/degree.h"
 
 namespace stormcellar::synth {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Scene one_storm() {
     Scene scene;

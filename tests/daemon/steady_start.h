@@ -1,0 +1,12 @@
+// tests/daemon/steady_start.h -- the steady time at which tests with made times begin.
+#pragma once
+
+#include <chrono>
+
+#include "daemon/schedule.h"
+
+namespace stormcellar::daemon {
+
+inline constexpr SteadyTime t0 = SteadyTime{} + std::chrono::hours{1};
+
+}  // namespace stormcellar::daemon

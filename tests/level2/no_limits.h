@@ -1,0 +1,13 @@
+// tests/level2/no_limits.h -- for tests that neither limit nor select.
+#pragma once
+
+#include <cstdint>
+
+#include "level2/selection.h"
+
+namespace stormcellar::level2 {
+
+inline constexpr std::uint64_t ample = std::uint64_t{1} << 30;
+inline const Selection everything;
+
+}  // namespace stormcellar::level2
