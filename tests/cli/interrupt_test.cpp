@@ -28,7 +28,7 @@ TEST(InterruptDeathTest, SecondSignalEndsTheProgram) {
             ::raise(SIGINT);
             ::raise(SIGINT);
         },
-        testing::KilledBySignal(SIGINT), "");
+        ::testing::KilledBySignal(SIGINT), "");
 }
 
 TEST(InterruptDeathTest, EndsByTheSignalThatCame) {
@@ -38,7 +38,7 @@ TEST(InterruptDeathTest, EndsByTheSignalThatCame) {
             ::raise(SIGTERM);
             interrupt.end_by_signal();
         },
-        testing::KilledBySignal(SIGTERM), "");
+        ::testing::KilledBySignal(SIGTERM), "");
 }
 
 TEST(Interrupt, EndBySignalReturnsWhenNoneCame) {

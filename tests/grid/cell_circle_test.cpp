@@ -7,7 +7,7 @@
 namespace stormcellar::grid {
 namespace {
 
-const SitePosition site{"KTLX", 35, -97, 0};
+const SitePosition centre{"KTLX", 35, -97, 0};
 
 // Sweeps at 0.5 and 2.5 degrees, which pass 60 km away at some 0.7 and 2.8 km.
 level2::Volume volume_of(level2::Moment moment, float lower_mps, float upper_mps) {
@@ -28,10 +28,10 @@ struct Differences {
     double below = 0, between = 0, above = 0;
 };
 Differences differences(const level2::Volume& volume, level2::Moment moment, float a, float b) {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
+    GridSpec spec = default_spec(centre.latitude_deg, centre.longitude_deg);
     spec.levels_m = {300, 2000, 4000};
     const auto chosen = choose_sweeps(volume, moment, 0.475);
-    CellCircles circles(volume, chosen, site, spec, moment);
+    CellCircles circles(volume, chosen, centre, spec, moment);
     circles.move_to(60e3);
     return {circles.difference(a, b, 0), circles.difference(a, b, 1), circles.difference(a, b, 2)};
 }

@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
+const SitePosition ktlx{"KTLX", 35.3333, -97.2778, 389};
 
 SweepPlan plan(double elevation_deg, int cut, double dbz = 20) {
     SweepPlan made;
@@ -25,12 +25,12 @@ SweepPlan plan(double elevation_deg, int cut, double dbz = 20) {
 }
 
 Grid make(const level2::Volume& volume, int threads = 1) {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
+    GridSpec spec = default_spec(ktlx.latitude_deg, ktlx.longitude_deg);
     spec.spacing_m = 5000;
     spec.nx = spec.ny = 121;  // column 60 is the site's own; 600 km across
-    const auto geometry = make_column_geometry(site, spec);
+    const auto geometry = make_column_geometry(ktlx, spec);
     EXPECT_TRUE(geometry);
-    auto grid = make_grid(volume, site, **geometry, {level2::Moment::ref, 0.95, threads, {}, {}});
+    auto grid = make_grid(volume, ktlx, **geometry, {level2::Moment::ref, 0.95, threads, {}, {}});
     EXPECT_TRUE(grid);
     return grid ? *grid : Grid{};
 }
@@ -124,7 +124,7 @@ TEST(Gridder, AMissingCutIsNotBridged) {
 
 TEST(Gridder, ValuesAreLinearInHeightBetweenBeams) {
     const Grid grid = make(make_volume({plan(0.5, 1, 10), plan(1.5, 2, 30)}));
-    const BeamGeometry beam(site.latitude_deg, site.altitude_m);
+    const BeamGeometry beam(ktlx.latitude_deg, ktlx.altitude_m);
     const double low_m = beam.over(150e3, 0.5).height_m;
     const double high_m = beam.over(150e3, 1.5).height_m;
     const double expected = 10 + 20 * (4000 - low_m) / (high_m - low_m);
@@ -135,7 +135,7 @@ TEST(Gridder, NoEchoEntersAValueAtTheDetectionLimit) {
     SweepPlan quiet = plan(1.5, 2);
     quiet.code = [](int, int) { return below_threshold; };
     const Grid grid = make(make_volume({plan(0.5, 1, 30), quiet}));
-    const BeamGeometry beam(site.latitude_deg, site.altitude_m);
+    const BeamGeometry beam(ktlx.latitude_deg, ktlx.altitude_m);
     const auto low = beam.over(150e3, 0.5);
     const auto high = beam.over(150e3, 1.5);
     const double weight = (4000 - low.height_m) / (high.height_m - low.height_m);
@@ -169,7 +169,7 @@ TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
         volume.sweeps[1].radials[i].elevation_deg = 0.6F;
     }
     const Grid grid = make(volume);
-    const BeamGeometry beam(site.latitude_deg, site.altitude_m);
+    const BeamGeometry beam(ktlx.latitude_deg, ktlx.altitude_m);
     const double arc_m = std::hypot(75e3, 130e3);
     const auto expected = [&](double low_deg, double high_deg, double low, double high) {
         const double low_m = beam.over(arc_m, low_deg).height_m;
@@ -234,18 +234,18 @@ TEST(Gridder, SaysWhatItDid) {
 TEST(Gridder, RefusesWhatMakesNoSense) {
     const level2::Volume volume = make_volume({plan(0.5, 1)});
     const auto geometry =
-        make_column_geometry(site, default_spec(site.latitude_deg, site.longitude_deg));
+        make_column_geometry(ktlx, default_spec(ktlx.latitude_deg, ktlx.longitude_deg));
     const auto code = [&](const level2::Volume& v, const SitePosition& at, GridderOptions options) {
         const auto grid = make_grid(v, at, **geometry, options);
         return grid ? ErrorCode::internal : grid.error().code;
     };
-    EXPECT_EQ(code({}, site, {}), ErrorCode::not_found);
-    EXPECT_EQ(code(volume, site, {level2::Moment::vel, 0, 1, {}, {}}), ErrorCode::not_found);
+    EXPECT_EQ(code({}, ktlx, {}), ErrorCode::not_found);
+    EXPECT_EQ(code(volume, ktlx, {level2::Moment::vel, 0, 1, {}, {}}), ErrorCode::not_found);
     EXPECT_EQ(code(volume, {"KLOT", 41.6, -88.1, 200}, {}), ErrorCode::bad_argument);
-    EXPECT_EQ(code(volume, site, {level2::Moment::ref, -1, 1, {}, {}}), ErrorCode::bad_argument);
-    EXPECT_EQ(code(volume, site, {level2::Moment::ref, std::nan(""), 1, {}, {}}),
+    EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, -1, 1, {}, {}}), ErrorCode::bad_argument);
+    EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, std::nan(""), 1, {}, {}}),
               ErrorCode::bad_argument);
-    EXPECT_EQ(code(volume, site, {level2::Moment::ref, 0, 0, {}, {}}), ErrorCode::bad_argument);
+    EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, 0, 0, {}, {}}), ErrorCode::bad_argument);
 }
 
 TEST(Gridder, KnowsTheBeamOfEachKindOfRadar) {

@@ -55,7 +55,7 @@ const std::vector<HonestScene>& scenes() {
     return list;
 }
 
-struct Prepared {
+struct PreparedScene {
     level2::Volume volume;
     SitePosition site;
     GridSpec spec;
@@ -65,10 +65,10 @@ struct Prepared {
     std::optional<GridPlan> plan;
 };
 
-std::unique_ptr<Prepared> prepare(const HonestScene& honest) {
+std::unique_ptr<PreparedScene> prepare(const HonestScene& honest) {
     auto decoded = level2::decode_file(*testing::data_directory() / honest.file);
     EXPECT_TRUE(decoded);
-    auto made = std::make_unique<Prepared>();
+    auto made = std::make_unique<PreparedScene>();
     made->volume = std::move(decoded->volume);
     const auto antenna = level2::antenna_position(made->volume);
     made->site = {made->volume.station, antenna->latitude_deg, antenna->longitude_deg,
@@ -87,7 +87,7 @@ std::unique_ptr<Prepared> prepare(const HonestScene& honest) {
     return made;
 }
 
-Grid whole_grid(Prepared& prepared, const SceneChoice& choice) {
+Grid whole_grid(PreparedScene& prepared, const SceneChoice& choice) {
     const auto geometry = prepared.scene->geometry(choice.frame);
     const GridderOptions options{prepared.scene->options().moment, 0, 2, choice.method, {}};
     auto grid = make_grid(prepared.volume, prepared.site, **geometry, options);
@@ -95,18 +95,18 @@ Grid whole_grid(Prepared& prepared, const SceneChoice& choice) {
     return std::move(*grid);
 }
 
-CellCircles circles_of(const Prepared& prepared) {
+CellCircles circles_of(const PreparedScene& prepared) {
     return {prepared.volume, prepared.scene->chosen(), prepared.site, prepared.spec,
             prepared.scene->options().moment};
 }
 
-double arc_m(Prepared& prepared, int ix, int iy) {
+double arc_m(PreparedScene& prepared, int ix, int iy) {
     const auto geometry = prepared.scene->geometry(FrameKind::table);
     return static_cast<double>((*geometry)->row(iy)[static_cast<std::size_t>(ix)].arc_m);
 }
 
 // The 99th percentile over all cells that are valued in both.
-double difference(Prepared& prepared, const Grid& a, const Grid& b) {
+double difference(PreparedScene& prepared, const Grid& a, const Grid& b) {
     std::vector<double> errors;
     CellCircles circles = circles_of(prepared);
     const std::size_t nz = prepared.spec.levels_m.size();

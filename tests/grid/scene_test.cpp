@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
+const SitePosition ktlx{"KTLX", 35.3333, -97.2778, 389};
 
 // Echo in the eastern half, changing from gate to gate.
 level2::Volume half_volume() {
@@ -33,7 +33,7 @@ level2::Volume half_volume() {
 }
 
 GridSpec spec_of(int side, double spacing_m) {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
+    GridSpec spec = default_spec(ktlx.latitude_deg, ktlx.longitude_deg);
     spec.nx = spec.ny = side;
     spec.spacing_m = spacing_m;
     return spec;
@@ -41,7 +41,7 @@ GridSpec spec_of(int side, double spacing_m) {
 
 TEST(GridScene, ACensusHoldsEveryColumnWithEcho) {
     const level2::Volume volume = half_volume();
-    const auto scene = GridScene::make(volume, site, spec_of(40, 5000), {});
+    const auto scene = GridScene::make(volume, ktlx, spec_of(40, 5000), {});
     ASSERT_TRUE(scene);
     const ColumnSample sample = scene->draw(5000, 1);
     EXPECT_TRUE(sample.is_census);
@@ -52,7 +52,7 @@ TEST(GridScene, ACensusHoldsEveryColumnWithEcho) {
 
 TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
     const level2::Volume volume = half_volume();
-    auto scene = GridScene::make(volume, site, spec_of(200, 2000), {});
+    auto scene = GridScene::make(volume, ktlx, spec_of(200, 2000), {});
     ASSERT_TRUE(scene);
     const ColumnSample sample = scene->draw(3000, 1);
     ASSERT_FALSE(sample.is_census);
@@ -72,8 +72,8 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
 
 TEST(GridScene, SampledCellsAreThoseOfTheWholeGrid) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded =
-        level2::decode_file(*testing::data_directory() / "volumes" / "KTLX19990503_235621.gz");
+    const auto decoded = level2::decode_file(*::stormcellar::testing::data_directory() / "volumes" /
+                                             "KTLX19990503_235621.gz");
     ASSERT_TRUE(decoded);
     const level2::Volume& volume = decoded->volume;
     const auto antenna = level2::antenna_position(volume);
@@ -162,7 +162,7 @@ TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     empty.cut = 2;
     empty.code = [](int, int) { return below_threshold; };
     const level2::Volume volume = make_volume({low, empty});
-    auto scene = GridScene::make(volume, site, spec_of(300, 1000), {});
+    auto scene = GridScene::make(volume, ktlx, spec_of(300, 1000), {});
     ASSERT_TRUE(scene);
     const auto planned = plan_grid(*scene, effects_of(level2::Moment::ref),
                                    accuracy::parse_budget("20 km, 60 dB").value());
@@ -184,7 +184,7 @@ TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
         plans.push_back(plan);
     }
     const level2::Volume volume = make_volume(plans);
-    auto scene = GridScene::make(volume, site, spec_of(60, 2000), {});
+    auto scene = GridScene::make(volume, ktlx, spec_of(60, 2000), {});
     ASSERT_TRUE(scene);
     const auto planned = plan_grid(*scene, effects_of(level2::Moment::ref),
                                    accuracy::parse_budget("20 km, 1 dB").value());
@@ -198,7 +198,7 @@ TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
 
 TEST(Plan, ABudgetOutOfReachNamesTheBest) {
     const level2::Volume volume = half_volume();
-    auto scene = GridScene::make(volume, site, spec_of(60, 2000), {});
+    auto scene = GridScene::make(volume, ktlx, spec_of(60, 2000), {});
     ASSERT_TRUE(scene);
     accuracy::Chain chain = effects_of(level2::Moment::ref);
     const std::vector<accuracy::EffectOverride> off = {{"refraction", accuracy::Setting::off}};

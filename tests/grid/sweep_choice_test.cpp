@@ -140,7 +140,8 @@ TEST(ChooseSweeps, EachMomentOfRealSplitCutsComesFromItsSweep) {
     for (const auto& [name, split_cuts, elevations] :
          {Case{"KLOT20220317_000842_V06", 3, 9}, Case{"KDMX20250101_225441_V06", 3, 5},
           Case{"KCCX20130112_070503_V06.gz", 3, 5}, Case{"KTLX19990503_235621.gz", 2, 14}}) {
-        const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / name);
+        const auto decoded =
+            level2::decode_file(*::stormcellar::testing::data_directory() / "volumes" / name);
         ASSERT_TRUE(decoded) << name;
         const RealChoice ref = choose_of(decoded->volume, level2::Moment::ref);
         const RealChoice vel = choose_of(decoded->volume, level2::Moment::vel);
@@ -157,7 +158,8 @@ TEST(ChooseSweeps, EachMomentOfRealSplitCutsComesFromItsSweep) {
 // VCP 212 with MRLE: 0.5 and 0.9 degrees again in the middle of the volume.
 TEST(ChooseSweeps, RepeatedCutsOfARealVolume) {
     STORMCELLAR_NEED_DATA();
-    const auto decoded = level2::decode_path(*testing::data_directory() / "chunks" / "L2D_230");
+    const auto decoded =
+        level2::decode_path(*::stormcellar::testing::data_directory() / "chunks" / "L2D_230");
     ASSERT_TRUE(decoded);
     const level2::Volume& volume = decoded->volume;
     const auto first = [](const std::vector<std::size_t>& sweeps) {

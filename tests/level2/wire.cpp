@@ -1,8 +1,8 @@
 #include "tests/level2/wire.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -233,14 +233,14 @@ Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t cle
     constexpr std::uint32_t clear_code = 256;
     Bytes out = {std::byte{0x1F}, std::byte{0x9D}, static_cast<std::byte>(0x80 | most_width)};
     CodeWriter writer(out);
-    std::map<std::pair<std::uint32_t, std::byte>, std::uint32_t> entries;
-    std::uint32_t next_entry = clear_code + 1;
+    // Of each code and next byte the code of both; 0: none.
+    std::vector<std::array<std::uint32_t, 256>> entries(clear_code + 1);
     int width = 9;
     std::size_t cleared_at = 0;
     const auto emit = [&](std::uint32_t code) {
         writer.put(code, width);
         // With 9 bits at most compress widens to 10 all the same.
-        if (width < std::max(most_width, 10) && next_entry >= (1U << width))
+        if (width < std::max(most_width, 10) && entries.size() >= (1U << width))
             writer.end_group(width++);
     };
     std::optional<std::uint32_t> string;
@@ -250,12 +250,15 @@ Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t cle
             string = literal;
             continue;
         }
-        if (const auto known = entries.find({*string, plain[i]}); known != entries.end()) {
-            string = known->second;
+        if (const std::uint32_t known = entries[*string][literal]; known != 0) {
+            string = known;
             continue;
         }
         emit(*string);
-        if (next_entry < (1U << most_width)) entries[{*string, plain[i]}] = next_entry++;
+        if (entries.size() < (1U << most_width)) {
+            entries[*string][literal] = static_cast<std::uint32_t>(entries.size());
+            entries.emplace_back();
+        }
         string = literal;
         if (clear_every != 0 && i - cleared_at >= clear_every) {
             emit(*string);
@@ -263,8 +266,7 @@ Bytes compress(std::span<const std::byte> plain, int most_width, std::size_t cle
             writer.put(clear_code, width);
             writer.end_group(width);
             width = 9;
-            next_entry = clear_code + 1;
-            entries.clear();
+            entries.assign(clear_code + 1, {});
             cleared_at = i;
         }
     }
