@@ -234,11 +234,12 @@ void write_sites(MetricsWriter& out, const StatusFacts& facts) {
 }
 
 void write_loops(MetricsWriter& out, const StatusFacts& facts) {
-    if (facts.loops.empty()) return;
+    const std::vector<LoopState>& loops = facts.loops.empty() ? facts.others_loops : facts.loops;
+    if (loops.empty()) return;
     const auto all = [&](const char* name, Type type, const char* help,
                          const std::function<std::uint64_t(const LoopState&)>& value) {
         out.family(name, type, help);
-        for (const LoopState& loop : facts.loops)
+        for (const LoopState& loop : loops)
             out.sample(value(loop), {{"loop", loop.name}});
     };
     all("stormcellar_loop_running", Type::gauge, "1 while the loop's process runs.",
@@ -249,7 +250,7 @@ void write_loops(MetricsWriter& out, const StatusFacts& facts) {
         [](const LoopState& loop) { return loop.made; });
     out.family("stormcellar_loop_last_made_seconds", Type::gauge,
                "When the loop was last made, seconds since 1970.");
-    for (const LoopState& loop : facts.loops) {
+    for (const LoopState& loop : loops) {
         if (loop.last_made) out.sample(seconds_since_epoch(*loop.last_made), {{"loop", loop.name}});
     }
 }

@@ -27,6 +27,14 @@ bool same_listening(const Config& fresh, const Config& running) {
     return same_socket && fresh.status.http_port == running.status.http_port;
 }
 
+// What is taken from the configuration once.
+bool same_at_the_start(const Config& fresh, const Config& running) {
+    return fresh.living == running.living && fresh.bunzip == running.bunzip &&
+           fresh.ingest.living.chunk_timeout == running.ingest.living.chunk_timeout &&
+           fresh.ingest.living.chunk_grace == running.ingest.living.chunk_grace &&
+           fresh.refill == running.refill && fresh.packing == running.packing;
+}
+
 Result<Taken> note(Sink& sink, const Job& job) {
     const auto noted = sink.note(job.path);
     if (!noted) return pass_on(noted);
@@ -163,6 +171,11 @@ void Service::apply(const Config& fresh) {
         log_warning({Event::reload_ignored},
                     "reload: the grid, threads and queue_limit change at a restart only");
     }
+    if (!same_at_the_start(fresh, config_)) {
+        log_warning({Event::reload_ignored},
+                    "reload: living, bunzip, the chunks' times, refill_hours and compression "
+                    "change at a restart only");
+    }
     if (!same_listening(fresh, config_))
         log_warning({Event::reload_ignored}, "reload: [status] changes at a restart only");
     config_.workers = fresh.workers;
@@ -294,6 +307,7 @@ void Service::keep_house() {
         status_.set_loops(std::move(*loops));
         status_file_.changed();
     }
+    look_at_others_loops(now);
     publish(false);
     feed(watchdog_, parts_.notifier, now, oldest_step());
 }

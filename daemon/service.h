@@ -93,6 +93,7 @@ class Service {
     void keep_house();
     void report_repairs();
     void report_sites();
+    void look_at_others_loops(SteadyTime now);
     void keep_state(SteadyTime now);
     void publish(bool at_once);
     [[nodiscard]] std::optional<Step> oldest_step() const;
@@ -122,6 +123,7 @@ class Service {
     bool state_lost_ = false;  // and it stands in the log
     bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
+    SteadyTime next_loops_look_{};
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.

@@ -6,12 +6,14 @@
 #include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
+#include "daemon/others_loops.h"
 #include "daemon/service.h"
 
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1}, behind_after{20};
+constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1},
+    between_loops_looks{5}, behind_after{20};
 
 }  // namespace
 
@@ -104,6 +106,16 @@ void Service::report_sites() {
         status_.add(std::move(report));
         status_file_.changed();
     }
+}
+
+// Loops that a service of its own keeps are in this one's metrics, as that one answers none.
+void Service::look_at_others_loops(SteadyTime now) {
+    if (parts_.keeps_loops || now < next_loops_look_) return;
+    next_loops_look_ = now + between_loops_looks;
+    auto loops = others_loops(config_.state, config_.loops);
+    if (loops == status_.facts().others_loops) return;
+    status_.set_others_loops(std::move(loops));
+    status_file_.changed();
 }
 
 }  // namespace stormcellar::daemon

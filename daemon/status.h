@@ -65,6 +65,7 @@ struct StatusFacts {
     std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
     std::optional<cache::StoreUsage> usage;
     std::vector<LoopState> loops;
+    std::vector<LoopState> others_loops;  // that another process keeps (others_loops.h)
     Timings close_to_cache{4096};
     std::uint64_t living = 0;                 // grids of volumes that had not ended, each time
     Timings close_to_living{4096};            // of the chunk with which a sweep was complete
@@ -93,6 +94,7 @@ class StatusBook {
     void set_listening(std::filesystem::path socket, int http_port);
     void add(pipeline::PairReport report);
     void set_loops(std::vector<LoopState> loops) { facts_.loops = std::move(loops); }
+    void set_others_loops(std::vector<LoopState> loops) { facts_.others_loops = std::move(loops); }
     void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
     // For chunks that are put together (station_book.h), and stations known before the start.
     [[nodiscard]] StationBook& stations() { return facts_.stations; }

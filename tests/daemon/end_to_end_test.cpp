@@ -266,6 +266,11 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
     daemon.signal(SIGHUP);
     EXPECT_TRUE(daemon.wait_for_log("reloaded: 3 workers"));
     EXPECT_TRUE(daemon.wait_for_log("[paths] cannot change"));
+    write_file(file,
+               "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n"
+               "[ingest]\nworkers = 2\nchunk_grace_seconds = 31\n");
+    daemon.signal(SIGHUP);
+    EXPECT_TRUE(daemon.wait_for_log("the chunks' times, refill_hours and compression change"));
     write_file(file, "[paths]\ndorp = \"drop\"\n");
     daemon.signal(SIGHUP);
     EXPECT_TRUE(daemon.wait_for_log("the configuration stays as it was"));

@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "tests/daemon/notify_socket.h"
 #include "tests/daemon/running_daemon.h"
+#include "tests/daemon/status_client.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
 
@@ -34,6 +36,16 @@ class LoopsOnly : public ::testing::Test {
         return "[[loop]]\nname = \"binghamton\"\nscene = \"scene.toml\"\ndomain = \"KBGM\"\n"
                "outputs = [\"out/kbgm.webp\"]\n";
     }
+    // Whether it answers so within 20 s: it looks at the others' file every few seconds.
+    static bool has_metric(const RunningDaemon& daemon, const std::string& line) {
+        const fs::path socket = daemon.root() / "state/status.sock";
+        for (int i = 0; i < 200; ++i) {
+            const std::string said = StatusClient::at_path(socket).ask(get("/metrics"));
+            if (said.find(line) != std::string::npos) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds{100});
+        }
+        return false;
+    }
     [[nodiscard]] bool comes(const std::function<bool(const json&)>& wanted) const {
         return loops_.wait_for(wanted, its_status);
     }
@@ -46,6 +58,8 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
     RunningDaemon ingest;
     fs::create_directory_symlink(ingest.root() / "cache", loops_.root() / "cache");
     fs::create_directory(ingest.root() / "cache");
+    fs::create_directory(ingest.root() / "state");
+    fs::create_directory_symlink(loops_.root() / "state/loops", ingest.root() / "state/loops");
     write_file(ingest.root() / "scene.toml", "[picture]\nproduct = \"composite\"\n");
     ingest.start(one_loop(), with_program(), {"--no-loops"});
     loops_.start(one_loop(), with_program(), {"--loops-only"});
@@ -55,11 +69,13 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
     ASSERT_TRUE(comes([](const json& s) { return s["loops"]["made"] >= 1; })) << loops_.log();
     EXPECT_GT(fs::file_size(loops_.root() / "out/kbgm.webp"), 1000U);
     EXPECT_EQ(ingest.status()["loops"]["each"], json::array()) << "it leaves them alone";
+    EXPECT_TRUE(has_metric(ingest, "stormcellar_loop_running{loop=\"binghamton\"} 1\n"));
     ingest.signal(SIGHUP);
     ASSERT_TRUE(ingest.wait_for_log("reloaded")) << ingest.log();
+    EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
+    EXPECT_TRUE(has_metric(ingest, "stormcellar_loop_running{loop=\"binghamton\"} 0\n"));
     EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
     EXPECT_EQ(ingest.log().find("loop binghamton"), std::string::npos) << ingest.log();
-    EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
     const json last = loops_.status(its_status);
     EXPECT_EQ(last["state"], "stopped");
     EXPECT_EQ(last["loops"]["running"], 0);

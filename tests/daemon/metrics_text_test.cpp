@@ -134,6 +134,7 @@ TEST(Metrics, SayWhatTheBookCounted) {
                     .evicted_bytes = 300,
                     .not_kept = 1});
     book.set_loops({{"a", true, 2, 10, asked_at, 24, ""}});
+    book.set_others_loops({{"b", false, 0, 0, std::nullopt, 0, ""}});  // never beside its own
     book.count_overflow();
     const std::string text = metrics_text(book.facts(), {4, 2, 1}, asked_at);
     const auto expect = [&](const std::string& family, const std::string& labels, double value) {

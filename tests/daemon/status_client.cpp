@@ -18,7 +18,7 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int tries = 1000;
-constexpr std::chrono::milliseconds step{20};
+constexpr std::chrono::milliseconds between_tries{20};
 constexpr int longest_wait_ms = 20'000;
 
 template <class Address>
@@ -28,7 +28,7 @@ int connect_to(int family, const Address& address) {
         if (::connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
             return descriptor;
         ::close(descriptor);
-        std::this_thread::sleep_for(step);
+        std::this_thread::sleep_for(between_tries);
     }
     return -1;
 }
