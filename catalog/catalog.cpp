@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include "base/beneath.h"
@@ -185,6 +186,30 @@ Result<int> Catalog::mark_missing(const fs::path& directory, const std::function
         marked += *here;
     }
     return marked;
+}
+
+Result<int> Catalog::forget_gone(UtcTime before, const std::function<void()>& step) {
+    const auto names = impl_->names();
+    if (!names) return pass_on(names);
+    int forgotten = 0;
+    for (const std::string& name : *names) {
+        const auto rows = impl_->with(
+            name, false, [&](StationDatabase& database) { return database.gone_before(before); });
+        if (!rows && is_ours_to_solve(rows.error())) return pass_on(rows);
+        if (step) step();
+        // Others may write between two batches.
+        for (std::size_t i = 0; rows && i < rows->size(); i += files_a_step) {
+            const auto batch = std::span{*rows}.subspan(i).first(
+                std::min<std::size_t>(files_a_step, rows->size() - i));
+            const auto here = impl_->with(name, false, [&](StationDatabase& database) {
+                return database.forget_gone(batch, before);
+            });
+            if (!here) return pass_on(here);
+            forgotten += *here;
+            if (step) step();
+        }
+    }
+    return forgotten;
 }
 
 Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uint64_t size_bytes,

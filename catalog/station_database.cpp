@@ -280,6 +280,35 @@ void StationDatabase::forget(const fs::path& path) {
     transaction.commit();
 }
 
+std::vector<std::int64_t> StationDatabase::gone_before(UtcTime before) {
+    SQLite::Statement rows(database_,
+                           "SELECT id FROM file WHERE state = 'gone' AND registered_ms < ?");
+    rows.bind(1, before.time_since_epoch().count());
+    std::vector<std::int64_t> found;
+    while (rows.executeStep())
+        found.push_back(rows.getColumn(0).getInt64());
+    return found;
+}
+
+int StationDatabase::forget_gone(std::span<const std::int64_t> rows, UtcTime before) {
+    set_durable(false);
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    int forgotten = 0;
+    for (const std::int64_t row : rows) {
+        LentStatement still =
+            prepared("SELECT 1 FROM file WHERE id = ? AND state = 'gone' AND registered_ms < ?");
+        still->bind(1, row);
+        still->bind(2, before.time_since_epoch().count());
+        if (!still->executeStep()) continue;
+        drop_volumes(row);
+        LentStatement remove = prepared("DELETE FROM file WHERE id = ?");
+        remove->bind(1, row);
+        forgotten += remove->exec();
+    }
+    transaction.commit();
+    return forgotten;
+}
+
 std::optional<bool> StationDatabase::has_path(const std::function<bool(std::string_view)>& test,
                                               std::int64_t most) {
     {

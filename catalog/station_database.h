@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,6 +72,10 @@ class StationDatabase {
     // Of the rows that are not gone.
     std::vector<std::filesystem::path> paths_below(const std::filesystem::path& directory);
     void forget(const std::filesystem::path& path);
+    // The rows' numbers of files that are gone and were last registered before that time.
+    std::vector<std::int64_t> gone_before(UtcTime before);
+    // Deletes those of them that still are so, in one transaction; gives how many.
+    int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
     // Whether there is a row, in any state, of a path that `test` is true of. None where there may
     // be more than `most` rows, of which none is looked at then.
     std::optional<bool> has_path(const std::function<bool(std::string_view)>& test,

@@ -188,6 +188,11 @@ void read_storage(TomlTable& table, Config& config) {
     }
 }
 
+void read_catalog(TomlTable catalog, Config& config) {
+    if (const auto days = catalog.number("gone_days", {0, 36500}))
+        config.gone_kept = milliseconds_of(*days * 86400);
+}
+
 void read_rest(TomlTable watch, TomlTable log, Config& config) {
     read_seconds(watch, "rescan_seconds", {1, 86400}, config.rescan);
     read_seconds(watch, "poll_seconds", {1, 86400}, config.poll);
@@ -307,6 +312,7 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     read_ingest(root.section("ingest"), config);
     config.ingest.domains = pipeline::read_domains(root);
     read_cache(root.section("cache"), config);
+    read_catalog(root.section("catalog"), config);
     read_rest(root.section("watch"), root.section("log"), config);
     read_status(root.section("status"), file, config);
     config.loops = read_loops(root, std::filesystem::absolute(file).parent_path(),

@@ -52,6 +52,7 @@ struct Config {
     cache::Budgets budgets = default_budgets();
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
+    std::chrono::milliseconds gone_kept{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";
     StatusConfig status;
     std::vector<LoopConfig> loops;

@@ -25,6 +25,9 @@ class IngestSink final : public Sink {
     Result<int> mark_missing(const OnStep& step) override {
         return catalog_.mark_missing(drop_, step);
     }
+    Result<int> forget_gone(UtcTime before, const OnStep& step) override {
+        return catalog_.forget_gone(before, step);
+    }
     CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& step) override;
     std::vector<std::string> take_repairs() override;
 

@@ -30,6 +30,7 @@ constexpr std::array<std::string_view, event_count> names = {
     "drop_back",
     "files_gone",
     "files_gone_failed",
+    "rows_deleted",
     "behind",
     "caught_up",
     "stations_unknown",

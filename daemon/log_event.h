@@ -41,6 +41,7 @@ enum class Event {
     drop_back,
     files_gone,
     files_gone_failed,
+    rows_deleted,
     behind,
     caught_up,
     // of what is stored

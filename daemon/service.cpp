@@ -58,10 +58,11 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
             "ingest", config_.worker_count(), [this] { wake_up_.set(); }),
       registrar_([this](const Job& job) { return note(parts_.sink, job); }, "register", 1,
                  [this] { wake_up_.set(); }),
+      row_keeper_(parts_.sink),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
     status_.set_listening(config_.status.socket, config_.status.http_port);
-    watch("missing", missing_pulse_);
+    watch("missing", row_keeper_.pulse());
     watch("cache", cache_keeper_.pulse());
     watch("loops", loop_keeper_.pulse());
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), {});
@@ -185,6 +186,7 @@ void Service::apply(const Config& fresh) {
     config_.poll = fresh.poll;
     if (fresh.budgets != config_.budgets) cache_keeper_.roll_soon();
     config_.budgets = fresh.budgets;
+    config_.gone_kept = fresh.gone_kept;
     config_.log_level = fresh.log_level;
     config_.loops = fresh.loops;
     if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
@@ -235,7 +237,7 @@ void Service::scan() {
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
     note_drop(scanned);
-    if (scanned && !is_poll) mark_missing();
+    if (scanned && !is_poll) row_keeper_.look(began, config_.gone_kept);
     status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
@@ -243,30 +245,6 @@ void Service::scan() {
     if (!is_poll) next_rescan_ = ended + config_.rescan;
     const auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
     next_scan_ = std::max(ended + gap, rested_);
-}
-
-// In a thread of its own: it looks at every file of the catalog.
-void Service::mark_missing() {
-    const bool busy =
-        missing_.valid() && missing_.wait_for(std::chrono::seconds{0}) != std::future_status::ready;
-    if (busy) return;
-    const auto look = [this] {
-        const AtWork at_work(missing_pulse_);
-        const Result<int> marked = parts_.sink.mark_missing([this] { missing_pulse_.beat(); });
-        if (!marked) {
-            log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
-                        printable(marked.error().message));
-        } else if (*marked > 0) {
-            log_info({Event::files_gone}, "{} went while nobody watched",
-                     counted(static_cast<std::uint64_t>(*marked), "file"));
-        }
-    };
-    try {
-        missing_ = std::async(std::launch::async, look);
-    } catch (const std::system_error& error) {  // no thread to be had
-        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
-                    error.what());
-    }
 }
 
 void Service::start_jobs() {

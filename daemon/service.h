@@ -14,7 +14,6 @@
 
 #include <atomic>
 #include <filesystem>
-#include <future>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -28,6 +27,7 @@
 #include "daemon/notify.h"
 #include "daemon/pulse.h"
 #include "daemon/reporter.h"
+#include "daemon/row_keeper.h"
 #include "daemon/signals.h"
 #include "daemon/sink.h"
 #include "daemon/state_keeper.h"
@@ -87,7 +87,6 @@ class Service {
     void scan_if_due();
     void scan();
     void note_drop(const Status& scanned);
-    void mark_missing();
     void start_jobs();
     void report_backlog(SteadyTime now);
     void keep_house();
@@ -109,7 +108,6 @@ class Service {
     Pending published_;  // as it was last looked at
     WatchdogFeed watchdog_;
     Pulses pulses_;
-    Pulse missing_pulse_;
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
     std::atomic<bool> idle_ = false;
@@ -127,7 +125,7 @@ class Service {
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.
-    std::future<void> missing_;
+    RowKeeper row_keeper_;
     CacheKeeper cache_keeper_;
     LoopKeeper loop_keeper_;
 };

@@ -49,6 +49,9 @@ class Sink {
     // Marks what is known and no longer there, as after a scan; gives how much. May run beside
     // take().
     virtual Result<int> mark_missing(const OnStep& step) = 0;
+    // Deletes what is known of files that are gone and were last registered before that time; gives
+    // how many. May run beside take().
+    virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
     // Keeps the cache within these budgets from now on. May run beside take(); one at a time.
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};

@@ -1,7 +1,10 @@
 #include "pipeline/keep_rule.h"
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
+
+#include "level2/chunk_name.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -11,6 +14,9 @@ bool is_living(const grid::Provenance& provenance) {
            std::any_of(provenance.notes.begin(), provenance.notes.end(),
                        [](const std::string& note) { return note.starts_with(living_note); });
 }
+
+// A volume's first radial that has come is so far from its header at most.
+constexpr std::chrono::minutes longest_volume{15};
 
 }  // namespace
 
@@ -34,6 +40,22 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
         return "a grid of a newer file of this volume stands in the cache";
     }
     return std::nullopt;
+}
+
+void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
+                        UtcTime time, const std::string& source_file) {
+    const auto chunk = level2::parse_chunk_name(source_file);
+    if (!chunk) return;
+    const auto near = store.list(domain, moment, time - longest_volume, time + longest_volume);
+    if (!near) return;
+    for (const cache::StoreEntry& entry : *near) {
+        if (entry.time == time || entry.pinned) continue;
+        const auto file = cache::GridFile::open(entry.path);
+        if (!file || file->description().provenance.source_files.size() != 1) continue;
+        const auto other =
+            level2::parse_chunk_name(file->description().provenance.source_files.front());
+        if (other && other->volume == chunk->volume) (void)store.remove(entry);
+    }
 }
 
 }  // namespace stormcellar::pipeline

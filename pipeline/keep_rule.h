@@ -1,5 +1,4 @@
-// pipeline/keep_rule.h -- whether the grid of a volume that stands in the cache gives way to
-// another.
+// pipeline/keep_rule.h -- which grids of a volume that stand in the cache give way to another.
 //
 // Inside the pipeline room only.
 #pragma once
@@ -9,7 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/utc_time.h"
 #include "cache/grid_file.h"
+#include "cache/store.h"
 
 namespace stormcellar::pipeline {
 
@@ -22,5 +23,12 @@ inline constexpr std::string_view living_note = "living: ";
 // made otherwise always is.
 [[nodiscard]] std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
                                                         const cache::GridDescription& made);
+
+// Takes away what stands under another time of the same volume: a volume of chunks is named by its
+// first radial until the chunk with its header comes. The source must be named as a chunk
+// (level2/chunk_name.h), as that of the grid that goes; pinned grids stay. A grid that cannot be
+// read or removed stays too.
+void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
+                        UtcTime time, const std::string& source_file);
 
 }  // namespace stormcellar::pipeline

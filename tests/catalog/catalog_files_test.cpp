@@ -1,5 +1,6 @@
 // The files of a catalog: databases that are opened, by several and by readers, and raw files that
 // went.
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <thread>
@@ -44,6 +45,49 @@ TEST_F(CatalogTest, GoneFilesStayAndAreMarkedOnce) {
     EXPECT_EQ(*catalog_.mark_gone("/d/a"), 1);
     EXPECT_EQ(*catalog_.mark_gone("/d/a"), 0);
     EXPECT_EQ(catalog_.list("KTLX", {})->at(0).state, FileState::gone);
+}
+
+TEST_F(CatalogTest, RowsOfFilesThatWentLongAgoAreDeletedWithWhatNoOtherFileHolds) {
+    const VolumeFacts first = volume("2022-03-17T00:00"), second = volume("2022-03-17T00:10");
+    ASSERT_TRUE(catalog_.register_file(file("/d/gone", {first})));
+    ASSERT_TRUE(catalog_.register_file(file("/d/gone-with-a-copy", {second})));
+    ASSERT_TRUE(catalog_.register_file(file("/d/copy", {second})));
+    ASSERT_TRUE(catalog_.register_file(file("/d/unknown", {}, "")));
+    for (const char* path : {"/d/gone", "/d/gone-with-a-copy", "/d/unknown"})
+        ASSERT_EQ(*catalog_.mark_gone(path), 1);
+    const UtcTime now = now_utc();
+    EXPECT_EQ(*catalog_.forget_gone(now - std::chrono::hours{1}), 0) << "not so long ago";
+    EXPECT_EQ(catalog_.list("KTLX", {})->size(), 3U);
+    int steps = 0;
+    EXPECT_EQ(*catalog_.forget_gone(now + std::chrono::hours{1}, [&] { ++steps; }), 3);
+    EXPECT_GE(steps, 2) << "one a database";
+    const auto left = *catalog_.list("KTLX", {});
+    ASSERT_EQ(left.size(), 1U);
+    EXPECT_EQ(left[0].path, "/d/copy");
+    EXPECT_EQ(left[0].volume.start_time, second.start_time);
+    const auto stations = *catalog_.stations();
+    const auto ktlx = std::find_if(stations.begin(), stations.end(),
+                                   [](const StationSummary& one) { return one.station == "KTLX"; });
+    ASSERT_NE(ktlx, stations.end());
+    EXPECT_EQ(ktlx->volume_count, 1) << "and none without a file";
+    EXPECT_FALSE(*catalog_.is_known("/d/gone"));
+    EXPECT_FALSE(*catalog_.is_known("/d/unknown"));
+    EXPECT_TRUE(catalog_.examine_all());
+    EXPECT_TRUE(catalog_.take_repairs().empty()) << "sound";
+    // One that comes again is new.
+    EXPECT_EQ(*catalog_.register_file(file("/d/gone", {first})), Registered::added);
+}
+
+TEST_F(CatalogTest, RowsOfThousandsOfFilesThatWentAreDeletedInBatches) {
+    std::vector<FileFacts> files;
+    for (int i = 0; i < 2500; ++i)
+        files.push_back(file("/d/" + std::to_string(i), {volume("2022-03-17T00:00", i % 1000)}));
+    ASSERT_TRUE(catalog_.register_files("KTLX", files));
+    ASSERT_EQ(*catalog_.mark_missing("/d"), 2500);
+    int steps = 0;
+    EXPECT_EQ(*catalog_.forget_gone(now_utc() + std::chrono::hours{1}, [&] { ++steps; }), 2500);
+    EXPECT_GE(steps, 4);
+    EXPECT_TRUE(catalog_.list("KTLX", {})->empty());
 }
 
 TEST_F(CatalogTest, StationThatIsNoIcaoNeverBecomesAFileName) {

@@ -52,6 +52,8 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_EQ(shipped->queue_limit, bare->queue_limit);
     EXPECT_EQ(shipped->refill, bare->refill);
     EXPECT_EQ(shipped->packing, bare->packing);
+    EXPECT_EQ(shipped->gone_kept, bare->gone_kept);
+    EXPECT_EQ(bare->gone_kept, std::chrono::milliseconds{0}) << "for ever";
     EXPECT_EQ(shipped->log_level, bare->log_level);
     EXPECT_EQ(shipped->status, bare->status);
     EXPECT_EQ(bare->status, StatusConfig{});
@@ -76,7 +78,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
              "reread_seconds = 0\nchunk_timeout_seconds = 300\nchunk_grace_seconds = 0\nliving = "
              "false\nbunzip = \"libbz2\"\nmoment = \"VEL\"\nspacing_km = 0.5\n"
              "extent_km = [100, 50]\nlevels_km = [0.5, 1, 2.5]\n"
-             "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n"
+             "[cache]\nrefill_hours = 0.5\ncompression = \"lz4\"\n[catalog]\ngone_days = 1.5\n"
              "[watch]\nrescan_seconds = 7\npoll_seconds = 2\nqueue_limit = 99\n"
              "[log]\nlevel = \"debug\"\n");
     ASSERT_TRUE(config) << config.error().message;
@@ -92,6 +94,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->bunzip, bunzip::Path::libbz2);
     EXPECT_EQ(config->refill, std::chrono::minutes{30});
     EXPECT_EQ(config->packing, cache::Packing::lz4);
+    EXPECT_EQ(config->gone_kept, std::chrono::hours{36});
     EXPECT_EQ(config->ingest.moment, level2::Moment::vel);
     EXPECT_EQ(config->ingest.spacing_m, 500);
     EXPECT_EQ(config->ingest.nx, 200);

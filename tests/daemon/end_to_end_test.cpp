@@ -215,6 +215,14 @@ TEST(EndToEnd, ARawFileThatWentWhileTheServiceWasStoppedIsGoneToo) {
     ASSERT_TRUE(daemon.wait_for_log("1 file went while nobody watched")) << daemon.log();
     EXPECT_EQ(daemon.terminate(), 0);
     EXPECT_EQ(rows(daemon, "KBGM").at(0).state, FileState::gone);
+
+    // And forgotten where that is asked for, as its row is older than a tenth of a second.
+    daemon.start(std::string{quick} + "[catalog]\ngone_days = 1e-6\n");
+    ASSERT_TRUE(daemon.wait_for_log("the rows of 1 file that went long ago were deleted"))
+        << daemon.log();
+    EXPECT_EQ(daemon.terminate(), 0);
+    EXPECT_TRUE(rows(daemon, "KBGM").empty());
+    EXPECT_EQ(verified_grids(daemon.cache()), 1U) << "its grid stays";
 }
 
 TEST(EndToEnd, ANameThatIsNoTextDoesNotEndTheService) {

@@ -14,13 +14,14 @@
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/level2/wire.h"
+#include "tests/testing/slow_down.h"
 
 namespace stormcellar::daemon {
 
 // With two workers; what a volume of a radar takes is a fifth of it.
 inline constexpr long most_mib = 1024;
 // For what takes seconds where nothing else runs.
-inline constexpr double most_seconds = 60;
+inline constexpr double most_seconds = 60.0 * testing::slow_down;
 
 #if defined(STORMCELLAR_SANITIZED)
 inline constexpr bool memory_is_ours = false;

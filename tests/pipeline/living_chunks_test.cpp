@@ -76,6 +76,27 @@ TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
     expect_one_volume(house_);
 }
 
+// 2026-11-23: a volume is named by its first radial until its header comes, and stayed under both.
+TEST_F(LivingChunks, TheBeginningThatComesLateLeavesNoOtherGrid) {
+    constexpr std::size_t late = 10;
+    for (std::size_t i = late; i < names_.size(); ++i)
+        take(house_, i);
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    ASSERT_EQ(house_.grids("KLOT").size(), 1U);
+    const UtcTime first_radial = house_.grids("KLOT")[0].time;
+    // One that holds another volume stays.
+    const fs::path beside =
+        house_.grids("KLOT")[0].path.parent_path() / "KLOT_REF_20220317_000500_000.scg";
+    fs::copy_file(whole_.grids("KLOT")[0].path, beside);
+    for (std::size_t i = 0; i < late; ++i)
+        take(house_, i);
+    EXPECT_TRUE(fs::remove(beside));
+    ASSERT_EQ(house_.grids("KLOT").size(), 1U);
+    EXPECT_LT(house_.grids("KLOT")[0].time, first_radial);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
+}
+
 TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
     const auto notes = [&] {
         return cache::GridFile::open(house_.grids("KLOT").at(0).path)

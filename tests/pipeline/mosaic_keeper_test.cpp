@@ -101,6 +101,24 @@ TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome)
         EXPECT_TRUE(open(entry.path).verify());
 }
 
+TEST_F(MosaicKeeperTest, AVolumeOfChunksWhoseHeaderComesLateStandsOnce) {
+    const auto partials = [&] {
+        return *store_.list("north.KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
+    };
+    Loaded whole = load_volume(sequence[0]);
+    whole.file = "20050822-024414-001-S";
+    Loaded cut = load_volume(sequence[0]);
+    cut.volume.header.reset();
+    cut.file = "20050822-024414-002-I";
+    ASSERT_NE(cut.volume.start_time(), whole.volume.start_time());
+    take(cut);
+    ASSERT_EQ(partials().size(), 1U);
+    EXPECT_EQ(partials()[0].time, cut.volume.start_time());
+    take(whole);
+    ASSERT_EQ(partials().size(), 1U);
+    EXPECT_EQ(partials()[0].time, whole.volume.start_time());
+}
+
 TEST_F(MosaicKeeperTest, FramesSayWhatTheirRadarsReported) {
     take(load_volume(sequence[0]));
     const Loaded loaded = load_volume(sequence[1]);

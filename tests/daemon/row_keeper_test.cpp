@@ -1,0 +1,127 @@
+// What went is looked for and, long after, forgotten: when, and what is said of it.
+#include "daemon/row_keeper.h"
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "daemon/log.h"
+#include "tests/daemon/journal_socket.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class RowSink final : public Sink {
+  public:
+    Result<Taken> take(const std::filesystem::path&, bool) override { return Taken{}; }
+    Result<int> mark_missing(const OnStep& /*step*/) override {
+        while (hold)
+            std::this_thread::sleep_for(milliseconds{1});
+        if (throws) throw std::runtime_error("no memory");
+        ++looks;
+        return 0;
+    }
+    Result<int> forget_gone(UtcTime before, const OnStep& /*step*/) override {
+        kept = now_utc() - before;
+        if (++deletions == 3) return fail(ErrorCode::no_space, "disk full");
+        return 12;
+    }
+    std::atomic<int> looks{0}, deletions{0};
+    std::atomic<bool> hold{false}, throws{false};
+    std::atomic<milliseconds> kept{};
+};
+
+class RowKeeperTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        set_up_logging("info",
+                       {.journal = journal_.path(), .clock = std::chrono::steady_clock::now});
+    }
+    void TearDown() override { set_up_logging("info"); }
+    // Until it has looked so often.
+    void look(int looks, milliseconds gone_kept = {}) {
+        for (int i = 0; i < 10'000 && sink_.looks < looks; ++i) {
+            keeper_.look(now_, gone_kept);
+            std::this_thread::sleep_for(milliseconds{1});
+        }
+        wait_for_rest();
+    }
+    void wait_for_rest() {
+        for (int i = 0; i < 10'000 && keeper_.pulse().since(); ++i)
+            std::this_thread::sleep_for(milliseconds{1});
+    }
+    // The next line of the log; "" where none comes.
+    std::string next_line() {
+        for (int i = 0; i < 10'000; ++i) {
+            if (const auto fields = journal_.receive_fields()) return fields->at("MESSAGE");
+            std::this_thread::sleep_for(milliseconds{1});
+        }
+        return {};
+    }
+    testing::TemporaryDirectory directory_;
+    JournalSocket journal_{directory_ / "journal"};
+    RowSink sink_;
+    RowKeeper keeper_{sink_};
+    SteadyTime now_{seconds{100'000}};
+};
+
+TEST_F(RowKeeperTest, ForgetsNothingUnlessAsked) {
+    look(1);
+    now_ += hours{2};
+    look(2);
+    EXPECT_EQ(sink_.deletions, 0);
+}
+
+TEST_F(RowKeeperTest, ForgetsOnceAnHour) {
+    look(1, hours{48});
+    EXPECT_EQ(sink_.deletions, 1);
+    EXPECT_NEAR(std::chrono::duration<double>(sink_.kept.load()).count(), 48 * 3600, 60);
+    EXPECT_EQ(next_line(), "the rows of 12 files that went long ago were deleted");
+    now_ += RowKeeper::between_deletions - seconds{1};
+    look(2, hours{48});
+    EXPECT_EQ(sink_.deletions, 1);
+    now_ += seconds{2};
+    look(3, hours{48});
+    EXPECT_EQ(sink_.deletions, 2);
+    EXPECT_EQ(next_line(), "the rows of 12 files that went long ago were deleted");
+    now_ += RowKeeper::between_deletions;
+    look(4, hours{48});
+    EXPECT_EQ(next_line(), "cannot delete rows of files that went: disk full");
+}
+
+TEST_F(RowKeeperTest, TakesATenthOfTheTimeAtMost) {
+    sink_.hold = true;
+    keeper_.look(now_, {});
+    std::this_thread::sleep_for(milliseconds{200});
+    keeper_.look(now_ + seconds{60}, {});
+    sink_.hold = false;
+    wait_for_rest();
+    EXPECT_EQ(sink_.looks, 1) << "not while it is at work";
+    keeper_.look(now_ + seconds{1}, {});
+    keeper_.look(now_ + milliseconds{1900}, {});
+    wait_for_rest();
+    EXPECT_EQ(sink_.looks, 1) << "nor while it rests";
+    now_ += hours{1};
+    look(2);
+    EXPECT_EQ(sink_.looks, 2);
+}
+
+TEST_F(RowKeeperTest, GoesOnWhenALookFails) {
+    sink_.throws = true;
+    keeper_.look(now_, {});
+    EXPECT_EQ(next_line(), "cannot look for files that went: no memory");
+    sink_.throws = false;
+    now_ += hours{1};
+    look(1);
+    EXPECT_EQ(sink_.looks, 1);
+}
+
+}  // namespace
+}  // namespace stormcellar::daemon
