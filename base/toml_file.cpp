@@ -145,8 +145,13 @@ struct TomlFile::Document {
     [[nodiscard]] const Complaint& first_complaint() const {
         const Complaint& first = complaints.begin()->second;
         if (first.about != About::absent_key) return first;
+        // Where the whole section is missing, it or its keys may stand in the root.
+        const bool lacks_section = complaints.begin()->first == 0 && first.index != 0;
         for (const auto& [line, other] : complaints) {
-            if (other.about != About::unknown_key || other.index != first.index) continue;
+            const bool in_root = lacks_section && other.index == 0;
+            if (in_root && edits_between(other.key, asked[first.index].name) <= 2) return other;
+            if (other.about != About::unknown_key) continue;
+            if (other.index != first.index && !in_root) continue;
             if (edits_between(other.key, first.key) <= 2) return other;
         }
         return first;

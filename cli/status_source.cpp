@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -97,6 +98,52 @@ std::optional<nlohmann::json> read_status_file(const fs::path& file) {
     return parse_object({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
+// The objects in the list of a status's loops.
+std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
+    std::vector<nlohmann::json> loops;
+    const auto all = document.find("loops");
+    if (all == document.end() || !all->is_object()) return loops;
+    const auto each = all->find("each");
+    if (each == all->end() || !each->is_array()) return loops;
+    std::copy_if(each->begin(), each->end(), std::back_inserter(loops),
+                 [](const nlohmann::json& loop) { return loop.is_object(); });
+    return loops;
+}
+
+// Whether a daemon says so of its loops.
+bool are_elsewhere(const nlohmann::json& document) {
+    const auto& loops = document.at("loops");
+    return loops.contains("elsewhere") && loops["elsewhere"] == true;
+}
+
+// Another user's process may not be signalled, but is there.
+bool is_alive(const nlohmann::json& keeper) {
+    const auto pid = keeper.find("pid");
+    return pid != keeper.end() && pid->is_number_integer() && pid->get<std::int64_t>() > 0 &&
+           (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
+}
+
+// Their process was killed, and says what it said last.
+void stop_all(nlohmann::json& loops) {
+    loops["running"] = 0;
+    if (!loops.contains("each") || !loops["each"].is_array()) return;
+    for (nlohmann::json& loop : loops["each"])
+        if (loop.is_object()) loop["running"] = false;
+}
+
+// Loops that the daemon knows of and their process does not, as when it has ended.
+void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json>& configured) {
+    nlohmann::json& each = loops["each"];
+    if (!each.is_array()) each = nlohmann::json::array();
+    const auto has = [&](const nlohmann::json& name) {
+        return std::any_of(each.begin(), each.end(), [&](const nlohmann::json& loop) {
+            return loop.is_object() && loop.contains("name") && loop["name"] == name;
+        });
+    };
+    for (const nlohmann::json& loop : configured)
+        if (loop.contains("name") && !has(loop["name"])) each.push_back(loop);
+}
+
 // A daemon may have been told to answer elsewhere: its file says where.
 void add_named_socket(StatusPlaces& places) {
     const auto document = read_status_file(places.file);
@@ -148,22 +195,19 @@ Result<StatusPlaces> places_of(const StatusOptions& options) {
 }
 
 void add_loops(nlohmann::json& document, const fs::path& loops) {
-    const auto own = document.find("loops");
-    if (own != document.end() && own->is_object() && own->contains("each") &&
-        !(*own)["each"].empty()) {
-        return;
-    }
+    const std::vector<nlohmann::json> configured = each_loop(document);
+    if (!configured.empty() && !are_elsewhere(document)) return;
     const auto keeper = read_status_file(loops);
     if (!keeper || !keeper->contains("loops")) return;
     document["loops"] = (*keeper)["loops"];
     auto& service = document["loops_service"] = nlohmann::json::object();
     for (const char* key : {"state", "pid", "version", "started", "updated"})
         if (keeper->contains(key)) service[key] = (*keeper)[key];
-    const auto pid = keeper->find("pid");
-    // Another user's process may not be signalled, but is there.
-    service["alive"] = pid != keeper->end() && pid->is_number_integer() &&
-                       pid->get<std::int64_t>() > 0 &&
-                       (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
+    const bool alive = is_alive(*keeper);
+    service["alive"] = alive;
+    if (!document["loops"].is_object()) return;
+    if (!alive) stop_all(document["loops"]);
+    add_those_that_lack(document["loops"], configured);
 }
 
 std::string how_to_be_let_in(const fs::path& socket) {

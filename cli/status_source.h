@@ -37,9 +37,10 @@ struct StatusAnswer {
 // not_found when neither answers: the message says why, place by place.
 [[nodiscard]] Result<StatusAnswer> find_status(const StatusPlaces& places);
 
-// Where the daemon keeps no loops itself and another process does, its loops as "loops", and as
-// "loops_service" what it says of itself ("state","pid","version","started","updated") and "alive",
-// whether that process is there.
+// Where the daemon keeps no loops itself and another process does or did, its loops as "loops",
+// none of them running when it is gone, with those besides that the daemon's configuration names;
+// and as "loops_service" what it says of itself ("state","pid","version","started","updated") and
+// "alive", whether that process is there.
 void add_loops(nlohmann::json& document, const std::filesystem::path& loops);
 
 // "; members of the group GROUP may ask: sudo usermod -aG GROUP USER, then log in again": what to

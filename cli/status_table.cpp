@@ -236,7 +236,10 @@ std::string rejected_lines(const json& status) {
 // "; kept by process 17: running": where it is not the daemon itself.
 std::string loops_keeper(const json& status) {
     const json& service = at(status, "loops_service");
-    if (!service.is_object()) return "";
+    if (!service.is_object()) {
+        const json& elsewhere = at(at(status, "loops"), "elsewhere");
+        return elsewhere.is_boolean() && elsewhere.get<bool>() ? "; no process keeps them" : "";
+    }
     const json& alive = at(service, "alive");
     const bool is_alive = alive.is_boolean() && alive.get<bool>();
     if (text(service, "state") == "stopped" || is_alive) {

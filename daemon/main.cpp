@@ -102,7 +102,15 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// What is no mistake, but may not be meant: the service starts all the same.
+// The part of a path that stands where a directory should, or would be made; empty: none does.
+std::filesystem::path in_the_way_of(std::filesystem::path directory) {
+    std::error_code error;
+    while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
+        directory = directory.parent_path();
+    return std::filesystem::is_directory(directory, error) ? "" : directory;
+}
+
+// What is no mistake of the file's, but may not be meant.
 void print_notes(const Config& config) {
     const auto note = [](const std::string& what) {
         fmt::print(stderr, "stormcellard: note: {}\n", what);
@@ -110,6 +118,12 @@ void print_notes(const Config& config) {
     if (const auto names = names_beneath(config.drop, config.drop); !names) {
         note(fmt::format("drop directory {}: the service waits for it",
                          printable(names.error().message)));
+    }
+    for (const auto& [key, path] : {std::pair{"state", config.state}, {"cache", config.cache}}) {
+        const std::filesystem::path stands = in_the_way_of(path);
+        if (stands.empty()) continue;
+        note(fmt::format("[paths] {}: {} is no directory: the service cannot start", key,
+                         printable(stands.native())));
     }
     for (const std::string& doubt : doubts_about(config.loops, config.ingest.domains))
         note(doubt);

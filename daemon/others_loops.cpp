@@ -30,6 +30,8 @@ LoopState loop_of(const Json& object) {
     take(object, "running", &Json::is_boolean, loop.is_running);
     take(object, "restarts", &Json::is_number_unsigned, loop.restarts);
     take(object, "made", &Json::is_number_unsigned, loop.made);
+    take(object, "frames", &Json::is_number_unsigned, loop.frames);
+    take(object, "last_problem", &Json::is_string, loop.last_problem);
     std::string last_made;
     take(object, "last_made", &Json::is_string, last_made);
     if (const auto time = parse_utc(last_made, UtcTime{})) loop.last_made = *time;

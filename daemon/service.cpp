@@ -170,7 +170,7 @@ void Service::apply(const Config& fresh) {
     }
     if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
         log_warning({Event::reload_ignored},
-                    "reload: the grid, threads and queue_limit change at a restart only");
+                    "reload: the grid, mosaics, threads and queue_limit change at a restart only");
     }
     if (!same_at_the_start(fresh, config_)) {
         log_warning({Event::reload_ignored},

@@ -122,6 +122,7 @@ class Service {
     bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
     SteadyTime next_loops_look_{};
+    bool loops_kept_twice_ = false;  // and it stands in the log
     WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.

@@ -1,4 +1,5 @@
 // What a Service says of itself: to whoever watches it, to the status file and to the log.
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <utility>
@@ -110,9 +111,20 @@ void Service::report_sites() {
 
 // Loops that a service of its own keeps are in this one's metrics, as that one answers none.
 void Service::look_at_others_loops(SteadyTime now) {
-    if (parts_.keeps_loops || now < next_loops_look_) return;
+    if (now < next_loops_look_) return;
     next_loops_look_ = now + between_loops_looks;
     auto loops = others_loops(config_.state, config_.loops);
+    if (parts_.keeps_loops) {
+        const bool twice = std::any_of(loops.begin(), loops.end(),
+                                       [](const LoopState& loop) { return loop.is_running; });
+        if (twice && !loops_kept_twice_) {
+            log_warning({Event::loop_failed},
+                        "another process keeps the loops, too, and writes the same files: start "
+                        "this one with --no-loops");
+        }
+        loops_kept_twice_ = twice;
+        return;
+    }
     if (loops == status_.facts().others_loops) return;
     status_.set_others_loops(std::move(loops));
     status_file_.changed();

@@ -236,7 +236,9 @@ std::string status_json(const StatusFacts& facts, const Pending& pending, UtcTim
     Json& sites = list("sites");
     for (const auto& [key, report] : facts.sites)
         sites.push_back(json_of(report));
-    document["loops"] = json_of(facts.loops);
+    const bool elsewhere = facts.loops.empty() && !facts.others_loops.empty();
+    document["loops"] = json_of(elsewhere ? facts.others_loops : facts.loops);
+    if (elsewhere) document["loops"]["elsewhere"] = true;
     // Texts were made printable; whatever else a name may bring must not end the service.
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -51,7 +51,9 @@
 //                  be told, {"untold"}; faults: those that are named, one text each
 //   loops          {"running","restarts","made","last_made" (null: none yet)} of all [[loop]]
 //                  tables, and "each": [{"name","running","restarts","made","last_made","frames",
-//                  "last_problem" (null: none)}]
+//                  "last_problem" (null: none)}], and
+//                  "elsewhere": true where another process keeps them, by what it said of itself
+//                  some seconds ago
 // Thread contract: pure function.
 #pragma once
 

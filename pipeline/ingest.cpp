@@ -41,6 +41,11 @@ std::string without_path(const std::string& message, const fs::path& path) {
     return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
+// A chunk has it in the names of its directories, if at all.
+std::string station_of_name(const fs::path& path) {
+    return is_chunk_name(path) ? station_of_path(path) : station_of_file_name(path);
+}
+
 }  // namespace
 
 Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_store,
@@ -95,7 +100,7 @@ Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, Error why,
 Result<IngestOutcome> Ingestor::Impl::reject_unread(const fs::path& path, const Error& why) {
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_file_name(path);
+    facts.station = station_of_name(path);
     facts.modified_ns = catalog::never_read_ns;
     return reject(facts, {why.code, without_path(why.message, path)}, {});
 }
@@ -283,7 +288,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                        IngestOutcome outcome) {
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_file_name(path);
+    facts.station = station_of_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
     if (!before.regular) {

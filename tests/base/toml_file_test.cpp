@@ -163,6 +163,21 @@ TEST(TomlFile, AMisspeltKeyIsNamedBeforeTheOneThatIsMissing) {
     EXPECT_EQ(read("[[loop]]\nname = \"a\"\n"), "");
 }
 
+TEST(TomlFile, AMisspeltSectionIsNamedBeforeWhatIsMissingInIt) {
+    const auto read = [](std::string_view text) {
+        TomlFile file = file_of(text);
+        TomlTable root = file.root();
+        TomlTable paths = root.section("paths");
+        if (!paths.text("drop")) paths.complain("drop", "must be there");
+        return complaint(file);
+    };
+    EXPECT_EQ(read("[path]\ndrop = \"a\"\n"), "s.toml:1: unknown section [path]");
+    EXPECT_EQ(read("drop = \"a\"\n"), "s.toml:1: unknown key drop");
+    EXPECT_EQ(read("paths = 3\n"), "s.toml:1: paths: must be a section: [paths], is a number");
+    EXPECT_EQ(read("[ingset]\nworkers = 3\n"), "s.toml: [paths] drop: must be there");
+    EXPECT_EQ(read("[paths]\ndrip = \"a\"\n"), "s.toml:2: unknown key [paths] drip");
+}
+
 TEST(TomlFile, WhatIsNotTomlNamesTheLine) {
     for (const char* text : {"a = 1\nb = \n", "a = 1\na = 2\n", "a = 1\n[b\n"}) {
         const auto file = TomlFile::parse(text, "s.toml");

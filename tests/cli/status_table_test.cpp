@@ -140,6 +140,10 @@ TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
     status["loops_service"]["state"] = "stopped";
     EXPECT_EQ(status_table(status, now).find(gone), std::string::npos);
     EXPECT_NE(status_table(status, now).find("; kept by process 18: stopped\n"), std::string::npos);
+    status.erase("loops_service");
+    EXPECT_EQ(status_table(status, now).find("process keeps"), std::string::npos);
+    status["loops"]["elsewhere"] = true;
+    EXPECT_NE(status_table(status, now).find("; no process keeps them\n"), std::string::npos);
 }
 
 TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {

@@ -178,13 +178,32 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     add_loops(document, {});
     EXPECT_EQ(document, none);
 
-    // One that was killed says what it said last.
+    // The daemon's configuration names two; one of them is not in the file.
+    write_file(file, keeper.dump());
+    const json two = {
+        {"loops",
+         {{"running", 0},
+          {"elsewhere", true},
+          {"each",
+           {{{"name", "plains"}, {"running", false}}, {{"name", "coast"}, {"running", false}}}}}}};
+    document = two;
+    add_loops(document, file);
+    EXPECT_EQ(document["loops"]["each"],
+              (json{{{"name", "plains"}}, {{"name", "coast"}, {"running", false}}}));
+    document = two;
+    add_loops(document, directory / "nothing");
+    EXPECT_EQ(document, two) << "as the daemon has it";
+
+    // One that was killed says what it said last; its loops run no more.
+    keeper["loops"]["each"][0]["running"] = true;
     for (const json& pid : {json(-1), json(0), json("x"), json(0x7FFFFFF0)}) {
         keeper["pid"] = pid;
         write_file(file, keeper.dump());
         document = none;
         add_loops(document, file);
         EXPECT_EQ(document["loops_service"]["alive"], false) << pid;
+        EXPECT_EQ(document["loops"]["running"], 0) << pid;
+        EXPECT_EQ(document["loops"]["each"][0]["running"], false) << pid;
     }
 }
 

@@ -401,6 +401,12 @@ TEST(CommandLine, BadUsageAndBadConfigurationsAreClear) {
                                     (directory / "none").native()));
     fs::create_directory(directory / "there");
     EXPECT_EQ(run("[paths]\ndrop = \"there\"\n", {"--check-config"}).err, "");
+    const auto blocked =
+        run("[paths]\ndrop = \"there\"\nstate = \"c.toml/state\"\n", {"--check-config"});
+    EXPECT_EQ(blocked.status, 0);
+    EXPECT_EQ(blocked.err, fmt::format("stormcellard: note: [paths] state: {} is no directory: the "
+                                       "service cannot start\n",
+                                       file.native()));
     const auto unseen =
         run("[paths]\ndrop = \"none\"\n[[loop]]\nname = \"a\"\nscene = \"gone.toml\"\n",
             {"--check-config"});

@@ -68,7 +68,7 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
                   ingest.drop() / "KBGM20050822_024414.gz");
     ASSERT_TRUE(comes([](const json& s) { return s["loops"]["made"] >= 1; })) << loops_.log();
     EXPECT_GT(fs::file_size(loops_.root() / "out/kbgm.webp"), 1000U);
-    EXPECT_EQ(ingest.status()["loops"]["each"], json::array()) << "it leaves them alone";
+    EXPECT_EQ(ingest.status()["loops"]["elsewhere"], true) << "it leaves them alone";
     EXPECT_TRUE(has_metric(ingest, "stormcellar_loop_running{loop=\"binghamton\"} 1\n"));
     ingest.signal(SIGHUP);
     ASSERT_TRUE(ingest.wait_for_log("reloaded")) << ingest.log();
@@ -118,6 +118,18 @@ TEST_F(LoopsOnly, AReloadStartsAndStopsThem) {
     write_file(file, paths);
     loops_.signal(SIGHUP);
     EXPECT_TRUE(comes([](const json& s) { return s["loops"]["each"].empty(); })) << loops_.log();
+    EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
+}
+
+TEST_F(LoopsOnly, ADaemonThatKeepsThemTooSaysSo) {
+    loops_.start(one_loop(), with_program(), {"--loops-only"});
+    ASSERT_TRUE(comes([](const json& s) { return s["loops"]["running"] == 1; })) << loops_.log();
+    RunningDaemon both;
+    fs::create_directory_symlink(loops_.root() / "state", both.root() / "state");
+    write_file(both.root() / "scene.toml", "[picture]\nproduct = \"composite\"\n");
+    both.start(one_loop(), with_program());
+    EXPECT_TRUE(both.wait_for_log("another process keeps the loops, too")) << both.log();
+    EXPECT_EQ(both.terminate(), 0) << both.log();
     EXPECT_EQ(loops_.terminate(), 0) << loops_.log();
 }
 

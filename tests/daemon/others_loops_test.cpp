@@ -13,7 +13,7 @@ namespace {
 const UtcTime made_at = *parse_utc("2022-03-17T00:08:42Z", UtcTime{});
 
 std::vector<LoopState> two_loops() {
-    return {{"a", true, 2, 10, made_at, 0, ""}, {"b", false, 1, 0, std::nullopt, 0, ""}};
+    return {{"a", true, 2, 10, made_at, 24, ""}, {"b", false, 1, 0, std::nullopt, 0, "signal 9"}};
 }
 
 // What the process that keeps them writes.

@@ -361,7 +361,9 @@ TEST_F(LivingChunks, OneThatIsNoneIsRejectedByItself) {
         take(house_, i);
     const fs::path path = drop_ / "20220317-000842-011-I";
     append_to(path, std::vector<std::byte>(5000, std::byte{7}));
-    EXPECT_EQ(house_.ingestor->ingest(path, true)->result, IngestResult::rejected);
+    const auto rejected = house_.ingestor->ingest(path, true);
+    EXPECT_EQ(rejected->result, IngestResult::rejected);
+    EXPECT_EQ(rejected->station, "KLOT") << "by its directory";
     EXPECT_EQ(take(house_, 9, true).result, IngestResult::incomplete) << "the volume goes on";
 }
 
