@@ -123,7 +123,7 @@ class Service {
     SteadyTime next_backlog_{}, next_behind_line_{};
     SteadyTime next_loops_look_{};
     bool loops_kept_twice_ = false;  // and it stands in the log
-    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
+    WorkerPool pool_;                // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.
     RowKeeper row_keeper_;
