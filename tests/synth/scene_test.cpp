@@ -149,7 +149,7 @@ TEST(Scene, AMistakeIsNamedWithItsLineAndKey) {
           {"\"KTLX\"", "12", "scene.toml:2: [radar] station: must be text"},
           {"station", "staton", "scene.toml:2: unknown key [radar] staton"},
           {"station", "site", "scene.toml:1: [radar] station: is missing"},
-          {"[radar]", "[rader]", "scene.toml: [radar] station: is missing"},
+          {"[radar]", "[rader]", "scene.toml:1: unknown section [rader]"},
           {"count = 2", "count = 0", "scene.toml:4: [volumes] count: 0 is out of range, must be 1"},
           {"count = 2", "count = 2.5", "[volumes] count: must be a whole number"},
           {"count = 2", "count = nan", "[volumes] count: must be a whole number"},
