@@ -2,6 +2,7 @@
 #include <csignal>
 #include <fstream>
 #include <thread>
+#include <vector>
 
 #include <grp.h>
 #include <gtest/gtest.h>
@@ -265,7 +266,8 @@ TEST(AskSocket, WhoIsNoDaemonIsSeen) {
     EXPECT_EQ(code_of_answer("HTTP/1.0 200 OK\r\n\r\n[1]"), ErrorCode::corrupt);
     EXPECT_EQ(code_of_answer("HTTP/1.0 503 Wait\r\n\r\nstarting"), ErrorCode::io);
     EXPECT_EQ(code_of_answer("HTTP/1.0 200 OK\r\n\r\n{}"), ErrorCode::bad_argument) << "a status";
-    EXPECT_EQ(code_of_answer(std::string(20'000'000, 'x')), ErrorCode::corrupt);
+    const std::vector<char> too_long(20'000'000, 'x');
+    EXPECT_EQ(code_of_answer({too_long.begin(), too_long.end()}), ErrorCode::corrupt);
     EXPECT_EQ(ask_socket("/" + std::string(200, 'x')).error().code, ErrorCode::io);
 }
 

@@ -1,7 +1,7 @@
 #include "synth/scene.h"
 
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -276,26 +276,25 @@ TEST(Scene, RadarsOfOneOriginSeeTheSameWeather) {
     const grid::SiteFrame origin(40, -97);
     for (const double longitude_deg : {-99.0, -97.0, -95.5}) {
         for (const double latitude_deg : {39.2, 40.0, 41.0}) {
-            for (const char* place_km : {"[-60, 150]", "[80, -140]", "[10, 20]"}) {
+            for (const auto& [x_km, y_km] : {std::pair{-60, 150}, {80, -140}, {10, 20}}) {
                 const auto scene = parse_scene(
-                    fmt::format("[radar]\nstation = \"XSYN\"\nlatitude_deg = {}\n"
-                                "longitude_deg = {}\naltitude_m = 400\n[volumes]\ncount = 1\n"
-                                "start = \"2024-06-01T22:00:00Z\"\nvcp = 212\n[weather]\n"
-                                "latitude_deg = 40\nlongitude_deg = -97\n[[storm]]\n"
-                                "position_km = {}\nradii_km = [9, 9]\ncore_km = 3\ntop_km = 9\n"
-                                "peak_dbz = 50\n",
-                                latitude_deg, longitude_deg, place_km),
+                    fmt::format(
+                        "[radar]\nstation = \"XSYN\"\nlatitude_deg = {}\n"
+                        "longitude_deg = {}\naltitude_m = 400\n[volumes]\ncount = 1\n"
+                        "start = \"2024-06-01T22:00:00Z\"\nvcp = 212\n[weather]\n"
+                        "latitude_deg = 40\nlongitude_deg = -97\n[[storm]]\n"
+                        "position_km = [{}, {}]\nradii_km = [9, 9]\ncore_km = 3\ntop_km = 9\n"
+                        "peak_dbz = 50\n",
+                        latitude_deg, longitude_deg, x_km, y_km),
                     "scene.toml");
                 ASSERT_TRUE(scene) << scene.error().message;
-                double x_km = 0, y_km = 0;
-                ASSERT_EQ(std::sscanf(place_km, "[%lf, %lf]", &x_km, &y_km), 2);
                 const auto place =
                     origin.to_geo(grid::SiteFrame::from_plane(1000 * x_km, 1000 * y_km));
                 const grid::SiteFrame radar(latitude_deg, longitude_deg);
                 const auto seen = grid::SiteFrame::to_plane(radar.to_polar(place));
                 const Footprint& footprint = scene->weather.storms.at(0).footprint;
                 EXPECT_LT(std::hypot(footprint.x_m - seen.x_m, footprint.y_m - seen.y_m), 90)
-                    << latitude_deg << ' ' << longitude_deg << ' ' << place_km;
+                    << latitude_deg << ' ' << longitude_deg << ' ' << x_km << ' ' << y_km;
             }
         }
     }
