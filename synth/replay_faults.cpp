@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/floating_point.h"
 #include "synth/counter_random.h"
 
 namespace stormcellar::synth {
@@ -29,7 +30,7 @@ Status set(FaultRates& rates, std::string_view key, std::string_view value) {
     for (const auto& [name, probability] : probabilities) {
         if (name != key) continue;
         // The second also refuses what is no number.
-        if (!read_number(value, *probability) || !(*probability >= 0 && *probability <= 1)) {
+        if (!read_number(value, *probability) || !is_within(*probability, 0.0, 1.0)) {
             return fail(ErrorCode::bad_argument,
                         "faults: {} is a probability from 0 to 1, not '{}'", key, value);
         }
