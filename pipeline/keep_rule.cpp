@@ -43,9 +43,10 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
 }
 
 void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
-                        UtcTime time, const std::string& source_file) {
+                        const level2::Volume& volume, const std::string& source_file) {
     const auto chunk = level2::parse_chunk_name(source_file);
-    if (!chunk) return;
+    if (!chunk || !volume.header) return;
+    const UtcTime time = volume.header->time();
     const auto near = store.list(domain, moment, time - longest_volume, time + longest_volume);
     if (!near) return;
     for (const cache::StoreEntry& entry : *near) {

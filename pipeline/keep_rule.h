@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/utc_time.h"
 #include "cache/grid_file.h"
 #include "cache/store.h"
+#include "level2/volume.h"
 
 namespace stormcellar::pipeline {
 
@@ -25,10 +25,11 @@ inline constexpr std::string_view living_note = "living: ";
                                                         const cache::GridDescription& made);
 
 // Takes away what stands under another time of the same volume: a volume of chunks is named by its
-// first radial until the chunk with its header comes. The source must be named as a chunk
+// first radial until the chunk with its header comes. A volume without its header takes nothing
+// away, as its beginning may have been deleted since. The source must be named as a chunk
 // (level2/chunk_name.h), as that of the grid that goes; pinned grids stay. A grid that cannot be
 // read or removed stays too.
 void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
-                        UtcTime time, const std::string& source_file);
+                        const level2::Volume& volume, const std::string& source_file);
 
 }  // namespace stormcellar::pipeline

@@ -145,7 +145,7 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
     if (!committed) return pass_on(committed);
     if (committed->empty()) return {};  // older than what the budgets keep
-    remove_other_times(*store_, name, moment, description.time, source.file);
+    remove_other_times(*store_, name, moment, source.volume, source.file);
     kept.partials.push_back(*committed);
     if (frames_when_ == FramesWhen::asked_for) return {};
     return refresh(domain, moment, description, threads, kept);

@@ -109,7 +109,7 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     if (path->empty()) {
         note_not_kept(outcome);
     } else {
-        remove_other_times(store_, volume.station, options_.moment, made->grid.time, source.file);
+        remove_other_times(store_, volume.station, options_.moment, volume, source.file);
         outcome.grids.push_back(std::move(*path));
     }
     return {};

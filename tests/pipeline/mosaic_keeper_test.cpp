@@ -1,6 +1,7 @@
 // Mosaics that are kept as volumes come, and the same made at once.
 #include "pipeline/mosaic_keeper.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -117,6 +118,13 @@ TEST_F(MosaicKeeperTest, AVolumeOfChunksWhoseHeaderComesLateStandsOnce) {
     take(whole);
     ASSERT_EQ(partials().size(), 1U);
     EXPECT_EQ(partials()[0].time, whole.volume.start_time());
+
+    // What is left of its files when scour has taken the first takes nothing away.
+    take(cut);
+    const auto stand = partials();
+    EXPECT_TRUE(std::any_of(stand.begin(), stand.end(), [&](const cache::StoreEntry& entry) {
+        return entry.time == whole.volume.start_time();
+    }));
 }
 
 TEST_F(MosaicKeeperTest, FramesSayWhatTheirRadarsReported) {
