@@ -14,6 +14,11 @@ using UtcTime = std::chrono::sys_time<std::chrono::milliseconds>;
 
 [[nodiscard]] UtcTime now_utc();
 
+// Negative when `to` is the earlier one.
+[[nodiscard]] inline double seconds_between(UtcTime from, UtcTime to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
 // The time of a NEXRAD "modified Julian date" (day 1 is 1970-01-01) and milliseconds after
 // midnight, as in ICD 2620010 section 3.2. Days and milliseconds beyond their range are carried.
 [[nodiscard]] UtcTime time_from_nexrad(std::uint32_t day, std::uint32_t milliseconds);

@@ -8,6 +8,7 @@
 
 #include "base/station_table.h"
 #include "catalog/catalog.h"
+#include "catalog/path_homes.h"
 #include "catalog/repair.h"
 #include "catalog/station_database.h"
 
@@ -15,8 +16,6 @@ namespace stormcellar::catalog {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view unknown_station = "_unknown";
 
 bool is_settled(const std::string& state) {
     return state == "complete" || state == "partial" || state == "rejected";

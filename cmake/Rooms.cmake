@@ -1,12 +1,20 @@
+# Compiles a target's sources eight at once.
+function(stormcellar_batches target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  target_compile_options(${target} PRIVATE -Wno-shadow)  # of names in another file of the batch
+endfunction()
+
 # stormcellar_room(NAME SOURCES a.cpp b.cpp [PUBLIC libs...] [PRIVATE libs...] [WITHOUT_HEADERS]
-#                  [ALONE])
+#                  [ALONE] [BATCHES])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
 # Headers are included by their room, as in "level2/volume.h". The headers beside the sources are
 # installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
-# names no other and does not use fmt, so the common precompiled headers are not for it.
+# names no other and does not use fmt, so the common precompiled headers are not for it. BATCHES is
+# for what moves files and rows, of which headers are most: see stormcellar_test. What computes is
+# compiled as it is released.
 function(stormcellar_room name)
-  cmake_parse_arguments(ARG "ALONE;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;BATCHES;WITHOUT_HEADERS" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target stormcellar_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(stormcellar::${name} ALIAS ${target})
@@ -19,6 +27,9 @@ function(stormcellar_room name)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
     target_precompile_headers(${target} REUSE_FROM stormcellar_headers)
+  endif()
+  if(STORMCELLAR_PRECOMPILE AND ARG_BATCHES)
+    stormcellar_batches(${target})
   endif()
   install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     COMPONENT development)
@@ -70,8 +81,7 @@ function(stormcellar_test name)
   if(STORMCELLAR_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM ${headers})
     if(ARG_BATCHES)
-      set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-      target_compile_options(${name} PRIVATE -Wno-shadow)  # of names in another file of the batch
+      stormcellar_batches(${name})
     endif()
   endif()
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} stormcellar::testing stormcellar_fp_traps

@@ -17,9 +17,9 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::chrono::seconds time_to_end{3};     // before it is killed
-constexpr std::chrono::minutes long_enough{1};     // it ran well
-constexpr std::chrono::seconds longest_sleep{60};  // as long as nothing happens
+constexpr std::chrono::seconds time_to_end{3};    // before it is killed
+constexpr std::chrono::minutes long_enough{1};    // it ran well
+constexpr std::chrono::seconds longest_rest{60};  // as long as nothing happens
 
 // A scene may be a symbolic link, unlike a raw file.
 FileStamp stamp_of_scene(const std::filesystem::path& scene) {
@@ -231,7 +231,7 @@ void LoopKeeper::delay(Slot& slot, SteadyTime now) {
 }
 
 void LoopKeeper::sleep(SteadyTime now) {
-    SteadyTime until = now + longest_sleep;
+    SteadyTime until = now + longest_rest;
     std::vector<pollfd> sources{{wake_up_.descriptor(), POLLIN, 0}};
     for (const Slot& slot : slots_) {
         if (slot.child) {

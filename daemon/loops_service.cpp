@@ -15,7 +15,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::chrono::seconds longest_sleep{10};
+constexpr std::chrono::seconds longest_wait{10};
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void LoopsService::run() {
 }
 
 void LoopsService::wait(SteadyTime now) {
-    SteadyTime until = now + longest_sleep;
+    SteadyTime until = now + longest_wait;
     if (has_news_) until = std::min(until, next_publish_);
     if (const auto due = watchdog_.next_time()) until = std::min(until, *due);
     std::array<pollfd, 2> sources = {

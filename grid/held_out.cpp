@@ -88,10 +88,6 @@ class Comparison {
     std::size_t strong_seen_ = 0, missed_ = 0, strong_made_ = 0, invented_ = 0;
 };
 
-double seconds_between(UtcTime from, UtcTime to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 }  // namespace
 
 Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_out,

@@ -9,10 +9,6 @@
 namespace stormcellar::grid {
 namespace {
 
-double seconds_between(UtcTime from, UtcTime to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 bool is_tdwr(const SitePosition& site) {
     return beam_width_of(site.icao) < 0.9;
 }

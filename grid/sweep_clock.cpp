@@ -7,10 +7,6 @@
 namespace stormcellar::grid {
 namespace {
 
-double seconds_between(UtcTime from, UtcTime to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 // Clockwise, [0, 360).
 double turn(double from_deg, double to_deg) {
     double apart = to_deg - from_deg;

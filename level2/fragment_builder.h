@@ -6,6 +6,7 @@
 // the builder takes no more.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "level2/array_room.h"
@@ -23,6 +24,9 @@ inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
 [[nodiscard]] bool begins_sweep(const Radial& radial);
 // Whether it ends one: 2 or 4.
 [[nodiscard]] bool ends_sweep(const Radial& radial);
+
+// Of a live volume.
+inline constexpr std::size_t rows_of_a_record = 120;
 
 class FragmentBuilder {
   public:

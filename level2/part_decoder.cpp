@@ -18,8 +18,7 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{256} << 10;
-// A record of a live volume holds 120 radials; one that holds far more is a file of its own.
-constexpr std::size_t rows_of_a_record = 120;
+// A record that holds far more than a live volume's is a file of its own.
 constexpr std::size_t rows_of_a_sweep = 720;
 constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
 

@@ -10,12 +10,6 @@
 #include "level2/volume_difference.h"
 
 namespace stormcellar::level2 {
-namespace {
-
-constexpr std::size_t rows_of_a_record = 120;
-
-}  // namespace
-
 Status ReadBack::read_header(std::span<const std::byte> bytes) {
     auto header = read_archive_header(bytes);
     if (!header) return refuse("its header's name is none that begins a volume");

@@ -10,8 +10,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-
 bool is_frame_time(UtcTime time, std::chrono::seconds interval) {
     return instants_between(time, time, interval).size() == 1;
 }
@@ -122,8 +120,8 @@ Status MosaicKeeper::add_missing(const Domain& domain, level2::Moment moment,
     const UtcTime to = *starts->rbegin() + longest_to_middle;
     for (const UtcTime instant : instants_between(from, to, domain.interval)) {
         if (standing.contains(instant)) continue;
-        const auto near = starts->lower_bound(instant - greatest_gap - longest_to_middle);
-        if (near == starts->end() || *near > instant + greatest_gap) continue;
+        const auto near = starts->lower_bound(instant - greatest_frame_gap - longest_to_middle);
+        if (near == starts->end() || *near > instant + greatest_frame_gap) continue;
         const auto due = is_due(*store_, domain, moment, instant);
         if (!due) return pass_on(due);
         if (*due) all.push_back({domain.name, moment, instant});

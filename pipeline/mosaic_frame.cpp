@@ -16,10 +16,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-double seconds_between(UtcTime from, UtcTime to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 grid::TimedView timed(const PartialView& partial) {
     return {partial.view, partial.middle(), partial.description->provenance.sweeps};
 }

@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t kept_geometries = 16;
 // A site's grid of a domain of 1000 km at 1 km takes 3 to 10 MiB.
 constexpr std::size_t kept_instants_bytes = std::size_t{192} << 20U;
-constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
@@ -52,7 +51,7 @@ struct Span {
 Span span_changed_by(const cache::GridDescription& changed,
                      const std::vector<PartialView>& partials) {
     const UtcTime middle = middle_of(changed);
-    Span span{middle - greatest_gap, middle + greatest_gap};
+    Span span{middle - greatest_frame_gap, middle + greatest_frame_gap};
     UtcTime oldest = middle, newest = middle;
     for (const PartialView& partial : partials) {
         oldest = std::min(oldest, partial.middle());
@@ -154,8 +153,8 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
 Status MosaicKeeper::refresh(const Domain& domain, level2::Moment moment,
                              const cache::GridDescription& changed, int threads, Kept& kept) {
     const UtcTime middle = middle_of(changed);
-    auto partials = OpenPartials::open(*store_, domain, moment, middle - greatest_gap,
-                                       middle + greatest_gap, kept.problems);
+    auto partials = OpenPartials::open(*store_, domain, moment, middle - greatest_frame_gap,
+                                       middle + greatest_frame_gap, kept.problems);
     if (!partials) return pass_on(partials);
     const Span span = span_changed_by(changed, partials->views());
     for (const UtcTime instant : instants_between(span.from, span.to, domain.interval)) {

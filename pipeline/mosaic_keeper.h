@@ -63,6 +63,9 @@ struct FrameMade {
 [[nodiscard]] std::vector<UtcTime> instants_between(UtcTime from, UtcTime to,
                                                     std::chrono::seconds interval);
 
+// Volumes of a site that lie further apart make no frame between them.
+inline constexpr std::chrono::milliseconds greatest_frame_gap = FrameOptions{}.greatest_gap;
+
 enum class FrameStanding {
     not_due,  // no volume before the instant, or none after it, near enough
     current,  // stands, made of the partials of now and by the rules of now

@@ -159,10 +159,6 @@ Status predict_step(MosaicScene& scene, const TimedFrame& exact, MosaicChoice ch
     return {};
 }
 
-double seconds_between(UtcTime from, UtcTime to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 // Each rounding moves a value by at most half a step, and means of such by no more.
 void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFrame& coarse,
                accuracy::Chain& chain) {

@@ -16,10 +16,6 @@ using grid::GridWindow;
 
 constexpr double greatest_range_m = grid::ComparisonOptions{}.greatest_range_m;
 
-double seconds_between(UtcTime from, UtcTime to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 // A part of a partial, with the age of its cells.
 struct Cut {
     grid::BrickGrid bricks;
