@@ -1,7 +1,7 @@
 // bench_mosaic: five hours of 1 to 100 radars, raw files to merged volumes that can be rendered.
 //
 // usage: bench_mosaic [--data DIR] [--work DIR] [--threads N] [--runs N] [--full]
-//        [--sites | --us | --only SITES] [--json]                             (bench/request.h)
+//        [--sites | --us | --only SITES] [--hours H] [--json] (bench/request.h)
 // The experiment of the paper of 2008: 100 sites, 5 hours, 27 GB uncompressed, on a grid of
 // 256 x 256 x 128 cells over the sites' common box. What the files are: bench/mosaic_feed.h; what
 // is timed: bench/mosaic_run.h. Files are made once, untimed, into the directory of --work (by
@@ -19,11 +19,13 @@
 //              thread), 8.92 on its pool of 512 nodes (beside more)
 // Then the rows of the United States at 0.01 degrees, with bench_merge's columns, the least of the
 // runs (bench/us_mosaic.h). --sites or --us: one of the two alone; --only: that many sites alone.
+// --hours: the first H of the five hours, for a trial.
 // Without --full only rows of which all is expected to end within 9 minutes are run, by the bytes
 // and the seconds of those before. On stderr: what was read, what was left out, and CPU times,
 // which say more than total_s where others use the same cores. Runs of this program by itself:
-// --sites-once SITES THREADS FEED CACHE.
+// --sites-once SITES THREADS FEED CACHE HOURS.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -53,9 +55,10 @@ constexpr double most_default_s = 540;
 constexpr double sites_of_paper = 100;
 constexpr double sequential_min = 46.87, pool_min = 8.92;
 
-int sites_once(int sites, int threads, const fs::path& feed, const fs::path& cache) {
+int sites_once(int sites, int threads, const fs::path& feed, const fs::path& cache,
+               std::chrono::hours hours) {
     keep_freed_memory();
-    const auto run = run_mosaic(sites, threads, feed, cache);
+    const auto run = run_mosaic(sites, threads, feed, cache, hours);
     if (!run) {
         fmt::print(stderr, "bench_mosaic: {}\n", run.error().message);
         return 1;
@@ -71,10 +74,12 @@ struct SitesRow {
     long peak_kib = 0;
 };
 
-std::optional<SitesRow> run_sites(int sites, int threads, const fs::path& work) {
+std::optional<SitesRow> run_sites(int sites, int threads, const fs::path& work,
+                                  std::chrono::hours hours) {
     const fs::path cache = work / fmt::format("cache-{}", ::getpid());
-    const auto said = run_self({"--sites-once", std::to_string(sites), std::to_string(threads),
-                                (work / "feed").string(), cache.string()});
+    const auto said =
+        run_self({"--sites-once", std::to_string(sites), std::to_string(threads),
+                  (work / "feed").string(), cache.string(), std::to_string(hours.count())});
     std::error_code ignored;
     fs::remove_all(cache, ignored);
     if (!said) return std::nullopt;
@@ -112,7 +117,8 @@ void add_row(int sites, int threads, const SitesRow& row, Table& table) {
 }
 
 // The rows of sites, in the order in which they are run.
-Status measure_sites(const Request& request, const fs::path& work, Table& table) {
+Status measure_sites(const Request& request, const fs::path& work, std::chrono::hours hours,
+                     Table& table) {
     double elapsed_s = 0;
     double libbz2_a_site_s = 0;  // of one thread
     const auto only = request.value("--only");
@@ -131,7 +137,7 @@ Status measure_sites(const Request& request, const fs::path& work, Table& table)
             Status made;
             elapsed_s += seconds_of([&] {
                 made = make_feed(sites, request.data_directory(), work / "feed", 2);
-                if (made) row = run_sites(sites, threads, work);
+                if (made) row = run_sites(sites, threads, work, hours);
             });
             if (!made) return made;
             if (!row) return fail(ErrorCode::internal, "{} sites could not be run", sites);
@@ -142,10 +148,19 @@ Status measure_sites(const Request& request, const fs::path& work, Table& table)
     return {};
 }
 
+std::optional<std::chrono::hours> hours_of(const Request& request) {
+    const auto asked = request.value("--hours");
+    if (!asked) return feed_length;
+    const std::chrono::hours hours(number_in(*asked));
+    if (hours.count() < 1 || hours > feed_length) return std::nullopt;
+    return hours;
+}
+
 int run(int argc, char** argv) {
-    if (argc == 6 && std::string(argv[1]) == "--sites-once") {
+    if (argc == 7 && std::string(argv[1]) == "--sites-once") {
         return sites_once(static_cast<int>(number_in(argv[2])),
-                          static_cast<int>(number_in(argv[3])), argv[4], argv[5]);
+                          static_cast<int>(number_in(argv[3])), argv[4], argv[5],
+                          std::chrono::hours(number_in(argv[6])));
     }
     keep_freed_memory();
     const auto [request, usage_status] =
@@ -153,11 +168,16 @@ int run(int argc, char** argv) {
                       "",
                       "raw files of many sites to merged volumes, beside the paper's figures",
                       {"--full", "--sites", "--us"},
-                      {"--work", "--only"}},
+                      {"--work", "--only", "--hours"}},
                      std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return usage_status;
     const fs::path work = request->value("--work").value_or(
         (fs::temp_directory_path() / "stormcellar-bench-mosaic").string());
+    const auto hours = hours_of(*request);
+    if (!hours) {
+        fmt::print(stderr, "bench_mosaic: --hours takes 1 to {}\n", feed_length.count());
+        return 2;
+    }
     Table table(request->json);
     const auto exit_status = [](const Status& done) {
         if (done) return 0;
@@ -165,7 +185,7 @@ int run(int argc, char** argv) {
         return done.error().code == ErrorCode::not_found ? 3 : 1;
     };
     if (!request->has("--us")) {
-        const int status = exit_status(measure_sites(*request, work, table));
+        const int status = exit_status(measure_sites(*request, work, *hours, table));
         if (status != 0) return status;
     }
     if (!request->has("--sites") && !request->value("--only")) {

@@ -91,12 +91,12 @@ std::vector<Station> feed_sites(int count) {
     return sites;
 }
 
-std::vector<FeedVolume> feed_of(int sites, const fs::path& directory) {
+std::vector<FeedVolume> feed_of(int sites, const fs::path& directory, std::chrono::hours hours) {
     std::vector<FeedVolume> volumes;
     const std::vector<Station> stations = feed_sites(sites);
     for (int site = 0; site < sites; ++site) {
         const int an_hour = kind_of(site).volumes_an_hour();
-        for (int slot = 0; slot < an_hour * feed_length.count(); ++slot) {
+        for (int slot = 0; slot < an_hour * hours.count(); ++slot) {
             volumes.push_back({site, start_of(site, slot),
                                file_of(directory, stations[static_cast<std::size_t>(site)],
                                        start_of(site, slot % an_hour)),

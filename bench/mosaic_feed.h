@@ -38,8 +38,9 @@ struct FeedVolume {
 };
 
 [[nodiscard]] std::vector<Station> feed_sites(int count);
-// In order of start, then site. 1 to most_sites sites.
-[[nodiscard]] std::vector<FeedVolume> feed_of(int sites, const std::filesystem::path& directory);
+// In order of start, then site. 1 to most_sites sites; of the first `hours`.
+[[nodiscard]] std::vector<FeedVolume> feed_of(int sites, const std::filesystem::path& directory,
+                                              std::chrono::hours hours = feed_length);
 // 256 x 256 columns over the box that the sites' positions and their reach (460 km) span, 128
 // levels from 125 m to 16 km. Of 100 sites cells are some 15 km wide.
 [[nodiscard]] grid::GridSpec feed_domain(int sites);

@@ -186,12 +186,13 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
 
 }  // namespace
 
-Result<MosaicRun> run_mosaic(int sites, int threads, const fs::path& feed, const fs::path& cache) {
+Result<MosaicRun> run_mosaic(int sites, int threads, const fs::path& feed, const fs::path& cache,
+                             std::chrono::hours hours) {
     auto store = cache::Store::open_for_writing(real_file_system(), cache, false);
     if (!store) return pass_on(store);
     Runner runner(sites, threads, std::move(*store));
-    const std::vector<FeedVolume> volumes = feed_of(sites, feed);
-    if (Status run = runner.run(volumes, feed_start() + feed_length); !run) return pass_on(run);
+    const std::vector<FeedVolume> volumes = feed_of(sites, feed, hours);
+    if (Status run = runner.run(volumes, feed_start() + hours); !run) return pass_on(run);
     return runner.done();
 }
 

@@ -33,6 +33,7 @@ struct MosaicRun {
 // `cache` must be empty or not there; it has the frames afterwards.
 [[nodiscard]] Result<MosaicRun> run_mosaic(int sites, int threads,
                                            const std::filesystem::path& feed,
-                                           const std::filesystem::path& cache);
+                                           const std::filesystem::path& cache,
+                                           std::chrono::hours hours = feed_length);
 
 }  // namespace stormcellar::bench

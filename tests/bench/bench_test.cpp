@@ -117,10 +117,12 @@ TEST(BenchDecode, TheTableHasTheKeysOfTheJson) {
 TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--work"}).status, 2);
+    for (const char* hours : {"0", "6", "few"})
+        EXPECT_EQ(run_program(bench("bench_mosaic"), {"--hours", hours}).status, 2) << hours;
     const testing::TemporaryDirectory work;
     const auto said =
         run_program(bench("bench_mosaic"),
-                    {"--json", "--threads", "2", "--only", "1", "--data",
+                    {"--json", "--threads", "2", "--only", "1", "--hours", "1", "--data",
                      testing::data_directory()->string(), "--work", work.path().string()});
     ASSERT_EQ(said.status, 0) << said.err;
     const auto rows = nlohmann::json::parse(said.out)["rows"];
