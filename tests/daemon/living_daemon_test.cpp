@@ -89,6 +89,8 @@ TEST_F(LivingDaemon, SweepsAreInTheCacheWhileTheFileIsStillOpen) {
     OpenFile file(daemon_.drop() / "KLOT20220317_000842_V06");
     file.append(pieces(0, 12));
     ASSERT_TRUE(wait_for_grid(is_living)) << daemon_.log();
+    // Its writes are seen as soon as it is followed, which is when the job has ended.
+    ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["living_grids"] > 0; }));
     const std::size_t sweeps = newest()->provenance.sweeps.size();
     file.append(pieces(12, 40));
     ASSERT_TRUE(wait_for_grid([&](const cache::GridDescription& grid) {
