@@ -44,6 +44,14 @@ void* operator new(std::size_t size) {
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return stormcellar::pipeline::allocate(size, static_cast<std::size_t>(alignment));
 }
+// AddressSanitizer's own would not ask the first.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return stormcellar::pipeline::allocate(size, 0);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }
