@@ -30,8 +30,19 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
     for (std::string& copy : copies)
         argv.push_back(copy.data());
     argv.push_back(nullptr);
+    // Tests that run in the background of a script were started to ignore Ctrl-C.
+    sigset_t ends;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGINT);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &ends);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
-    if (posix_spawn(&child, name.c_str(), actions, nullptr, argv.data(), environ) != 0) {
+    const int failed =
+        posix_spawn(&child, name.c_str(), actions, &attributes, argv.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    if (failed != 0) {
         throw std::runtime_error("cannot start " + name);
     }
     return child;
