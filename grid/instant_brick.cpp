@@ -9,6 +9,16 @@
 namespace stormcellar::grid {
 namespace {
 
+std::size_t column_in_brick(int x, int y) {
+    const int column = x * brick_edge + y;
+    return static_cast<std::size_t>(column);
+}
+
+std::size_t cell_in_brick(int x, int y, int z) {
+    const int cell = (x * brick_edge + y) * brick_edge + z;
+    return static_cast<std::size_t>(cell);
+}
+
 bool is_tdwr(const SitePosition& site) {
     return beam_width_of(site.icao) < 0.9;
 }
@@ -66,7 +76,7 @@ InstantBrick::InstantBrick(const InstantMaker& maker, int bx, int by)
     for (int y = 0; y < brick_edge && by * brick_edge + y < spec.ny; ++y) {
         const auto row = maker.geometry_->row(by * brick_edge + y);
         for (int x = 0; x < brick_edge && bx * brick_edge + x < spec.nx; ++x) {
-            const auto column = static_cast<std::size_t>(x * brick_edge + y);
+            const std::size_t column = column_in_brick(x, y);
             const int ix = bx * brick_edge + x;
             arc_m_[column] = row[static_cast<std::size_t>(ix)].arc_m;
             if (maker.moves_) {
@@ -88,8 +98,9 @@ void InstantBrick::read_times(std::size_t end) {
     for (int y = 0; y < brick_edge && by_ * brick_edge + y < spec.ny; ++y) {
         const auto row = maker_.geometry_->row(by_ * brick_edge + y);
         for (int x = 0; x < brick_edge && bx_ * brick_edge + x < spec.nx; ++x) {
-            const ColumnPlace& place = row[static_cast<std::size_t>(bx_ * brick_edge + x)];
-            const auto column = static_cast<std::size_t>(x * brick_edge + y);
+            const int ix = bx_ * brick_edge + x;
+            const ColumnPlace& place = row[static_cast<std::size_t>(ix)];
+            const std::size_t column = column_in_brick(x, y);
             from.clock->read(static_cast<double>(place.azimuth_deg),
                              static_cast<double>(place.arc_m), spec.levels_m,
                              std::span(seconds).subspan(column * height, height));
@@ -259,7 +270,7 @@ void InstantBrick::fill() {
     for (int x = 0; x < extent.x; ++x) {
         for (int y = 0; y < extent.y; ++y) {
             for (int z = 0; z < extent.z; ++z) {
-                const auto cell = static_cast<std::size_t>((x * brick_edge + y) * brick_edge + z);
+                const std::size_t cell = cell_in_brick(x, y, z);
                 const Sample a = sample(0, cell);
                 const Sample b = alone ? Sample{} : sample(1, cell);
                 const bool alike = a.status == b.status && a.status != CellStatus::value;
