@@ -25,7 +25,7 @@ inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
 // Whether it ends one: 2 or 4.
 [[nodiscard]] bool ends_sweep(const Radial& radial);
 
-// Of a live volume.
+// Radials in a record of a live volume.
 inline constexpr std::size_t rows_of_a_record = 120;
 
 class FragmentBuilder {

@@ -10,6 +10,7 @@
 #include "level2/volume_difference.h"
 
 namespace stormcellar::level2 {
+
 Status ReadBack::read_header(std::span<const std::byte> bytes) {
     auto header = read_archive_header(bytes);
     if (!header) return refuse("its header's name is none that begins a volume");

@@ -9,7 +9,6 @@
 #include "render/map/map_layer.h"
 #include "render/shades.h"
 #include "tests/render/synthetic_storm.h"
-#include "tests/testing/slow_down.h"
 
 namespace stormcellar::render {
 namespace {
@@ -172,14 +171,9 @@ TEST(RenderFrame, RefusesWhatItCannotDraw) {
 TEST(RenderFrame, DrawsEveryProductAndMoment) {
     const auto grid = storm_grid(small_spec(60, 16, 4000, 1000));
     const auto bricks = bricks_of(grid);
-    // Under sanitizers rays take long, and other tests here cast them.
-    const auto is_left_out = [](Product product) {
-        return product == Product::volume && testing::slow_down > 1;
-    };
     for (const Product product :
          {Product::volume, Product::composite, Product::cappi, Product::section, Product::echo_top,
           Product::vil, Product::lowest_seen, Product::highest_seen}) {
-        if (is_left_out(product)) continue;
         Scene scene;
         scene.product = product;
         scene.section = SectionLine{{34.5, -98}, {35.5, -96}};
@@ -195,7 +189,6 @@ TEST(RenderFrame, DrawsEveryProductAndMoment) {
         Scene scene;
         scene.moment = moment;
         for (const Product product : {Product::volume, Product::cappi}) {
-            if (is_left_out(product)) continue;
             scene.product = product;
             EXPECT_TRUE(render_frame(bricks.view(), facts, scene, 2));
         }
