@@ -145,7 +145,9 @@ PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::s
     room.right += margin_right / 5;
     PlotLabel best;
     double best_cost = -1;
-    for (double distance = touching; distance < 20 * touching; distance += 1.2 * touching) {
+    constexpr int distances = 16;
+    for (int farther = 0; farther < distances; ++farther) {
+        const double distance = (1 + 1.2 * farther) * touching;
         for (const Direction& direction : directions) {
             const PlotBox box =
                 label_box(layout.markers[marker], text, direction.dx, direction.dy, distance);
@@ -154,7 +156,7 @@ PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::s
             const auto side = direction.dx > 0   ? PlotLabel::Side::left
                               : direction.dx < 0 ? PlotLabel::Side::right
                                                  : PlotLabel::Side::middle;
-            best = {box, side, text, marker, distance > touching};
+            best = {box, side, text, marker, farther > 0};
             best_cost = cost;
         }
         if (best_cost < least_cost) break;

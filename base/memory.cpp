@@ -1,5 +1,6 @@
 #include "base/memory.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
@@ -23,12 +24,12 @@ void keep_freed_memory() {
 
 void prefer_large_pages(void* memory, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t page = 4096;
+    constexpr std::size_t page = 4096;
     if (bytes < (std::size_t{2} << 20)) return;
-    const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t first = (start + page - 1) / page * page;
-    const std::uintptr_t end = (start + bytes) / page * page;
-    if (first < end) ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+    const std::size_t into_page = reinterpret_cast<std::uintptr_t>(memory) % page;
+    const std::size_t before = into_page == 0 ? 0 : page - into_page;
+    const std::size_t whole_pages = (bytes - before) / page * page;
+    ::madvise(static_cast<std::byte*>(memory) + before, whole_pages, MADV_HUGEPAGE);
 #else
     static_cast<void>(memory);
     static_cast<void>(bytes);

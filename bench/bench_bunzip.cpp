@@ -94,8 +94,7 @@ void compare(const Records& records, Path path, Rooms& rooms) {
 }
 
 fs::path write_joined(const Records& records) {
-    const fs::path path =
-        fs::temp_directory_path() / fmt::format("bench-bunzip-{}.bz2", ::getpid());
+    fs::path path = fs::temp_directory_path() / fmt::format("bench-bunzip-{}.bz2", ::getpid());
     std::FILE* const file = std::fopen(path.c_str(), "wb");
     stop_unless(file != nullptr, "no temporary file");
     for (const auto record : records)

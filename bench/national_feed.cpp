@@ -34,7 +34,7 @@ Result<Bytes> read_joined(const fs::path& path) {
         chunks.insert(entry.path());
     Bytes joined;
     for (const fs::path& chunk : chunks) {
-        const auto bytes = read_file(chunk);
+        auto bytes = read_file(chunk);
         if (!bytes) return bytes;
         joined.insert(joined.end(), bytes->begin(), bytes->end());
     }

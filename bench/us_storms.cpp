@@ -92,8 +92,10 @@ grid::BrickGrid us_storms(const grid::GridSpec& domain, const grid::GridWindow& 
             const Column& column = columns[static_cast<std::size_t>(c)];
             const Seen seen = seen_at(column.arc_m, site.altitude_m);
             for (int z = 0; z < extent.z; ++z) {
-                codes[static_cast<std::size_t>(c * 16 + z)] =
-                    code_of(column, seen, domain.levels_m[static_cast<std::size_t>(bz * 16 + z)]);
+                const int cell = c * 16 + z;
+                const int level = bz * 16 + z;
+                codes[static_cast<std::size_t>(cell)] =
+                    code_of(column, seen, domain.levels_m[static_cast<std::size_t>(level)]);
             }
         }
         writer.put_codes(brick, codes.data(), extent);

@@ -284,10 +284,10 @@ std::vector<GridName> Account::oldest(const GridName& name, std::uint64_t bytes,
 std::vector<GridName> Account::down_to(std::string_view group, std::uint64_t bytes,
                                        std::size_t most) const {
     std::vector<GridName> victims;
-    const Group* const found = group_of_name(group);
+    const Group* const found = group.empty() ? nullptr : group_of_name(group);
     if (!group.empty() && found == nullptr) return victims;
-    const Order& order = group.empty() ? order_ : found->order;
-    std::uint64_t held = group.empty() ? used_ - leaving_ : found->used - found->leaving;
+    const Order& order = found == nullptr ? order_ : found->order;
+    std::uint64_t held = found == nullptr ? used_ - leaving_ : found->used - found->leaving;
     for (const Item* item : order) {
         if (held <= bytes || victims.size() == most) break;
         if (is_protected(*item)) continue;

@@ -119,6 +119,13 @@ bool read_number(std::span<const std::byte> bytes, Number& number) {
     return true;
 }
 
+bool read_flag(std::span<const std::byte> bytes, bool& flag) {
+    std::int32_t number = 0;
+    if (!read_number(bytes, number)) return false;
+    flag = number != 0;
+    return true;
+}
+
 bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     if (bytes.size() < site_numbers_bytes) return false;
     std::array<double, 3> numbers{};
@@ -210,12 +217,8 @@ bool read_record(RecordKind kind, std::span<const std::byte> contents,
             provenance.vcp = number;
             return whole;
         }
-        case RecordKind::partial: {
-            std::int32_t number = 0;
-            const bool whole = read_number(contents, number);
-            provenance.partial = number != 0;
-            return whole;
-        }
+        case RecordKind::partial:
+            return read_flag(contents, provenance.partial);
         case RecordKind::note:
             provenance.notes.push_back(text_of(contents));
             return true;

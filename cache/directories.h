@@ -31,6 +31,7 @@ struct Day {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
     std::string day;  // "20220317"
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
     auto operator<=>(const Day&) const = default;
 };
 [[nodiscard]] std::filesystem::path relative_path(const Day& day);

@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
 
 #include <sys/mman.h>
@@ -16,9 +18,10 @@ struct sigaction former_action = {};
 
 // Zeros in the place of a map that is in one of ours, for good.
 bool take_fault(void* address) {
-    const auto range = cut_map_at(reinterpret_cast<std::uintptr_t>(address));
+    const auto place = reinterpret_cast<std::uintptr_t>(address);
+    const auto range = cut_map_at(place);
     if (!range) return false;
-    void* const start = reinterpret_cast<void*>(range->begin);
+    std::byte* const start = static_cast<std::byte*>(address) - (place - range->begin);
     return ::mmap(start, range->end - range->begin, PROT_READ,
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED | MAP_NORESERVE, -1, 0) != MAP_FAILED;
 }

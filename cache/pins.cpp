@@ -63,7 +63,7 @@ Status pin_grid(FileSystem& file_system, const fs::path& grid) {
     if (!is_pinned(grid)) {
         const auto descriptor = file_system.create_exclusive(pin_path(grid));
         if (!descriptor) return pass_on(descriptor);
-        const Status synced = file_system.sync(*descriptor);
+        Status synced = file_system.sync(*descriptor);
         file_system.close(*descriptor);
         if (!synced) return synced;
     }

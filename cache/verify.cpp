@@ -94,7 +94,7 @@ Status GridFile::Mapping::check_stored_bricks() const {
         const BrickEntry& entry = view.bricks[i];
         if (entry.kind != BrickKind::stored) continue;
         ++stored;
-        const Status read = read_brick(i, offset, codes);
+        Status read = read_brick(i, offset, codes);
         if (!read && read.error().code != ErrorCode::corrupt) return read;
         const CodeRange expected{entry.value_count, entry.min_code, entry.max_code};
         if (read && xxh3_64(codes) == entry.checksum &&

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t most_looked_through = 10'000;
 
 std::string summary_of(const std::vector<std::string>& damage) {
-    const std::string first = damage.front().substr(0, damage.front().find('\n'));
+    std::string first = damage.front().substr(0, damage.front().find('\n'));
     if (damage.size() == 1) return first;
     return fmt::format("{}, and {} more", first, damage.size() - 1);
 }

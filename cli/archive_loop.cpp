@@ -288,7 +288,7 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
     const auto start = Clock::now();
     pipeline::FillReport& report = grids.report;
     if (!missing.empty()) {
-        const Status filled =
+        Status filled =
             run_with_bar("volumes", missing.size(), !call.quiet, interrupt,
                          [&](const pipeline::FillProgress& progress) {
                              return filling.fill(missing, progress, interrupt.flag(), report);
@@ -301,7 +301,7 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
     if (instants.empty()) return {};
     const auto frames_start = Clock::now();
     const auto notes = static_cast<std::ptrdiff_t>(report.notes.size());
-    const Status made =
+    Status made =
         run_with_bar("mosaics", instants.size(), !call.quiet, interrupt,
                      [&](const pipeline::FillProgress& progress) {
                          return filling.make_frames(instants, progress, interrupt.flag(), report);
