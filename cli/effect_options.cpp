@@ -51,6 +51,7 @@ Result<Settings> settings_of(const std::map<std::string, Settings>& known, std::
     if (name.empty()) return Settings{};
     if (const auto method = known.find(name); method != known.end()) return method->second;
     std::vector<std::string> names;
+    names.reserve(known.size());
     for (const auto& [one, ignored] : known)
         names.push_back(one);
     return fail(ErrorCode::bad_argument, "{} takes one of {}, not '{}'", option,
@@ -60,7 +61,7 @@ Result<Settings> settings_of(const std::map<std::string, Settings>& known, std::
 Result<Settings> settings_of_methods(const EffectOptions& options) {
     auto settings = settings_of(methods(), "--method", options.method);
     if (!settings) return settings;
-    const auto time = settings_of(time_methods(), "--time-method", options.time_method);
+    auto time = settings_of(time_methods(), "--time-method", options.time_method);
     if (!time) return time;
     settings->insert(settings->end(), time->begin(), time->end());
     return settings;

@@ -179,6 +179,7 @@ Status parse_fields(const GridOptions& options, GridRequest& request) {
         from = to + 1;
         if (add_field(name, mosaic, request)) continue;
         std::vector<std::string_view> names;
+        names.reserve(grid::all_details.size());
         for (const grid::Detail known : grid::all_details)
             names.push_back(grid::detail_name(known));
         return fail(ErrorCode::bad_argument,

@@ -98,6 +98,7 @@ Result<std::vector<TimedVolume>> load_repeats(const std::string& file, const Gri
 
 Result<std::vector<TimedVolume>> observe_sequence(const synth::Scene& scene) {
     std::vector<TimedVolume> sequence;
+    sequence.reserve(fewest);
     for (int number = 0; number < static_cast<int>(fewest); ++number) {
         sequence.push_back({synth::observe(scene, number),
                             {scene.site.station, scene.site.latitude_deg, scene.site.longitude_deg,

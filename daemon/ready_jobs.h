@@ -46,6 +46,7 @@ class ReadyJobs {
         bool is_new = false;
         std::int64_t order = 0;
         std::uint64_t sequence = 0;
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
         auto operator<=>(const Rank&) const = default;
     };
     struct Station {

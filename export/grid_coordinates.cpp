@@ -80,6 +80,8 @@ void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDi
     const bool degrees = in_degrees(spec);
     std::vector<double> rows;
     std::vector<double> columns;
+    rows.reserve(static_cast<std::size_t>(spec.ny));
+    columns.reserve(static_cast<std::size_t>(spec.nx));
     for (int iy = 0; iy < spec.ny; ++iy)
         rows.push_back(degrees ? projection.row_latitude_deg(iy) : spec.y_m(iy));
     for (int ix = 0; ix < spec.nx; ++ix)

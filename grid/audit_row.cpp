@@ -44,6 +44,7 @@ std::vector<AuditRow> pooled_by(std::span<const AuditRow> rows, float AuditRow::
     for (const AuditRow& row : rows)
         pools[row.*key].add(row);
     std::vector<AuditRow> made;
+    made.reserve(pools.size());
     for (const auto& [value, pool] : pools)
         made.push_back(pool.row());
     return made;

@@ -52,8 +52,10 @@ void unpack_states(std::span<const std::byte> packed, std::vector<Code>& codes) 
 template <class Work>
 void for_each_column(const BrickExtent& extent, Work work) {
     for (int x = 0; x < extent.x; ++x) {
-        for (int y = 0; y < extent.y; ++y)
-            work(static_cast<std::size_t>(x * brick_edge + y));
+        for (int y = 0; y < extent.y; ++y) {
+            const int column = x * brick_edge + y;
+            work(static_cast<std::size_t>(column));
+        }
     }
 }
 
@@ -332,8 +334,10 @@ const MergedBrick<Code>& BrickMerger<Code>::count(std::span<const BrickLayer> la
             merged_.counts[cell] = static_cast<std::uint8_t>(
                 seen[z] == 0 ? 0 : before_first + std::min<int>(seen[z], most));
             const float steps = std::min(weight[z] / weight_quantization.step, 65000.0F);
-            merged_.weights[cell] = static_cast<std::uint16_t>(
-                seen[z] == 0 ? 0 : first_value_code + static_cast<int>(steps + 0.5F));
+            // Positive and small: NOLINTNEXTLINE(bugprone-incorrect-roundings)
+            const int rounded = static_cast<int>(steps + 0.5F);
+            merged_.weights[cell] =
+                static_cast<std::uint16_t>(seen[z] == 0 ? 0 : first_value_code + rounded);
         }
     });
     return merged_;

@@ -41,9 +41,10 @@ std::optional<CellStatus> CodeBlock::uniform_status(const BrickView& view, const
 
 void CodeBlock::read(const BrickView& view, const ColumnBox& box, int bz) {
     box_ = box;
-    height_ = static_cast<std::size_t>(box.y1 - box.y0 + 1);
-    const auto width = static_cast<std::size_t>(box.x1 - box.x0 + 1);
-    codes_.assign(width * height_ * brick_edge, 0);
+    const int width = box.x1 - box.x0 + 1;
+    const int height = box.y1 - box.y0 + 1;
+    height_ = static_cast<std::size_t>(height);
+    codes_.assign(static_cast<std::size_t>(width) * height_ * brick_edge, 0);
     const ColumnBox part = inside(view, box);
     if (is_empty(part)) return;
     for (int bx = part.x0 / brick_edge; bx <= part.x1 / brick_edge; ++bx) {
@@ -64,8 +65,8 @@ void CodeBlock::copy(const BrickView& view, std::size_t brick, const ColumnBox& 
     const std::size_t states = entry.status_index * (brick_cells / 4);
     for (int ix = part.x0; ix <= part.x1; ++ix) {
         for (int iy = part.y0; iy <= part.y1; ++iy) {
-            const auto cell = static_cast<std::size_t>(
-                ((ix - bx * brick_edge) * brick_edge + iy - by * brick_edge) * brick_edge);
+            const int column_here = (ix - bx * brick_edge) * brick_edge + iy - by * brick_edge;
+            const std::size_t cell = static_cast<std::size_t>(column_here) * brick_edge;
             std::uint16_t* const to = codes_.data() + (column(ix, iy) - codes_.data());
             const std::size_t from = brick * brick_cells + cell;
             if (entry.kind == BrickKind::uniform) {

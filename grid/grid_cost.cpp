@@ -52,7 +52,7 @@ Result<double> stratum_s(GridScene& scene, const Method& method,
     auto took_s = scene.fill(method, stratum.tiles);
     if (!took_s) return took_s;
     if (*took_s < short_time_s) {
-        const auto again_s = scene.fill(method, stratum.tiles);
+        auto again_s = scene.fill(method, stratum.tiles);
         if (!again_s) return again_s;
         took_s = std::min(*took_s, *again_s);
     }
@@ -146,9 +146,9 @@ TileSample draw_tiles(GridScene& scene, std::size_t of_each) {
 }
 
 Result<double> predicted_fill_s(GridScene& scene, const Method& method, const TileSample& sample) {
-    const auto with_echo_s = stratum_s(scene, method, sample.with_echo);
+    auto with_echo_s = stratum_s(scene, method, sample.with_echo);
     if (!with_echo_s) return with_echo_s;
-    const auto without_s = stratum_s(scene, method, sample.without);
+    auto without_s = stratum_s(scene, method, sample.without);
     if (!without_s) return without_s;
     return *with_echo_s + *without_s;
 }

@@ -37,6 +37,7 @@ struct Box {
 std::vector<GeoPoint> circle_about(const SitePosition& site, double radius_m) {
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     std::vector<GeoPoint> circle;
+    circle.reserve(circle_points);
     for (int i = 0; i < circle_points; ++i)
         circle.push_back(frame.to_geo({360.0 * i / circle_points, radius_m}));
     return circle;

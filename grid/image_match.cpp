@@ -85,8 +85,8 @@ class Search {
 
   private:
     [[nodiscard]] const Correlation& at(int dx, int dy) const {
-        return all_[static_cast<std::size_t>((dy + search_.reach_y) * width_ + dx +
-                                             search_.reach_x)];
+        const int shift = (dy + search_.reach_y) * width_ + dx + search_.reach_x;
+        return all_[static_cast<std::size_t>(shift)];
     }
     void refine(Shift& shift) const {
         const int dx = static_cast<int>(shift.x) - search_.around_x;

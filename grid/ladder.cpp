@@ -68,7 +68,8 @@ Position beam_position(const GridScene& scene, BeamKind kind) {
     for (const ChosenSweep& sweep : scene.chosen()) {
         const BeamPath a = rung.path(sweep.elevation_deg);
         const BeamPath b = exact.path(sweep.elevation_deg);
-        for (double range_m = step_m; range_m < reach_m; range_m += step_m) {
+        for (int gate = 1; gate * step_m < reach_m; ++gate) {
+            const double range_m = gate * step_m;
             const EarthPoint here = a.at(range_m);
             const EarthPoint there = b.at(range_m);
             const bool counts = there.height_m <= scene.spec().levels_m.back() &&
@@ -82,6 +83,7 @@ Position beam_position(const GridScene& scene, BeamKind kind) {
 
 // Of each radial where it leaves the grid.
 Position elevation_position(const GridScene& scene) {
+    constexpr double step_m = 1000;
     PositionErrors errors;
     const BeamModel beam =
         beam_model_of(scene.site(), BeamKind::four_thirds, scene.options().profile);
@@ -90,9 +92,9 @@ Position elevation_position(const GridScene& scene) {
     for (const ChosenSweep& sweep : scene.chosen()) {
         const BeamPath path = beam.path(sweep.elevation_deg);
         double range_m = 0;
-        for (double next_m = 0; next_m < reach_m; next_m += 1000) {
-            if (path.at(next_m).height_m > top_m) break;
-            range_m = next_m;
+        for (int step = 0; step * step_m < reach_m; ++step) {
+            if (path.at(step * step_m).height_m > top_m) break;
+            range_m = step * step_m;
         }
         const auto& radials = scene.volume().sweeps[sweep.sweep_index].radials;
         for (const std::uint32_t radial : sweep.radials) {
@@ -113,7 +115,7 @@ Result<Position> position_of(GridScene& scene, const std::string& step, std::siz
 
 // The whole chain's: each step's largest, and the root of the sum of squares.
 Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
-    const auto frame = frame_position(scene, choice.frame);
+    auto frame = frame_position(scene, choice.frame);
     if (!frame) return frame;
     const Position beam = beam_position(scene, choice.method.beam);
     const Position jitter =

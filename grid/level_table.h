@@ -21,9 +21,12 @@ class LevelTable {
           steps_(static_cast<float>(steps_a_level * levels_m_.size())),
           steps_per_m_(levels_m_.size() > 1 ? steps_ / (levels_m_.back() - levels_m_.front()) : 0) {
         std::uint32_t level = 0;
-        for (float step = 0; step <= steps_; ++step) {
+        const std::size_t steps = steps_a_level * levels_m_.size();
+        first_of_step_.reserve(steps + 1);
+        for (std::size_t step = 0; step <= steps; ++step) {
             // Half a step down: whatever rounding does, no level is passed over.
-            while (level + 1 < levels_m_.size() && step_of(levels_m_[level]) < step - 0.5F)
+            const float begin = static_cast<float>(step) - 0.5F;
+            while (level + 1 < levels_m_.size() && step_of(levels_m_[level]) < begin)
                 ++level;
             first_of_step_.push_back(level);
         }

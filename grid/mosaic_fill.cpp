@@ -180,6 +180,7 @@ class Slab {
 template <class Code, class Pick>
 std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
+    writers.reserve(slabs.size());
     for (std::optional<Slab<Code>>& slab : slabs)
         writers.push_back(std::move(pick(*slab)));
     return writers;

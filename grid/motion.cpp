@@ -65,6 +65,11 @@ std::optional<Vote> motion_of_whole(const Images& images, double seconds,
 struct Blocks {
     int width = 0, height = 0;
     int step = 0;  // pixels from middle to middle; a block is twice as wide
+
+    [[nodiscard]] std::size_t index(int column, int row) const {
+        const int before = row * width + column;
+        return static_cast<std::size_t>(before);
+    }
 };
 
 Blocks blocks_of(const EchoImage& image, double block_pixels) {
@@ -97,7 +102,7 @@ Vote smoothed(const std::vector<Vote>& votes, const Blocks& blocks, int column, 
     Vote sum{whole.x * weight_of_whole, whole.y * weight_of_whole, weight_of_whole};
     for (int y = std::max(0, row - 3); y < std::min(blocks.height, row + 4); ++y) {
         for (int x = std::max(0, column - 3); x < std::min(blocks.width, column + 4); ++x) {
-            const Vote& vote = votes[static_cast<std::size_t>(y * blocks.width + x)];
+            const Vote& vote = votes[blocks.index(x, y)];
             const double apart = (x - column) * (x - column) + (y - row) * (y - row);
             const double weight = vote.weight * std::exp(-apart / 2);
             sum.x += weight * vote.x;
@@ -113,8 +118,7 @@ std::vector<Vote> votes_of(const Images& images, const Blocks& blocks, const Shi
     std::vector<Vote> votes(static_cast<std::size_t>(blocks.width * blocks.height));
     for_each_piece(blocks.height, threads, [&](int row) {
         for (int column = 0; column < blocks.width; ++column) {
-            votes[static_cast<std::size_t>(row * blocks.width + column)] =
-                vote_of_block(images, blocks, column, row, search);
+            votes[blocks.index(column, row)] = vote_of_block(images, blocks, column, row, search);
         }
     });
     return votes;
@@ -139,8 +143,8 @@ CellMotion MotionField::at(double ix, double iy) const {
     const int x0 = std::min(static_cast<int>(x), std::max(0, width_ - 2));
     const int y0 = std::min(static_cast<int>(y), std::max(0, height_ - 2));
     const auto node = [&](int column, int row) -> const CellMotion& {
-        return nodes_[static_cast<std::size_t>(std::min(row, height_ - 1) * width_ +
-                                               std::min(column, width_ - 1))];
+        const int index = std::min(row, height_ - 1) * width_ + std::min(column, width_ - 1);
+        return nodes_[static_cast<std::size_t>(index)];
     };
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const CellMotion &a = node(x0, y0), &b = node(x0 + 1, y0), &c = node(x0, y0 + 1),

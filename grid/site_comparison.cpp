@@ -121,6 +121,7 @@ void tell_nothing(const std::string& why, SiteComparison& comparison) {
 
 std::size_t blocks_of(const std::vector<FitRow>& rows) {
     std::vector<std::uint32_t> blocks;
+    blocks.reserve(rows.size());
     for (const FitRow& row : rows)
         blocks.push_back(row.block);
     std::sort(blocks.begin(), blocks.end());
@@ -141,6 +142,7 @@ bool take_step(const Fit& found, Numbers& numbers) {
 
 double median_apart_s(const std::vector<SitePair>& pairs) {
     std::vector<double> apart_s;
+    apart_s.reserve(pairs.size());
     for (const SitePair& pair : pairs)
         apart_s.push_back(std::abs(pair.apart_s));
     if (apart_s.empty()) return 0;

@@ -53,6 +53,7 @@ Result<BrickGrid> grid_at(const TimedView& before, const std::optional<TimedView
     const InstantMaker maker(before, after, geometry, options);
     BrickGrid made(geometry.spec(), view.quantization);
     std::vector<BricksWriter> writers;
+    writers.reserve(static_cast<std::size_t>(view.bricks_x));
     for (int bx = 0; bx < view.bricks_x; ++bx)
         writers.emplace_back(made);
     for_each_piece(view.bricks_x, options.threads, [&](int bx) {

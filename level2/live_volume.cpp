@@ -79,7 +79,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
         if (chunk) {
             chunk->kind = kind;
             refused_.erase(number);
-            const auto kept = keep_better(number, std::move(*chunk), now);
+            auto kept = keep_better(number, std::move(*chunk), now);
             const bool is_new = kept && (*kept == Added::added || *kept == Added::replaced);
             if (is_new && options_.depot != nullptr) {
                 put_aside(chunks_.at(number), *options_.depot);
