@@ -9,9 +9,6 @@
 namespace stormcellar::accuracy {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
-
 LadderRow row(const char* step, std::size_t rung, const char* name, double time_s,
               std::optional<double> p99, std::optional<double> position_m) {
     LadderRow made;

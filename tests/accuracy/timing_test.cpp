@@ -47,7 +47,10 @@ TEST(Timing, ASlowerMachineIsSharedByAll) {
     double clock_s = 0;
     int runs = 0;
     const auto work = [&](double cost_s) {
-        return [&clock_s, &runs, cost_s] { clock_s += cost_s * (1 + runs++ / 4); };
+        return [&clock_s, &runs, cost_s] {
+            const int round = runs++ / 4;
+            clock_s += cost_s * (1 + round);
+        };
     };
     const std::vector<std::function<void()>> works = {work(1), work(2)};
     const auto timings = time_in_rounds(works, 5, [&] { return clock_s; });

@@ -77,8 +77,9 @@ class RollingBudgetTest : public ::testing::TestWithParam<int> {
         const int steps = 240 * times_longer() / testing::slow_down / threads;
         std::vector<std::thread> workers;
         for (int i = 0; i < threads; ++i) {
-            workers.emplace_back([&, i] {
-                live(store, disk_, static_cast<std::uint64_t>(100 * threads + i), steps, counts_);
+            const int seed = 100 * threads + i;
+            workers.emplace_back([&, seed] {
+                live(store, disk_, static_cast<std::uint64_t>(seed), steps, counts_);
             });
         }
         for (auto& worker : workers)

@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
                                            "KBGM20050822_025549.gz", "KBGM20050822_030243.gz",

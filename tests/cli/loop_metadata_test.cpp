@@ -11,10 +11,7 @@
 namespace stormcellar {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 // The blocks of the first comment of a GIF.
 std::string gif_comment(const std::string& path) {

@@ -19,7 +19,7 @@ TEST(JournalEntry, IsNameAndValueLineByLine) {
 // The bytes of the protocol's own form: the length of "a\nb" is 3, as 64 bits little endian.
 TEST(JournalEntry, AValueWithANewlineComesWithItsLength) {
     const std::array fields = {JournalField{"FILE", "a\nb"}, JournalField{"PRIORITY", "6"}};
-    const std::string length("\x03\0\0\0\0\0\0\0", 8);
+    const std::string length = "\x03" + std::string(7, '\0');
     EXPECT_EQ(journal_entry(fields), "FILE\n" + length + "a\nb\nPRIORITY=6\n");
 }
 

@@ -104,7 +104,7 @@ int free_port() {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    ::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size);
+    EXPECT_EQ(::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size), 0);
     ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
     ::close(descriptor);
     return ntohs(address.sin_port);
@@ -180,7 +180,7 @@ TEST_F(StatusServerTest, WhoSaysNothingOrDripsIsCutOff) {
 }
 
 TEST_F(StatusServerTest, WhoNeverReadsIsCutOff) {
-    metrics_ = std::string(20'000'000, 'x');
+    metrics_.assign(20'000'000, 'x');
     const StatusServer server(impatient(), render());
     std::vector<StatusClient> lazy;
     for (int i = 0; i < 4; ++i) {

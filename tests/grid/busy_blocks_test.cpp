@@ -14,8 +14,10 @@ constexpr std::int32_t gates_a_block = 32;
 
 // Of whole blocks, as the stretch is.
 bool is_quiet(const std::vector<std::uint8_t>& codes, std::int32_t first, std::int32_t last) {
-    const auto from = static_cast<std::size_t>(first / gates_a_block * gates_a_block);
-    const auto to = static_cast<std::size_t>((last / gates_a_block + 1) * gates_a_block);
+    const std::int32_t first_gate = first / gates_a_block * gates_a_block;
+    const std::int32_t end_gate = (last / gates_a_block + 1) * gates_a_block;
+    const auto from = static_cast<std::size_t>(first_gate);
+    const auto to = static_cast<std::size_t>(end_gate);
     for (std::size_t gate = from; gate < std::min(to, codes.size()); ++gate) {
         if (codes[gate] != 0) return false;
     }

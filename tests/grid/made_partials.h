@@ -64,7 +64,8 @@ class Partials {
         for (int i = 0; i < 1000; ++i)
             kinds.push_back(static_cast<int>(random() % 6));
         add(site, window, quantization, [&](int ix, int iy, int iz, auto& status, float& value) {
-            const int kind = kinds[static_cast<std::size_t>((ix / 16 * 7 + iy / 16) * 3 + iz / 16)];
+            const int brick = (ix / 16 * 7 + iy / 16) * 3 + iz / 16;
+            const int kind = kinds[static_cast<std::size_t>(brick)];
             const auto drawn = static_cast<unsigned>(random() % 8);
             if (kind < 3) {
                 status = static_cast<CellStatus>(kind == 2 && drawn == 0 ? 0 : kind % 2);

@@ -15,7 +15,6 @@ namespace stormcellar::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr UtcTime noon{std::chrono::sys_days{std::chrono::year{2024} / 6 / 1} +

@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace wire = level2::wire;
-using catalog::FileState;
 
 class Hostile : public ::testing::Test {
   protected:

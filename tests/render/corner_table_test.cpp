@@ -26,9 +26,9 @@ std::uint32_t expected_word(const grid::BrickView& view, int x, int y, int z) {
         const std::size_t brick = view.brick_index(cx / edge, cy / edge, cz / edge);
         if (view.bricks[brick].kind != grid::BrickKind::stored) continue;
         if (view.bricks[brick].value_count == 0) continue;
-        const std::size_t cell =
-            static_cast<std::size_t>(((cx % edge) * edge + cy % edge) * edge + cz % edge);
-        const auto code = static_cast<std::uint8_t>(view.codes[brick * grid::brick_cells + cell]);
+        const int cell = ((cx % edge) * edge + cy % edge) * edge + cz % edge;
+        const std::size_t at = brick * grid::brick_cells + static_cast<std::size_t>(cell);
+        const auto code = static_cast<std::uint8_t>(view.codes[at]);
         word |= static_cast<std::uint32_t>(code) << (8 * c);
     }
     return word;
