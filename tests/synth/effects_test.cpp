@@ -133,7 +133,8 @@ TEST(Clutter, ItsTextureBelongsToTheGround) {
               clutter_dbz(clutter, 2, {10.1, 0, 1}, 5000));
     const Moments db = moments_of(20000, [&](std::uint32_t i) {
         const double azimuth_deg = 0.5 * (i % 720) + 0.25;
-        const double range_m = 125 + 250 * (i / 720);
+        const std::uint32_t gate = i / 720;
+        const double range_m = 125 + 250 * gate;
         return clutter_dbz(clutter, 1, {azimuth_deg, 0, 1}, range_m) - 50 + 40 * range_m / 30000;
     });
     EXPECT_NEAR(db.mean, 0, 4 * 6 / std::sqrt(20000));
