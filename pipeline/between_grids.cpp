@@ -141,6 +141,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
         files.erase(later ? files.begin() : files.begin() + 1);
     }
     std::vector<PartialView> views;
+    views.reserve(files.size());
     for (const cache::GridFile& file : files)
         views.push_back(view_of(file));
     FrameOptions options;

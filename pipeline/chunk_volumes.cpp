@@ -195,7 +195,7 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         live.decode.fallback_station = station_of_path(chunk.path);
         followed.volume = std::make_shared<ChunkVolume>(options_, live);
     }
-    const std::shared_ptr<ChunkVolume> found = followed.volume;
+    std::shared_ptr<ChunkVolume> found = followed.volume;
     give_up_beyond_limits(chunk.key);
     return found;
 }

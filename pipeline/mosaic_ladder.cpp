@@ -83,6 +83,7 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
 Status time_all(MosaicScene& scene, int rounds, std::vector<Rung>& rungs) {
     Status status;
     std::vector<std::function<void()>> works;
+    works.reserve(rungs.size());
     for (const Rung& rung : rungs) {
         works.emplace_back([&scene, &rung, &status] {
             if (!status) return;
