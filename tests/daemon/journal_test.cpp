@@ -24,7 +24,8 @@ TEST(JournalEntry, AValueWithANewlineComesWithItsLength) {
 }
 
 TEST(JournalEntry, NoValueCanForgeAField) {
-    const std::string evil = "x\nPRIORITY=0\n\nMESSAGE\n=\0y" + std::string(300, '\n');
+    const std::string evil =
+        "x\nPRIORITY=0\n\nMESSAGE\n=" + std::string(1, '\0') + "y" + std::string(300, '\n');
     const std::array fields = {JournalField{"STORMCELLAR_FILE", evil},
                                JournalField{"PRIORITY", "6"}};
     const auto read = read_journal_entry(journal_entry(fields));
