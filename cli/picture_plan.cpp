@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "accuracy/explain.h"
+#include "cli/product_options.h"
 #include "render/picture_layout.h"
 #include "render/plan/volume_plan.h"
 
@@ -44,10 +45,6 @@ render::VolumeChoice choice_of(const render::Scene& scene) {
 
 bool chooses_slices(const std::string& effect) {
     return effect.starts_with("slices_");
-}
-
-bool has(const std::vector<std::string>& names, std::string_view name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // The effects that were asked for leave the number of slices alone, and no tolerance chooses it.
@@ -113,8 +110,8 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
 
 Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                               const SceneOptions& scene) {
-    const bool typed = has(scene.typed, "--slices");
-    const bool in_file = !typed && has(scene.in_file, "[volume] slices");
+    const bool typed = has_name(scene.typed, "--slices");
+    const bool in_file = !typed && has_name(scene.in_file, "[volume] slices");
     PicturePlanOptions kept = plan;
     if (typed && !plan.tolerance_typed) kept.tolerance.clear();
     if (typed && !plan.effects_typed) std::erase_if(kept.effects, chooses_slices);

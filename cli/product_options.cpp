@@ -81,18 +81,18 @@ Status unused(const std::string& name, const Use& use, Product product) {
                 text_of(use.users), render::product_name(product));
 }
 
-bool has(const std::vector<std::string>& names, std::string_view name) {
+}  // namespace
+
+bool has_name(const std::vector<std::string>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
-
-}  // namespace
 
 void note_typed_options(CLI::App& app, SceneOptions& options) {
     for (const Use& use : uses) {
         CLI::Option* option = app.get_option_no_throw(use.option);
         if (option == nullptr) continue;
         option->each([&options, &use](const std::string&) {
-            if (!has(options.typed, use.option)) options.typed.emplace_back(use.option);
+            if (!has_name(options.typed, use.option)) options.typed.emplace_back(use.option);
         });
     }
 }
@@ -107,9 +107,9 @@ Status check_product_options(Product product, const SceneOptions& options) {
     const auto files = render::product_from_name(options.file_product);
     for (const Use& use : uses) {
         if (is_used(use.users, product)) continue;
-        if (has(options.typed, use.option)) return unused(use.option, use, product);
+        if (has_name(options.typed, use.option)) return unused(use.option, use, product);
         const bool was_used = files && is_used(use.users, *files);
-        if (!was_used && has(options.in_file, key_of(use))) {
+        if (!was_used && has_name(options.in_file, key_of(use))) {
             return unused(key_of(use), use, product);
         }
     }

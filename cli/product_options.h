@@ -15,6 +15,9 @@
 
 namespace stormcellar::cli {
 
+// Whether `name` is among the options that were typed, or the keys of a file.
+[[nodiscard]] bool has_name(const std::vector<std::string>& names, std::string_view name);
+
 // Fills SceneOptions::typed as they are parsed; of the options that are on `app` by now.
 void note_typed_options(CLI::App& app, SceneOptions& options);
 

@@ -23,9 +23,6 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
-// Messages are read, and their radials handed on, so many bytes at a time.
-constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
-constexpr std::size_t rows_of_a_stretch = 128;
 
 // What comes out of a compressed layer: messages, read at once, or something to peel further, which
 // is held until it is whole.

@@ -18,11 +18,8 @@ namespace {
 constexpr std::size_t decide_container_bytes = archive_header_bytes + 16;
 constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
-constexpr std::size_t rows_of_a_stretch = 128;
 // The longest record, and what is appended at once.
 constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
-// What is appended is read so many bytes at a time, so that little of it is held.
-constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
 constexpr std::size_t kept_bytes = std::size_t{16} << 10;
 
 }  // namespace

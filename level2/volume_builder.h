@@ -8,6 +8,7 @@
 // Thread contract: one thread at a time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -20,6 +21,10 @@
 #include "level2/report_writer.h"
 
 namespace stormcellar::level2 {
+
+// Messages are read, and their radials handed on, so many bytes at a time: little of them is held.
+inline constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
+inline constexpr std::size_t rows_of_a_stretch = 128;
 
 // Whether a piece goes on with the sweep of the one before it, where no header lies between.
 [[nodiscard]] bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece);

@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 
 // No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
-constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 constexpr std::chrono::minutes longest_failing{2};
 
 // The pieces of chunks beside the sweeps that they make.
@@ -190,7 +189,7 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
         level2::LiveOptions live;
         live.timeout = options_.chunk_timeout;
         live.grace = options_.chunk_grace;
-        live.decode.output_limit_bytes = most_output_bytes;
+        live.decode.output_limit_bytes = most_unpacked_bytes;
         live.decode.selection = options_.selection;
         live.decode.fallback_station = station_of_path(chunk.path);
         followed.volume = std::make_shared<ChunkVolume>(options_, live);

@@ -20,6 +20,9 @@ namespace stormcellar::pipeline {
 // feed of 160 sites either takes 1 to 3 GB.
 inline constexpr std::uint64_t most_put_aside_bytes = std::uint64_t{4} << 30;
 
+// What a file, or the chunks of a volume, may unpack to: three times a large volume.
+inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
+
 // Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
 // theirs has come.
 struct LivingGrids {
@@ -57,7 +60,7 @@ struct IngestOptions {
     // A larger file is rejected unread. No volume is known that takes half of it.
     std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
     // Likewise one that unpacks to more.
-    std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
+    std::uint64_t most_output_bytes = most_unpacked_bytes;
 };
 
 }  // namespace stormcellar::pipeline

@@ -16,7 +16,7 @@ bool is_living(const grid::Provenance& provenance) {
 }
 
 // A volume's first radial that has come is so far from its header at most.
-constexpr std::chrono::minutes longest_volume{15};
+constexpr std::chrono::minutes farthest_radial{15};
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void remove_other_times(const cache::Store& store, const std::string& domain, le
     const auto chunk = level2::parse_chunk_name(source_file);
     if (!chunk || !volume.header) return;
     const UtcTime time = volume.header->time();
-    const auto near = store.list(domain, moment, time - longest_volume, time + longest_volume);
+    const auto near = store.list(domain, moment, time - farthest_radial, time + farthest_radial);
     if (!near) return;
     for (const cache::StoreEntry& entry : *near) {
         if (entry.time == time || entry.pinned) continue;

@@ -16,6 +16,7 @@
 #include "base/descriptor.h"
 #include "level2/archive_header.h"
 #include "level2/content.h"
+#include "pipeline/ingest_options.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -23,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
-// What a volume may take while it grows: three times a large one.
-constexpr std::uint64_t most_output_bytes = std::uint64_t{256} << 20;
 constexpr double same_elevation_deg = 0.2;
 constexpr std::chrono::minutes longest_standing{20};
 constexpr std::uint64_t most_records = 10'000;
@@ -107,7 +106,7 @@ LivingFile::LivingFile(fs::path path, const Options& options)
       beneath_(options.beneath),
       moment_(options.moment),
       growing_(level2::DecodeOptions{.threads = 1,
-                                     .output_limit_bytes = most_output_bytes,
+                                     .output_limit_bytes = most_unpacked_bytes,
                                      .selection = options.selection,
                                      .fallback_station = options.fallback_station}),
       kept_(std::make_unique<KeptVolume>()) {}

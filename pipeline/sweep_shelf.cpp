@@ -92,7 +92,7 @@ void visit_sweep(Archive&& each, S& sweep) {
     each(sweep.vcp_elevation_deg), each(sweep.radials);
 }
 
-std::vector<char> bytes_of(const Sweep& sweep) {
+std::vector<char> written(const Sweep& sweep) {
     Writer writer;
     std::size_t size = 256 + sweep.radials.size() * sizeof(level2::Radial);
     for (const SweepMoment& m : sweep.moments)
@@ -149,7 +149,7 @@ Result<std::unique_ptr<SweepShelf>> SweepShelf::make_in(const std::filesystem::p
 }
 
 Result<SweepShelf::Place> SweepShelf::put(const Sweep& sweep) {
-    const std::vector<char> bytes = bytes_of(sweep);
+    const std::vector<char> bytes = written(sweep);
     if (bytes.size() > LZ4_MAX_INPUT_SIZE) {
         return fail(ErrorCode::unsupported, "a sweep of {} bytes", bytes.size());
     }

@@ -1,12 +1,12 @@
 #include "accuracy/candidate.h"
 
-#include <limits>
 #include <random>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/accuracy/infinity.h"
 #include "tests/accuracy/small_chain.h"
 
 namespace stormcellar::accuracy {
@@ -15,8 +15,6 @@ namespace {
 using ::testing::HasSubstr;
 using testing::random_chain;
 using testing::small_chain;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Candidate, EachChoiceCostsAndLeavesOffWhatItSays) {
     const auto candidates = list_candidates(small_chain());

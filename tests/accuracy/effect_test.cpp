@@ -14,7 +14,7 @@ using ::testing::Not;
 
 const std::vector<std::string> names = {"refraction", "ellipsoid", "beam_width", "cell_size"};
 
-std::string error_of(const std::string& text) {
+std::string override_error(const std::string& text) {
     const auto parsed = parse_override(text, names);
     if (parsed) return "no error";
     EXPECT_EQ(parsed.error().code, ErrorCode::bad_argument);
@@ -31,29 +31,31 @@ TEST(Effect, OverridesNameAnEffectAndASetting) {
 }
 
 TEST(Effect, AMisspeltNameIsAnsweredWithTheNearest) {
-    EXPECT_THAT(error_of("refracton=on"), HasSubstr("did you mean \"refraction\"?"));
-    EXPECT_THAT(error_of("elipsiod=off"), HasSubstr("did you mean \"ellipsoid\"?"));
-    EXPECT_THAT(error_of("beam-width=on"), HasSubstr("did you mean \"beam_width\"?"));
-    EXPECT_THAT(error_of("Cell_Size=on"), HasSubstr("did you mean \"cell_size\"?"));
+    EXPECT_THAT(override_error("refracton=on"), HasSubstr("did you mean \"refraction\"?"));
+    EXPECT_THAT(override_error("elipsiod=off"), HasSubstr("did you mean \"ellipsoid\"?"));
+    EXPECT_THAT(override_error("beam-width=on"), HasSubstr("did you mean \"beam_width\"?"));
+    EXPECT_THAT(override_error("Cell_Size=on"), HasSubstr("did you mean \"cell_size\"?"));
 }
 
 TEST(Effect, WhatIsNoMisspellingIsAnsweredWithTheList) {
-    EXPECT_THAT(error_of("wind=on"), HasSubstr("there are refraction, ellipsoid, beam_width"));
-    EXPECT_THAT(error_of("wind=on"), Not(HasSubstr("did you mean")));
-    EXPECT_THAT(error_of(std::string(1000000, 'x') + "=on"), HasSubstr("there are refraction"));
-    EXPECT_LT(error_of(std::string(1000000, 'x') + "=on").size(), 400U);
+    EXPECT_THAT(override_error("wind=on"),
+                HasSubstr("there are refraction, ellipsoid, beam_width"));
+    EXPECT_THAT(override_error("wind=on"), Not(HasSubstr("did you mean")));
+    EXPECT_THAT(override_error(std::string(1000000, 'x') + "=on"),
+                HasSubstr("there are refraction"));
+    EXPECT_LT(override_error(std::string(1000000, 'x') + "=on").size(), 400U);
     EXPECT_THAT(parse_override("a=on", {}).error().message, HasSubstr("there are none"));
 }
 
 TEST(Effect, OtherFormsAreRefused) {
     for (const char* text : {"", "refraction", "=on", "="}) {
-        EXPECT_THAT(error_of(text), HasSubstr("NAME=on|off|auto")) << text;
+        EXPECT_THAT(override_error(text), HasSubstr("NAME=on|off|auto")) << text;
     }
     for (const char* text : {"refraction=", "refraction=yes", "refraction=on ", "refraction=ON",
                              "refraction=on=off"}) {
-        EXPECT_THAT(error_of(text), HasSubstr("can be on, off or auto")) << text;
+        EXPECT_THAT(override_error(text), HasSubstr("can be on, off or auto")) << text;
     }
-    EXPECT_THAT(error_of("refraction=\x1b[2J"), HasSubstr("\\x1b"));
+    EXPECT_THAT(override_error("refraction=\x1b[2J"), HasSubstr("\\x1b"));
 }
 
 TEST(Effect, NamesAreSnakeCase) {

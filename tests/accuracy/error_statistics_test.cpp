@@ -8,10 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/accuracy/infinity.h"
+
 namespace stormcellar::accuracy {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ErrorStatistics, NothingHasNoSummary) {

@@ -12,11 +12,8 @@ namespace stormcellar::accuracy {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::plan_of;
 using testing::small_chain;
-
-Plan plan_of(const Chain& chain, const char* budget) {
-    return plan(chain, parse_budget(budget).value()).value();
-}
 
 TEST(Explain, ReadsAsIntended) {
     EXPECT_EQ(explain(plan_of(small_chain(), "250 m, 0.5 dB")),

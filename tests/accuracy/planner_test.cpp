@@ -13,6 +13,7 @@ namespace stormcellar::accuracy {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::plan_of;
 using testing::random_chain;
 using testing::small_chain;
 using Rungs = std::vector<std::size_t>;
@@ -21,12 +22,6 @@ Budget budget_of(const char* text) {
     auto budget = parse_budget(text);
     EXPECT_TRUE(budget) << text;
     return budget.value_or(Budget{});
-}
-
-Plan plan_of(const Chain& chain, const char* budget) {
-    auto planned = plan(chain, budget_of(budget));
-    EXPECT_TRUE(planned);
-    return planned.value_or(Plan{});
 }
 
 TEST(Planner, TheSumOfWhatIsLeftOffIsWithinTheBudgetNotEachAlone) {

@@ -42,18 +42,18 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 // What a parser of XML, other than our own eyes, makes of it: the texts in it, one a line.
-testing::ProgramResult parse_xml(const std::string& svg) {
-    const testing::TemporaryDirectory directory;
+stormcellar::testing::ProgramResult parse_xml(const std::string& svg) {
+    const stormcellar::testing::TemporaryDirectory directory;
     const auto path = directory.path() / "plot.svg";
     std::ofstream(path, std::ios::binary) << svg;
-    return testing::run_program("/usr/bin/python3",
-                                {"-c",
-                                 "import sys, xml.etree.ElementTree as tree\n"
-                                 "root = tree.parse(sys.argv[1]).getroot()\n"
-                                 "assert root.tag == '{http://www.w3.org/2000/svg}svg', root.tag\n"
-                                 "for node in root.iter('{http://www.w3.org/2000/svg}text'):\n"
-                                 "    sys.stdout.buffer.write((node.text + '\\n').encode())\n",
-                                 path});
+    return stormcellar::testing::run_program(
+        "/usr/bin/python3", {"-c",
+                             "import sys, xml.etree.ElementTree as tree\n"
+                             "root = tree.parse(sys.argv[1]).getroot()\n"
+                             "assert root.tag == '{http://www.w3.org/2000/svg}svg', root.tag\n"
+                             "for node in root.iter('{http://www.w3.org/2000/svg}text'):\n"
+                             "    sys.stdout.buffer.write((node.text + '\\n').encode())\n",
+                             path});
 }
 
 #define STORMCELLAR_NEED_PYTHON()                     \

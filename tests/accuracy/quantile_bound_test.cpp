@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/accuracy/infinity.h"
+
 namespace stormcellar::accuracy {
 namespace {
 
 using Random = std::mt19937_64;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double uniform(Random& random) {
     return std::uniform_real_distribution<double>()(random);

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/accuracy/infinity.h"
+
 namespace stormcellar::accuracy {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Quantity, NumbersHaveThreeDigitsAndNoExponentWhereTheyAreRead) {
     EXPECT_EQ(format_number(0), "0");

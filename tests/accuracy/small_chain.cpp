@@ -67,4 +67,8 @@ Chain random_chain(std::mt19937_64& random) {
     return chain;
 }
 
+Plan plan_of(const Chain& chain, const char* budget) {
+    return plan(chain, parse_budget(budget).value()).value();
+}
+
 }  // namespace stormcellar::accuracy::testing

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "accuracy/chain.h"
+#include "accuracy/planner.h"
 
 namespace stormcellar::accuracy::testing {
 
@@ -15,5 +16,8 @@ namespace stormcellar::accuracy::testing {
 // Up to four steps of up to three effects, small whole numbers so that ties and exact sums happen,
 // some of them set on or off, never against each other.
 [[nodiscard]] Chain random_chain(std::mt19937_64& random);
+
+// The plan of what `budget` says, which must be well said and possible: throws otherwise.
+[[nodiscard]] Plan plan_of(const Chain& chain, const char* budget);
 
 }  // namespace stormcellar::accuracy::testing

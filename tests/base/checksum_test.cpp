@@ -4,20 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/testing/text_bytes.h"
+
 namespace stormcellar {
 namespace {
 
-std::span<const std::byte> as_bytes(std::string_view text) {
-    return std::as_bytes(std::span(text.data(), text.size()));
-}
-
 // The check value that every description of CRC-32 gives.
 TEST(Checksum, Crc32OfTheStandardCheckString) {
-    EXPECT_EQ(crc32(as_bytes("123456789")), 0xCBF43926U);
+    EXPECT_EQ(crc32(testing::text_bytes("123456789")), 0xCBF43926U);
 }
 
 TEST(Checksum, Crc32ContinuesFromAPreviousValue) {
-    EXPECT_EQ(crc32(as_bytes("6789"), crc32(as_bytes("12345"))), 0xCBF43926U);
+    EXPECT_EQ(crc32(testing::text_bytes("6789"), crc32(testing::text_bytes("12345"))), 0xCBF43926U);
 }
 
 // The value of XXH3 for no input, from the xxHash specification's sanity tests.

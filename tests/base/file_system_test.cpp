@@ -8,6 +8,7 @@
 
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
+#include "tests/testing/text_bytes.h"
 
 namespace stormcellar {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::PowerCutFileSystem;
 using testing::TemporaryDirectory;
-
-std::span<const std::byte> as_bytes(std::string_view text) {
-    return std::as_bytes(std::span(text.data(), text.size()));
-}
 
 std::string contents(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -31,7 +28,8 @@ int entries(const fs::path& directory) {
 
 TEST(AtomicFile, AppearsWholeUnderItsName) {
     const TemporaryDirectory directory;
-    ASSERT_TRUE(write_file_atomically(real_file_system(), directory / "a", as_bytes("storm")));
+    ASSERT_TRUE(
+        write_file_atomically(real_file_system(), directory / "a", testing::text_bytes("storm")));
     EXPECT_EQ(contents(directory / "a"), "storm");
     EXPECT_EQ(entries(directory.path()), 1);
 }
@@ -41,14 +39,14 @@ TEST(AtomicFile, WithoutCommitLeavesNothing) {
     {
         auto file = AtomicFile::create(real_file_system(), directory / "a");
         ASSERT_TRUE(file);
-        ASSERT_TRUE(file->append(as_bytes("half")));
+        ASSERT_TRUE(file->append(testing::text_bytes("half")));
     }
     EXPECT_EQ(entries(directory.path()), 0);
 }
 
 TEST(AtomicFile, MissingDirectoryIsNotFoundAndNamed) {
-    const auto status =
-        write_file_atomically(real_file_system(), "/nonexistent-directory/a", as_bytes("x"));
+    const auto status = write_file_atomically(real_file_system(), "/nonexistent-directory/a",
+                                              testing::text_bytes("x"));
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, ErrorCode::not_found);
     EXPECT_NE(status.error().message.find("/nonexistent-directory"), std::string::npos);
@@ -60,10 +58,12 @@ TEST(AtomicFile, PowerCutAtEveryOperationLeavesOldOrNew) {
     std::uint64_t operation = 0;
     for (bool finished = false; !finished; ++operation) {
         const TemporaryDirectory directory;
-        ASSERT_TRUE(write_file_atomically(real_file_system(), directory / "a", as_bytes("old")));
+        ASSERT_TRUE(
+            write_file_atomically(real_file_system(), directory / "a", testing::text_bytes("old")));
         PowerCutFileSystem file_system;
         file_system.fail_from(operation);
-        finished = write_file_atomically(file_system, directory / "a", as_bytes("new")).has_value();
+        finished = write_file_atomically(file_system, directory / "a", testing::text_bytes("new"))
+                       .has_value();
         file_system.power_cut();
         const std::string now = contents(directory / "a");
         EXPECT_TRUE(now == "old" || now == "new") << "operation " << operation << ": " << now;
@@ -78,7 +78,8 @@ TEST(AtomicFile, FullDiskIsNoSpaceAndLeavesNothing) {
     const TemporaryDirectory directory;
     PowerCutFileSystem file_system;
     file_system.set_space(3);
-    const auto status = write_file_atomically(file_system, directory / "a", as_bytes("storm"));
+    const auto status =
+        write_file_atomically(file_system, directory / "a", testing::text_bytes("storm"));
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, ErrorCode::no_space);
     EXPECT_EQ(entries(directory.path()), 0);

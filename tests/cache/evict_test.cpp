@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+using testing::noon;
 
 class EvictTest : public ::testing::Test {
   protected:

@@ -13,8 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::minutes;
 using ::testing::HasSubstr;
-
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+using testing::noon;
 
 class FullDiskTest : public ::testing::Test {
   protected:

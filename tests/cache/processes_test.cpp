@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using std::chrono::minutes;
+using testing::noon;
 
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 constexpr std::uint64_t budget = 400'000;
 
 pid_t start(std::vector<std::string> arguments) {

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::minutes;
+using testing::noon;
 
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 constexpr std::uint64_t total = 600'000;
 constexpr std::uint64_t of_b = 250'000;
 

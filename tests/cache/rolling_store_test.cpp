@@ -19,8 +19,7 @@ using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+using testing::noon;
 
 class RollingStoreTest : public ::testing::Test {
   protected:

@@ -9,6 +9,8 @@ namespace stormcellar::testing {
 
 inline constexpr int most_bricks = 8;
 
+inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+
 // 128 x 16 x 16 cells, of whose 8 bricks `stored` (1 to 8) are stored, every second one first, so
 // that runs and holes vary. Of 16-bit codes: 8 KiB a brick.
 [[nodiscard]] const grid::BrickGrid& sized_grid(int stored);

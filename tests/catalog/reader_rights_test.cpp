@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FileFacts facts_of(int number) {
+FileFacts volume_facts(int number) {
     FileFacts facts;
     facts.path = fmt::format("/d/{}", number);
     facts.station = "KTLX";
@@ -86,7 +86,9 @@ class ReaderRights : public ::testing::Test {
         fs::permissions(directory_.path(), fs::perms{0755});
         ::umask(022);
     }
-    void register_one(Catalog& catalog) { ASSERT_TRUE(catalog.register_file(facts_of(number_++))); }
+    void register_one(Catalog& catalog) {
+        ASSERT_TRUE(catalog.register_file(volume_facts(number_++)));
+    }
     testing::TemporaryDirectory directory_;
     int number_ = 0;
 };
@@ -122,7 +124,7 @@ TEST_F(ReaderRights, AReaderSeesWhatAKilledWriterLeft) {
     ASSERT_GE(writer, 0);
     if (writer == 0) {
         auto catalog = Catalog::open_for_writing(directory_ / "catalog");
-        if (catalog) (void)catalog->register_file(facts_of(0));
+        if (catalog) (void)catalog->register_file(volume_facts(0));
         ::_exit(0);  // nothing is closed: the WAL stays
     }
     ::waitpid(writer, nullptr, 0);
@@ -138,7 +140,7 @@ TEST_F(ReaderRights, AWalWithoutItsIndexIsAnErrorUntilAWriterCame) {
     ASSERT_GE(writer, 0);
     if (writer == 0) {
         auto catalog = Catalog::open_for_writing(directory_ / "catalog");
-        if (catalog) (void)catalog->register_file(facts_of(0));
+        if (catalog) (void)catalog->register_file(volume_facts(0));
         ::_exit(0);
     }
     ::waitpid(writer, nullptr, 0);

@@ -8,18 +8,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
-#include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
 
 using testing::ProgramResult;
-
-ProgramResult run(const std::vector<std::string>& arguments) {
-    return testing::run_program(STORMCELLAR_PROGRAM, arguments);
-}
 
 std::string volume(const std::string& name) {
     return (*testing::data_directory() / "volumes" / name).string();

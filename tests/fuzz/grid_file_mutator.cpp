@@ -19,10 +19,6 @@ using format::FileHeader;
 using grid::BrickEntry;
 using grid::BrickKind;
 
-std::size_t below(Random& random, std::size_t limit) {
-    return limit == 0 ? 0 : random() % limit;
-}
-
 // The sections as the header has them, cut to what there is of the file.
 struct Sections {
     FileHeader header;

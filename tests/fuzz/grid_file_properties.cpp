@@ -19,11 +19,6 @@ namespace {
 
 using cache::GridFile;
 
-template <class... Args>
-void require(bool holds, fmt::format_string<Args...> what, Args&&... args) {
-    if (!holds) throw PropertyError(fmt::format(what, std::forward<Args>(args)...));
-}
-
 // A file that has no name but this one, and no place on a disk.
 class MemoryFile {
   public:

@@ -19,8 +19,6 @@ namespace {
 using level2::Decoded;
 using level2::wire::Bytes;
 
-constexpr std::uint64_t output_limit_bytes = std::uint64_t{64} << 20;
-
 // Decisions about the order of things, from a seed.
 class Choices {
   public:

@@ -18,10 +18,6 @@ constexpr std::size_t message_header_bytes = 28;
 constexpr std::size_t frame_bytes = 2432;
 constexpr std::size_t most_unpacked_bytes = std::size_t{1} << 18;
 
-std::size_t below(Random& random, std::size_t limit) {
-    return limit == 0 ? 0 : random() % limit;
-}
-
 // A file or stream cut into parts: records or messages. Whatever is no such part is one, too.
 using Parts = std::vector<Bytes>;
 

@@ -19,6 +19,11 @@ using Random = std::minstd_rand;
 // Changes any bytes in any way; the result is at most `most` bytes long.
 using MutateBytes = std::function<Bytes(Bytes bytes, std::size_t most)>;
 
+// Any whole number below `limit`; 0 where there is none.
+inline std::size_t below(Random& random, std::size_t limit) {
+    return limit == 0 ? 0 : random() % limit;
+}
+
 // Results are at most `most` bytes long, which is more than the bytes given.
 [[nodiscard]] Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
                                      const MutateBytes& mutate);

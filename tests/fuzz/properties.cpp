@@ -25,13 +25,6 @@ using level2::Sweep;
 using level2::SweepMoment;
 using level2::wire::Bytes;
 
-constexpr std::uint64_t output_limit_bytes = std::uint64_t{64} << 20;
-
-template <class... Args>
-void require(bool holds, fmt::format_string<Args...> what, Args&&... args) {
-    if (!holds) throw PropertyError(fmt::format(what, std::forward<Args>(args)...));
-}
-
 Result<Decoded> decode(std::span<const std::byte> file, int threads) {
     DecodeOptions options;
     options.threads = threads;

@@ -5,8 +5,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace stormcellar::fuzz {
 
@@ -14,6 +18,14 @@ class PropertyError : public std::logic_error {
   public:
     using std::logic_error::logic_error;
 };
+
+template <class... Args>
+void require(bool holds, fmt::format_string<Args...> what, Args&&... args) {
+    if (!holds) throw PropertyError(fmt::format(what, std::forward<Args>(args)...));
+}
+
+// What decoding may give out here.
+inline constexpr std::uint64_t output_limit_bytes = std::uint64_t{64} << 20;
 
 // A whole file, in any container. One thread and two give the same volume, report or error; the
 // volume is well formed; it can be described and split, and where it can be written it comes back

@@ -12,7 +12,7 @@
 namespace stormcellar::grid {
 namespace {
 
-const SitePosition site{"KTLX", 35.3333, -97.2778, 389};
+const SitePosition ktlx{"KTLX", 35.3333, -97.2778, 389};
 
 // The slow way: GeographicLib's own projection, then the geodesic from the site.
 PolarPoint slow_place(const SitePosition& from, const GridSpec& spec, int ix, int iy) {
@@ -50,18 +50,18 @@ void expect_places(const SitePosition& from, const GridSpec& spec) {
 }
 
 TEST(ColumnGeometry, CentredAtTheSite) {
-    GridSpec spec = default_spec(site.latitude_deg, site.longitude_deg);
-    expect_places(site, spec);
+    GridSpec spec = default_spec(ktlx.latitude_deg, ktlx.longitude_deg);
+    expect_places(ktlx, spec);
     spec.nx = 61;  // a column over the site itself
     spec.ny = 61;
-    expect_places(site, spec);
+    expect_places(ktlx, spec);
 }
 
 TEST(ColumnGeometry, CentredElsewhere) {
     GridSpec spec = default_spec(36.1, -96.2);
     spec.nx = spec.ny = 100;
     spec.spacing_m = 4000;
-    expect_places(site, spec);
+    expect_places(ktlx, spec);
 }
 
 TEST(ColumnGeometry, AtThePoleAndAcrossTheAntimeridian) {
@@ -105,7 +105,7 @@ TEST(ColumnGeometry, RefusesWhatIsNotOnTheEarth) {
     EXPECT_FALSE(make_column_geometry({"XXXX", 35, 0, 1e5}, spec));
     GridSpec bad = spec;
     bad.nx = 0;
-    const auto refused = make_column_geometry(site, bad);
+    const auto refused = make_column_geometry(ktlx, bad);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
 }

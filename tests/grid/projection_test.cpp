@@ -14,7 +14,7 @@ namespace stormcellar::grid {
 namespace {
 
 using Real = long double;
-constexpr Real degree = 3.14159265358979323846264338327950288L / 180;
+constexpr Real one_degree = 3.14159265358979323846264338327950288L / 180;
 
 GridSpec spec_of(Projection projection, GeoPoint center) {
     GridSpec spec = default_spec(center.latitude_deg, center.longitude_deg);
@@ -150,16 +150,17 @@ struct SlowCone {
     static constexpr Real flattening = 1 / 298.257223563L;
     static Real e() { return std::sqrt(flattening * (2 - flattening)); }
     static Real m(Real latitude_deg) {
-        const Real s = std::sin(latitude_deg * degree);
-        return std::cos(latitude_deg * degree) / std::sqrt(1 - e() * e() * s * s);
+        const Real s = std::sin(latitude_deg * one_degree);
+        return std::cos(latitude_deg * one_degree) / std::sqrt(1 - e() * e() * s * s);
     }
     static Real t(Real latitude_deg) {
-        const Real s = e() * std::sin(latitude_deg * degree);
-        return std::tan((45 - latitude_deg / 2) * degree) / std::pow((1 - s) / (1 + s), e() / 2);
+        const Real s = e() * std::sin(latitude_deg * one_degree);
+        return std::tan((45 - latitude_deg / 2) * one_degree) /
+               std::pow((1 - s) / (1 + s), e() / 2);
     }
     SlowCone(Real first_deg, Real second_deg) {
         n = first_deg == second_deg
-                ? std::sin(first_deg * degree)
+                ? std::sin(first_deg * one_degree)
                 : std::log(m(first_deg) / m(second_deg)) / std::log(t(first_deg) / t(second_deg));
         f = m(first_deg) / (n * std::pow(t(first_deg), n));
     }
@@ -183,7 +184,7 @@ TEST(GridProjection, LambertConformalIsTheClosedFormula) {
             for (int ix = 0; ix < spec.nx; ix += 3) {
                 const GeoPoint place = projection.to_geo({1.0 * ix, 1.0 * iy});
                 const Real rho_m = slow.rho_m(place.latitude_deg);
-                const Real theta = slow.n * turn(-97.5, place.longitude_deg) * degree;
+                const Real theta = slow.n * turn(-97.5, place.longitude_deg) * one_degree;
                 ASSERT_NEAR(static_cast<double>(rho_m * std::sin(theta)), spec.x_m(ix), 1e-6);
                 ASSERT_NEAR(static_cast<double>(rho0_m - rho_m * std::cos(theta)), spec.y_m(iy),
                             1e-6);

@@ -18,10 +18,6 @@ using Random = std::mt19937_64;
 
 constexpr std::size_t control_word_bytes = 4;
 
-std::size_t below(Random& random, std::size_t limit) {
-    return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
-}
-
 std::int32_t control_of(const Bytes& record) {
     return ByteReader{record}.i32();
 }

@@ -14,10 +14,6 @@ namespace {
 using wire::Bytes;
 using Random = std::mt19937_64;
 
-std::size_t below(Random& random, std::size_t limit) {
-    return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
-}
-
 // Headers at wrong places can be plausible, and more so a frame behind each other.
 
 struct Field {

@@ -1,8 +1,10 @@
 // tests/hard_cases/mutant.h -- a damaged file, and what must still come out of it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -33,5 +35,10 @@ struct Mutant {
     bool always_named = false;
     bool anything_after = false;  // nothing guards the rest of the file
 };
+
+// Any whole number below `limit`; 0 where there is none.
+inline std::size_t below(std::mt19937_64& random, std::size_t limit) {
+    return static_cast<std::size_t>(random() % std::max<std::size_t>(limit, 1));
+}
 
 }  // namespace stormcellar::level2

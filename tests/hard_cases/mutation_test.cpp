@@ -86,7 +86,7 @@ char current[400];
 void say_current(int signal_number) {
     std::signal(signal_number, SIG_DFL);
     for (const char* text : {"\nwhile decoding ", static_cast<const char*>(current), "\n"})
-        (void)!write(STDERR_FILENO, text, std::char_traits<char>::length(text));
+        (void)!::write(STDERR_FILENO, text, std::char_traits<char>::length(text));
     std::raise(signal_number);
 }
 

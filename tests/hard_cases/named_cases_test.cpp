@@ -6,6 +6,7 @@
 
 #include "base/byte_reader.h"
 #include "level2/decode.h"
+#include "level2/message_header.h"
 #include "tests/level2/radial_identity.h"
 #include "tests/level2/wire.h"
 
@@ -15,7 +16,6 @@ namespace {
 using wire::Bytes;
 
 constexpr std::array<float, 3> elevations_deg = {0.5F, 1.5F, 2.5F};
-constexpr std::size_t frame_bytes = 2432;
 
 bool has_problem(const DecodeReport& report, std::string_view code) {
     return std::any_of(report.problems.begin(), report.problems.end(),

@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include "base/byte_reader.h"
+#include "level2/message_header.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 using wire::Bytes;
 
 constexpr std::size_t header_bytes = 24;
-constexpr std::size_t frame_bytes = 2432;
 constexpr std::size_t message_header_bytes = 28;
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view text) {

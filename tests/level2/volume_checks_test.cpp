@@ -20,14 +20,14 @@ Volume volume_of(const std::vector<std::vector<int>>& azimuth_numbers) {
     return volume;
 }
 
-struct Outcome {
+struct Checked {
     bool missing = false;
     std::vector<std::string> messages;
 };
 
-Outcome check(const Volume& volume, std::string_view code) {
+Checked check(const Volume& volume, std::string_view code) {
     DecodeReport report;
-    Outcome outcome;
+    Checked outcome;
     outcome.missing = check_volume(volume, {}, ReportWriter{report});
     for (const Problem& problem : report.problems) {
         if (problem.code == code) outcome.messages.push_back(problem.message);
@@ -42,7 +42,7 @@ TEST(VolumeChecks, ASoundVolumeHasNoProblem) {
 }
 
 TEST(VolumeChecks, LostRadialsAreCountedAndTheFirstIsNamed) {
-    const Outcome outcome = check(volume_of({{1, 2, 3}, {3, 4, 9}}), "missing_radials");
+    const Checked outcome = check(volume_of({{1, 2, 3}, {3, 4, 9}}), "missing_radials");
     EXPECT_TRUE(outcome.missing);
     EXPECT_EQ(outcome.messages, std::vector<std::string>{
                                     "sweep 1 (elevation number 2) lacks 6 radials, from number 1 "
@@ -53,7 +53,7 @@ TEST(VolumeChecks, MissingRadialsAreCountedBeyond32Bits) {
     std::vector<int> numbers;
     for (int i = 0; i < 80'000; ++i)
         numbers.push_back(i % 2 == 0 ? 65'535 : 1);
-    const Outcome outcome = check(volume_of({numbers}), "missing_radials");
+    const Checked outcome = check(volume_of({numbers}), "missing_radials");
     EXPECT_TRUE(outcome.missing);
     EXPECT_EQ(outcome.messages.at(0).find('-'), std::string::npos) << outcome.messages.at(0);
 }
@@ -63,13 +63,13 @@ TEST(VolumeChecks, RadialsWithoutANumberAreNotMissed) {
 }
 
 TEST(VolumeChecks, ARepeatedRecordIsNamed) {
-    const Outcome outcome = check(volume_of({{1, 2, 3, 2, 3, 4}}), "repeated_radials");
+    const Checked outcome = check(volume_of({{1, 2, 3, 2, 3, 4}}), "repeated_radials");
     EXPECT_FALSE(outcome.missing);
     EXPECT_EQ(outcome.messages.size(), 1U);
 }
 
 TEST(VolumeChecks, ManySweepsWithGapsAreSummedUp) {
-    const Outcome outcome =
+    const Checked outcome =
         check(volume_of(std::vector<std::vector<int>>(50, {1, 3})), "missing_radials");
     EXPECT_EQ(outcome.messages.size(), 9U);
     EXPECT_EQ(outcome.messages.back(), "42 further sweeps lack 42 radials");
@@ -81,7 +81,7 @@ TEST(VolumeChecks, SweepsWithoutALastRadialAreNamed) {
         sweep.radials.back().status = 1;
     volume.sweeps[2].elevation_number = 2;  // the cut of sweep 1 began again
     volume.sweeps[3].elevation_number = 3;
-    const Outcome outcome = check(volume, "unended_sweeps");
+    const Checked outcome = check(volume, "unended_sweeps");
     EXPECT_TRUE(outcome.missing);
     EXPECT_EQ(outcome.messages, std::vector<std::string>{"2 sweeps without a last radial: 0, 2"});
 }

@@ -10,6 +10,7 @@
 #include "pipeline/ingest.h"
 #include "pipeline/mosaic_keeper.h"
 #include "pipeline/rebuild_catalog.h"
+#include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/temporary_directory.h"
@@ -21,19 +22,6 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
-                                           "KBGM20050822_025549.gz"};
-
-Domain small_domain() {
-    Domain domain;
-    domain.name = "north";
-    domain.spec = grid::default_spec(42.2, -75.9);
-    domain.spec.nx = domain.spec.ny = 100;
-    domain.spec.spacing_m = 4000;
-    domain.spec.levels_m = {1000, 2000, 3000, 5000, 8000};
-    return domain;
-}
 
 UtcTime at(const std::string& text) {
     return *parse_utc(text, UtcTime{});

@@ -10,16 +10,16 @@
 namespace stormcellar::pipeline {
 namespace {
 
-struct Source {
+struct SiteVolume {
     level2::Volume volume;
     grid::SitePosition site;
 };
 
-Source load(const std::string& name) {
+SiteVolume load(const std::string& name) {
     auto decoded = level2::decode_path(*testing::data_directory() / name);
     EXPECT_TRUE(decoded);
     const auto antenna = level2::antenna_position(decoded->volume);
-    Source source{std::move(decoded->volume), {}};
+    SiteVolume source{std::move(decoded->volume), {}};
     source.site = {source.volume.station, antenna->latitude_deg, antenna->longitude_deg,
                    antenna->altitude_m};
     return source;
@@ -38,7 +38,7 @@ class RealFrames : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
     void add(const std::string& name) {
-        const Source source = load(name);
+        const SiteVolume source = load(name);
         PartialOptions options;
         options.quantization = grid::default_quantization(level2::Moment::ref);
         auto made = make_partial(source.volume, source.site, northeast(), options, geometries_);
@@ -122,7 +122,7 @@ TEST_F(RealFrames, ASiteWithoutAVolumeNearTheInstantIsLeftOut) {
 }
 
 TEST_F(RealFrames, ASiteThatDoesNotReachTheDomainHasNoPartial) {
-    const Source source = load("volumes/KTLX19990503_235621.gz");
+    const SiteVolume source = load("volumes/KTLX19990503_235621.gz");
     const auto made = make_partial(source.volume, source.site, northeast(), {}, geometries_);
     ASSERT_TRUE(made);
     EXPECT_FALSE(*made);

@@ -8,21 +8,12 @@
 
 #include "grid/effects.h"
 #include "level2/decode.h"
+#include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::pipeline {
 namespace {
-
-Domain small_domain() {
-    Domain domain;
-    domain.name = "north";
-    domain.spec = grid::default_spec(42.2, -75.9);
-    domain.spec.nx = domain.spec.ny = 100;
-    domain.spec.spacing_m = 4000;
-    domain.spec.levels_m = {1000, 2000, 3000, 5000, 8000};
-    return domain;
-}
 
 struct Loaded {
     level2::Volume volume;
@@ -75,9 +66,6 @@ class MosaicKeeperTest : public ::testing::Test {
         *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
     MosaicKeeper keeper_{&store_, {small_domain()}};
 };
-
-const std::vector<std::string> sequence = {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz",
-                                           "KBGM20050822_025549.gz"};
 
 TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome) {
     take(load_volume(sequence[0]));

@@ -129,26 +129,14 @@ TEST(Perspective, WhatLiesBehindTheCameraHasNoPixel) {
     EXPECT_FALSE(std::isnan(view.project(0, 1000, 3e3).x));
 }
 
-std::array<double, 4> pixel_of(const Layer& layer, int x, int y) {
-    std::array<double, 4> colour{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        colour[c] = static_cast<double>(
-            layer.rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) +
-                        static_cast<std::size_t>(x)) *
-                           4 +
-                       c]);
-    }
-    return colour;
-}
-
 constexpr double dbz = 41.875 + 0.5 * 0.3125;  // the middle of a bin
 grid::BrickGrid homogeneous(const grid::GridSpec& spec) {
     return grid::BrickGrid::from(make_grid_of(spec, [](int, int, int) { return valued(dbz); }),
                                  {1, dbz, 1});
 }
 
-Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
-            double opacity = 1, int threads = 2) {
+Layer slice_from(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
+                 double opacity = 1, int threads = 2) {
     return VolumeSlicer(nws_reflectivity(), view.quantization, geometry,
                         {slices, Integration::second_order, opacity})
         .draw(view, threads);
@@ -162,7 +150,7 @@ TEST(Perspective, ASlabIsThickerTowardsThePicturesEdge) {
     const double opacity = 0.2;
     const double k = extinction_per_m(nws_reflectivity(), dbz, opacity);
     for (const int slices : {8, 200}) {
-        const Layer layer = slice(bricks.view(), view, slices, opacity);
+        const Layer layer = slice_from(bricks.view(), view, slices, opacity);
         for (const auto& [x, y] : {std::pair{45, 35}, std::pair{30, 20}, std::pair{60, 50}}) {
             const Vec3 along = view.along({x + 0.5, y + 0.5});
             const double path_m = 8 * 500 * std::hypot(along[0], along[1], along[2]);
@@ -178,7 +166,7 @@ TEST(Perspective, ACameraInsideSeesUpToTheWalls) {
     const Camera camera = standing_at({20e3, -10e3, 4e3}, 180, 90, 50);
     const ViewGeometry view(spec, camera, 1, 91, 71);
     const double opacity = 0.02;
-    const Layer layer = slice(bricks.view(), view, 400, opacity);
+    const Layer layer = slice_from(bricks.view(), view, 400, opacity);
     const double path_m = 60e3 - view.near_m();  // to the northern wall, straight ahead
     const double k = extinction_per_m(nws_reflectivity(), dbz, opacity);
     EXPECT_NEAR(pixel_of(layer, 45, 35)[3], 1 - std::exp(-k * path_m), 1e-4);
@@ -207,7 +195,7 @@ TEST(Perspective, EveryCameraAgreesWithTheReference) {
     for (const bool curved : {false, true}) {
         for (const Camera& camera : cameras()) {
             const ViewGeometry view(spec, camera, 8, 200, 150, curved);
-            const Layer layer = slice(bricks.view(), view, 1024);
+            const Layer layer = slice_from(bricks.view(), view, 1024);
             EXPECT_LT(worst_difference(bricks.view(), view, layer), 0.004)
                 << camera.azimuth_deg << " " << camera.tilt_deg << " " << curved;
         }
@@ -220,7 +208,7 @@ TEST(CurvedEarth, AWideLayerBends) {
     const auto bricks = bricks_of(
         make_grid_of(spec, [](int, int, int iz) { return iz == 5 ? valued(60) : Cell{}; }));
     const auto height_of_echo = [&](const ViewGeometry& view, double x_m) {
-        const Layer layer = slice(bricks.view(), view, 512);
+        const Layer layer = slice_from(bricks.view(), view, 512);
         const int column = static_cast<int>(view.project(x_m, 0, 3000).x);
         double sum = 0, weighted = 0;
         for (int y = 0; y < layer.height; ++y) {

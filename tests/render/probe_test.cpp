@@ -12,10 +12,6 @@ namespace stormcellar::render {
 namespace {
 
 using grid::CellStatus;
-FrameFacts facts_of(const grid::Grid& grid) {
-    return {"KTLX", level2::Moment::ref, parse_compact("19990503_235621").value(), grid.sites,
-            false};
-}
 
 // 100 x 100 columns; the column of 30, 70 has 45 dBZ at 2.5 km; nothing is seen below 1 km.
 class ProbeTest : public ::testing::Test {

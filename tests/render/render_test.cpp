@@ -15,11 +15,6 @@ namespace {
 
 using grid::CellStatus;
 
-FrameFacts facts_of(const grid::Grid& grid) {
-    return {"KTLX", level2::Moment::ref, parse_compact("19990503_235621").value(), grid.sites,
-            false};
-}
-
 Scene plain(Product product, int size) {
     Scene scene;
     scene.product = product;

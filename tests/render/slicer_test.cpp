@@ -14,14 +14,6 @@ namespace {
 
 using grid::CellStatus;
 
-std::array<double, 4> pixel_of(const Layer& layer, int x, int y) {
-    const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) +
-                            static_cast<std::size_t>(x)) *
-                           4;
-    return {static_cast<double>(layer.rgba[at]), static_cast<double>(layer.rgba[at + 1]),
-            static_cast<double>(layer.rgba[at + 2]), static_cast<double>(layer.rgba[at + 3])};
-}
-
 Layer slice(const grid::BrickView& view, const ViewGeometry& geometry, int slices, double opacity,
             int threads, Integration integration = Integration::second_order) {
     return VolumeSlicer(nws_reflectivity(), view.quantization, geometry,

@@ -1,12 +1,15 @@
 // tests/render/synthetic_storm.h -- grids for the renderer's tests, from a function of place.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "grid/brick_grid.h"
 #include "grid/grid.h"
+#include "render/layer.h"
+#include "render/render.h"
 
 namespace stormcellar::render {
 
@@ -98,6 +101,20 @@ inline grid::Grid storm_grid(const grid::GridSpec& spec) {
         make_grid_of(spec, [&](int ix, int iy, int iz) { return storm_cell(spec, ix, iy, iz); });
     grid.sites = {{"KTLX", spec.center_latitude_deg, spec.center_longitude_deg, 384}};
     return grid;
+}
+
+inline FrameFacts facts_of(const grid::Grid& grid) {
+    return {"KTLX", level2::Moment::ref, parse_compact("19990503_235621").value(), grid.sites,
+            false};
+}
+
+// Red, green, blue and opacity, as the layer has them.
+inline std::array<double, 4> pixel_of(const Layer& layer, int x, int y) {
+    const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(layer.width) +
+                            static_cast<std::size_t>(x)) *
+                           4;
+    return {static_cast<double>(layer.rgba[at]), static_cast<double>(layer.rgba[at + 1]),
+            static_cast<double>(layer.rgba[at + 2]), static_cast<double>(layer.rgba[at + 3])};
 }
 
 }  // namespace stormcellar::render
