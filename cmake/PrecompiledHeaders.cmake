@@ -19,6 +19,7 @@ target_precompile_headers(stormcellar_headers PRIVATE ${STORMCELLAR_COMMON_HEADE
 
 # Programs are compiled with other options than libraries.
 add_executable(stormcellar_program_headers ${STORMCELLAR_NO_SOURCE})
+target_compile_options(stormcellar_program_headers PRIVATE ${STORMCELLAR_TEST_BUILD})
 target_link_libraries(stormcellar_program_headers PRIVATE fmt::fmt)
 target_precompile_headers(stormcellar_program_headers PRIVATE ${STORMCELLAR_COMMON_HEADERS})
 

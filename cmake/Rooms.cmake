@@ -1,6 +1,6 @@
-# Compiles a target's sources eight at once.
+# Compiles a target's sources sixteen at once.
 function(stormcellar_batches target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   target_compile_options(${target} PRIVATE -Wno-shadow)  # of names in another file of the batch
 endfunction()
 
@@ -66,7 +66,7 @@ endfunction()
 # One test program. Each GoogleTest case becomes a ctest case with the program's name as a label; a
 # case that skips itself is shown by ctest as skipped. Cases that share what takes long to make, named
 # by a filter of GoogleTest, are one ctest case (NAME_together). A program that
-# COMPUTES is optimised wherever it is built. BATCHES has its sources compiled eight at once where
+# COMPUTES is optimised wherever it is built. BATCHES has its sources compiled sixteen at once where
 # everything is built once: in half the time, but names in their unnamed namespaces must not clash.
 function(stormcellar_test name)
   cmake_parse_arguments(ARG "BATCHES;COMPUTES" "TOGETHER" "SOURCES;LIBS" ${ARGN})
