@@ -24,7 +24,7 @@ namespace stormcellar::level2 {
 
 // Messages are read, and their radials handed on, so many bytes at a time: little of them is held.
 inline constexpr std::size_t stretch_bytes = std::size_t{1} << 20;
-inline constexpr std::size_t rows_of_a_stretch = 128;
+inline constexpr std::size_t rows_of_a_stretch = 128;  // radials that room is made for
 
 // Whether a piece goes on with the sweep of the one before it, where no header lies between.
 [[nodiscard]] bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece);

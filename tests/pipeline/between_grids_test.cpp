@@ -8,6 +8,7 @@
 #include "level2/decode.h"
 #include "pipeline/mosaic_keeper.h"
 #include "tests/grid/moving_blobs.h"
+#include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -188,11 +189,7 @@ class BetweenMosaics : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }
     static Domain domain() {
-        Domain domain;
-        domain.name = "north";
-        domain.spec = grid::default_spec(42.2, -75.9);
-        domain.spec.nx = domain.spec.ny = 100;
-        domain.spec.spacing_m = 4000;
+        Domain domain = small_domain();
         domain.spec.levels_m = {1000, 3000};
         return domain;
     }
