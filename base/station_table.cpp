@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace stormcellar {
 namespace {
@@ -238,6 +240,11 @@ constexpr bool strictly_sorted() {
 }
 static_assert(strictly_sorted(), "find_station searches by halves");
 
+std::vector<AddedStation>& added() {
+    static std::vector<AddedStation> stations_added;
+    return stations_added;
+}
+
 constexpr bool is_letter(char c) {
     return c >= 'A' && c <= 'Z';
 }
@@ -253,8 +260,22 @@ std::span<const Station> all_stations() {
 
 std::optional<Station> find_station(std::string_view icao) {
     const auto found = std::ranges::lower_bound(stations, icao, {}, &Station::icao);
-    if (found == stations.end() || found->icao != icao) return std::nullopt;
-    return *found;
+    if (found != stations.end() && found->icao == icao) return *found;
+    for (const AddedStation& one : added()) {
+        if (one.icao != icao) continue;
+        return Station{one.icao,
+                       one.name,
+                       "",
+                       RadarKind::nexrad,
+                       one.latitude_deg,
+                       one.longitude_deg,
+                       one.antenna_altitude_m};
+    }
+    return std::nullopt;
+}
+
+void set_added_stations(std::vector<AddedStation> stations_to_add) {
+    added() = std::move(stations_to_add);
 }
 
 bool is_icao(std::string_view text) {

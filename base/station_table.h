@@ -8,7 +8,9 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace stormcellar {
 
@@ -24,8 +26,23 @@ struct Station {
     double antenna_altitude_m = 0;  // of the feed horn, above mean sea level
 };
 
-[[nodiscard]] std::span<const Station> all_stations();                     // sorted by icao
-[[nodiscard]] std::optional<Station> find_station(std::string_view icao);  // exact, upper case
+[[nodiscard]] std::span<const Station> all_stations();  // of the table alone, sorted by icao
+// Of the table, or else of those that were added. Exact, upper case.
+[[nodiscard]] std::optional<Station> find_station(std::string_view icao);
+
+// A station that a configuration adds to the table. What the table has already stays as it is
+// there.
+struct AddedStation {
+    std::string icao;
+    std::string name;
+    double latitude_deg = 0;
+    double longitude_deg = 0;
+    double antenna_altitude_m = 0;
+    bool operator==(const AddedStation&) const = default;
+};
+// From now on find_station() finds these, too, and no others that were added before. To be called
+// before other threads ask for stations, and at most once while anybody holds a found one.
+void set_added_stations(std::vector<AddedStation> stations);
 
 // Whether a name may stand for a station: [A-Z][A-Z0-9]{3}. Only such names become file names.
 [[nodiscard]] bool is_icao(std::string_view text);
