@@ -229,15 +229,15 @@ TEST_F(Living, GrowthIsToldByTheRecords) {
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";
     append_to(path, std::span{bytes}.first(24));
-    EXPECT_TRUE(LivingFile::is_growing(path));
+    EXPECT_TRUE(LivingFile::growing(path));
     append_to(path, std::span{bytes}.subspan(24, 1'000'000));
-    EXPECT_TRUE(LivingFile::is_growing(path));
+    EXPECT_TRUE(LivingFile::growing(path));
     append_to(path, std::span{bytes}.subspan(1'000'024));
-    EXPECT_FALSE(LivingFile::is_growing(path));  // whole: its last record says so
+    EXPECT_FALSE(LivingFile::growing(path));  // whole: its last record says so
     EXPECT_FALSE(
-        LivingFile::is_growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
-    EXPECT_FALSE(LivingFile::is_growing(directory_.path()));
-    EXPECT_FALSE(LivingFile::is_growing(directory_ / "nothing"));
+        LivingFile::growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
+    EXPECT_FALSE(LivingFile::growing(directory_.path()));
+    EXPECT_FALSE(LivingFile::growing(directory_ / "nothing"));
 }
 
 TEST_F(Living, SweepsComeBackFromTheShelfBitForBit) {
