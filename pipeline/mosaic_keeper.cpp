@@ -155,10 +155,10 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     const std::scoped_lock lock(frames_of(domain.name, moment));
     const std::string name = site_domain(domain.name, source.site.icao);
     const auto path = store_->path_of(name, moment, description.time);
-    if (!path) return pass_on(path);
+    if (!path) return of_gridding(path.error());
     if (reason_to_keep(*path, description)) return {};
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
-    if (!committed) return pass_on(committed);
+    if (!committed) return of_storing(committed.error());
     if (committed->empty()) return {};  // older than what the budgets keep
     remove_other_times(*store_, name, moment, source.volume, source.file);
     kept.partials.push_back(*committed);

@@ -29,6 +29,11 @@ void note_not_kept(IngestOutcome& outcome) {
     outcome.reason = "older than what the cache keeps";
 }
 
+tl::unexpected<Error> of_storing(Error error) {
+    if (!error.known_cause && error.cause() == Cause::data) error.known_cause = Cause::system;
+    return tl::unexpected<Error>(std::move(error));
+}
+
 void note_no_room(IngestOutcome& outcome, const Error& why) {
     ++outcome.not_kept;
     outcome.no_room = true;
@@ -116,7 +121,7 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
         note_no_room(outcome, path.error());
         return {};
     }
-    if (!path) return pass_on(path);
+    if (!path) return of_storing(path.error());
     if (path->empty()) {
         note_not_kept(outcome);
     } else {
@@ -142,7 +147,7 @@ Status SiteGrids::keep_living(const level2::Volume& volume, const GridSource& so
     outcome.commit_s += seconds_since(commit_start);
     // The whole volume says so when it has come.
     if (!path && path.error().code == ErrorCode::over_budget) return {};
-    if (!path) return pass_on(path);
+    if (!path) return of_storing(path.error());
     if (!path->empty()) outcome.living.push_back(std::move(*path));
     return {};
 }
