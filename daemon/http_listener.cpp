@@ -17,26 +17,20 @@ namespace {
 // For the request line and all headers, and the headers of the answer.
 constexpr std::size_t request_memory = 8192;
 
-struct Hosts {
-    int port;
-    bool are_ours = true;
-};
-
 // Each Host field is looked at: whoever sends two may mean the other one.
-MHD_Result look_at_host(void* hosts, MHD_ValueKind, const char* name, const char* value) {
-    auto* found = static_cast<Hosts*>(hosts);
+MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
     if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
-        !is_loopback_host(value == nullptr ? "" : value, found->port)) {
-        found->are_ours = false;
+        !is_loopback_host(value == nullptr ? "" : value)) {
+        *static_cast<bool*>(are_ours) = false;
     }
     return MHD_YES;
 }
 
 bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
     if (!port) return false;  // whoever may open a Unix socket is no page of the web
-    Hosts hosts{*port};
-    MHD_get_connection_values(connection, MHD_HEADER_KIND, &look_at_host, &hosts);
-    return !hosts.are_ours;
+    bool are_ours = true;
+    MHD_get_connection_values(connection, MHD_HEADER_KIND, &look_at_host, &are_ours);
+    return !are_ours;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "daemon/readiness.h"
+
 namespace stormcellar::daemon {
 
 IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
@@ -40,6 +42,13 @@ CacheRolled IngestSink::roll_cache(const cache::Budgets& budgets, const OnStep& 
     CacheRolled rolled{store_.roll(step), {}};
     rolled.usage = store_.usage();
     return rolled;
+}
+
+Status IngestSink::can_store() {
+    for (const std::filesystem::path& directory : {catalog_.directory(), store_.directory()}) {
+        if (Status written = can_write_in(real_file_system(), directory); !written) return written;
+    }
+    return {};
 }
 
 std::vector<std::string> IngestSink::take_repairs() {

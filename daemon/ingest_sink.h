@@ -30,6 +30,7 @@ class IngestSink final : public Sink {
         return catalog_.forget_gone(before, step);
     }
     CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& step) override;
+    [[nodiscard]] Status can_store() override;
     std::vector<std::string> take_repairs() override;
 
     // For the keeper of the cache, which works beside take().

@@ -6,6 +6,7 @@ namespace {
 // In the order of the enumeration.
 constexpr std::array<std::string_view, event_count> names = {
     "ready",
+    "not_ready",
     "stopping",
     "stopped",
     "stopped_with_jobs",

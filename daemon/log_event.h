@@ -15,6 +15,7 @@ namespace stormcellar::daemon {
 
 enum class Event {
     ready,
+    not_ready,
     stopping,
     stopped,
     stopped_with_jobs,

@@ -1,7 +1,7 @@
 #include "daemon/loopback_host.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 
 #include <strings.h>
 
@@ -14,19 +14,18 @@ bool begins_with(std::string_view text, std::string_view name) noexcept {
     return text.size() >= name.size() && ::strncasecmp(text.data(), name.data(), name.size()) == 0;
 }
 
-bool is_port(std::string_view text, int port) noexcept {
-    std::array<char, 16> digits{};
-    const auto end = std::to_chars(digits.begin(), digits.end(), port).ptr;
-    return text == std::string_view{digits.begin(), end};
+bool is_port(std::string_view text) noexcept {
+    return !text.empty() && text.size() <= 5 &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 }  // namespace
 
-bool is_loopback_host(std::string_view host, int port) noexcept {
+bool is_loopback_host(std::string_view host) noexcept {
     for (const std::string_view name : names) {
         if (!begins_with(host, name)) continue;
         const std::string_view rest = host.substr(name.size());
-        if (rest.empty() || (rest.front() == ':' && is_port(rest.substr(1), port))) return true;
+        if (rest.empty() || (rest.front() == ':' && is_port(rest.substr(1)))) return true;
     }
     return false;
 }

@@ -196,6 +196,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
         {.refill = config.refill},
         {[&] { return service.is_idle(); },
          [&](pipeline::PairReport report) { service.sites_compared(std::move(report)); }});
+    service.need([&] { return status_server.answers(); });
     service.watch("status", status_server.pulse());
     service.watch("caretaker", keeper.pulse());
     switch (service.run()) {

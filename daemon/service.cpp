@@ -19,6 +19,9 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
+constexpr std::chrono::seconds longest_start{60};  // from one look to the next, at most
+// A drop directory that is missing at the start is looked for so often, not once a minute.
+constexpr std::chrono::seconds between_first_scans{1};
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
@@ -69,6 +72,12 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       row_keeper_(parts_.sink),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
+    need([this]() -> Status {
+        if (!drop_missing_) return {};
+        return fail(ErrorCode::not_found, "drop directory {}", drop_problem_);
+    });
+    need([this] { return can_write_in(parts_.file_system, config_.state); });
+    need([this] { return parts_.sink.can_store(); });
     status_.set_listening(config_.status.socket, config_.status.http_port);
     watch("missing", row_keeper_.pulse());
     watch("cache", cache_keeper_.pulse());
@@ -97,22 +106,32 @@ Stopped Service::run() {
 
 void Service::start() {
     scan();
+    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
+}
+
+// Without READY systemd would give up after TimeoutStartSec: it is told that we still wait.
+void Service::get_ready() {
+    if (!readiness_.look(parts_.clock.steady())) return;
+    if (!readiness_.is_ready()) {
+        parts_.notifier.send(fmt::format("STATUS=waiting: {}\nEXTEND_TIMEOUT_USEC={}",
+                                         printable(readiness_.missing()),
+                                         std::chrono::microseconds{longest_start}.count()));
+        if (readiness_.is_news()) {
+            log_warning({Event::not_ready}, "not ready: {}; looking again every second",
+                        printable(readiness_.missing()));
+        }
+        publish(true);
+        return;
+    }
     const Pending pending = intake_.pending();
     status_.set_state("running");
     publish(true);
     parts_.notifier.send("READY=1");
-    const std::string workers =
-        counted(static_cast<std::uint64_t>(config_.worker_count()), "worker");
-    if (drop_missing_) {
-        log_info({Event::ready}, "ready: waiting for {}, {}", printable(config_.drop.native()),
-                 workers);
-    } else {
-        log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
-                 printable(config_.drop.native()),
-                 counted(watcher_.directory_count(), "directory", "directories"),
-                 counted(pending.waiting + pending.growing, "file"), workers);
-    }
-    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
+    log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
+             printable(config_.drop.native()),
+             counted(watcher_.directory_count(), "directory", "directories"),
+             counted(pending.waiting + pending.growing, "file"),
+             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"));
 }
 
 void Service::turn() {
@@ -123,6 +142,7 @@ void Service::turn() {
     watcher_.read_events();
     scan_if_due();
     intake_.poll_growing();
+    get_ready();
     start_jobs();
     keep_house();
     const std::size_t waiting = intake_.pending().waiting;
@@ -134,7 +154,8 @@ SteadyTime Service::next_time() const {
     SteadyTime time =
         std::min({parts_.clock.steady() + longest_sleep, next_scan_, cache_keeper_.next_time()});
     const auto work = intake_.next_time(pool_.has_free_worker(), registrar_.has_free_worker());
-    for (const auto& due : {work, status_file_.next_time(), watchdog_.next_time()}) {
+    for (const auto& due :
+         {work, status_file_.next_time(), watchdog_.next_time(), readiness_.next_time()}) {
         if (due) time = std::min(time, *due);
     }
     if (intake_.needs_scan()) time = std::min(time, rested_);
@@ -167,7 +188,8 @@ void Service::reload() {
         log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
                   printable(fresh.error().message));
     }
-    parts_.notifier.send("READY=1");
+    // A service that is not ready yet says so when it is.
+    if (readiness_.is_ready()) parts_.notifier.send("READY=1");
 }
 
 void Service::apply(const Config& fresh) {
@@ -235,6 +257,7 @@ void Service::note_drop(const Status& scanned) {
         log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
     }
     drop_missing_ = !scanned;
+    drop_problem_ = scanned ? std::string{} : scanned.error().message;
     status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
 }
 
@@ -251,7 +274,9 @@ void Service::scan() {
     const SteadyTime ended = parts_.clock.steady();
     rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
     if (!is_poll) next_rescan_ = ended + config_.rescan;
-    const auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
+    auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
+    if (!scanned && !readiness_.is_ready())
+        gap = std::min<std::chrono::milliseconds>(gap, between_first_scans);
     next_scan_ = std::max(ended + gap, rested_);
 }
 

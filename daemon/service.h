@@ -2,8 +2,8 @@
 //
 // One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
 // in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
-//   start    scan the drop directory, queue what is there, then say READY; where it is not there or
-//            cannot be read, that is said, and all is taken when it can be
+//   start    scan the drop directory and queue what is there; say READY once drop directory, state,
+//            cache and sockets answer (readiness.h). Until then what can be taken in is
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
 // Loops are other programs, which end with the service (daemon/loop_keeper.h), unless a service of
@@ -26,6 +26,7 @@
 #include "daemon/loop_keeper.h"
 #include "daemon/notify.h"
 #include "daemon/pulse.h"
+#include "daemon/readiness.h"
 #include "daemon/reporter.h"
 #include "daemon/row_keeper.h"
 #include "daemon/signals.h"
@@ -71,6 +72,8 @@ class Service {
     [[nodiscard]] bool is_idle() const { return idle_; }
     // What two sites say otherwise than each other, for the log and the status; from any thread.
     void sites_compared(pipeline::PairReport report);
+    // Before run(): what must also answer before READY is said.
+    void need(Readiness::Check check) { readiness_.need(std::move(check)); }
     // Before run(): a thread beside the service's own that the watchdog is to see. Its pulse must
     // stand until run() is over.
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
@@ -87,6 +90,7 @@ class Service {
     void scan_if_due();
     void scan();
     void note_drop(const Status& scanned);
+    void get_ready();
     void start_jobs();
     void report_backlog(SteadyTime now);
     void keep_house();
@@ -113,7 +117,9 @@ class Service {
     std::atomic<bool> idle_ = false;
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
+    Readiness readiness_;
     bool drop_missing_ = false;
+    std::string drop_problem_;
     // The earliest next scan, the regular one, and the next that looks for rows of missing files
     // when the regular ones are polls.
     SteadyTime rested_{}, next_scan_{}, next_rescan_{};

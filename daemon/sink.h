@@ -58,6 +58,8 @@ class Sink {
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};
     }
+    // Whether catalog and cache can be written now; asked until it was so once.
+    [[nodiscard]] virtual Status can_store() { return {}; }
     // What was found damaged and put right since the last call, one line each, fit for the log. The
     // files of the drop directory must then be offered again. May be called beside the others.
     virtual std::vector<std::string> take_repairs() { return {}; }

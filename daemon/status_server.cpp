@@ -66,6 +66,8 @@ class StatusServer::Worker {
 
     // Opens what is to be open and is not.
     void open(SteadyTime now);
+    // What keeps an address from being listened at; empty: all are.
+    [[nodiscard]] std::string unanswered() const;
     void wait(SteadyTime now, const WakeUp& wake_up);
     void turn(SteadyTime now);
 
@@ -77,6 +79,7 @@ class StatusServer::Worker {
         std::unique_ptr<HttpListener> listener = nullptr;
         bool failing = false;   // said once, until it works again
         bool hopeless = false;  // not tried again
+        std::string problem = {};
     };
     struct Page {
         ResponsePointer response{nullptr, &MHD_destroy_response};
@@ -143,6 +146,16 @@ void StatusServer::Worker::open(Address& address) {
                 address.hopeless ? "name another [status] socket and restart" : "trying again"));
     }
     address.failing = !opened;
+    address.problem = opened ? std::string{} : opened.error().message;
+}
+
+std::string StatusServer::Worker::unanswered() const {
+    for (const Address& address : addresses_) {
+        if (address.may_lack || address.hopeless) continue;
+        if (address.listener && address.problem.empty()) continue;
+        return fmt::format("the status cannot be asked for: {}", address.problem);
+    }
+    return {};
 }
 
 void StatusServer::Worker::open(SteadyTime now) {
@@ -222,9 +235,17 @@ void StatusServer::run() {
             const AtWork at_work(pulse_);
             worker_->turn(std::chrono::steady_clock::now());
             worker_->open(std::chrono::steady_clock::now());
+            const std::scoped_lock lock(unanswered_mutex_);
+            unanswered_ = worker_->unanswered();
         }
         worker_->wait(std::chrono::steady_clock::now(), wake_up_);
     }
+}
+
+Status StatusServer::answers() const {
+    const std::scoped_lock lock(unanswered_mutex_);
+    if (unanswered_.empty()) return {};
+    return fail(ErrorCode::io, "{}", unanswered_);
 }
 
 StatusServer::Render pages_of(const StatusBoard& board) {

@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -51,6 +52,9 @@ class StatusServer {
     StatusServer& operator=(const StatusServer&) = delete;
     ~StatusServer();
 
+    // Whether every address is listened at, but for those that can never be; what is wrong with the
+    // first that is not. From any thread.
+    [[nodiscard]] Status answers() const;
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 
   private:
@@ -60,6 +64,8 @@ class StatusServer {
     std::unique_ptr<Worker> worker_;  // of the thread
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
+    mutable std::mutex unanswered_mutex_;
+    std::string unanswered_ = "the status is not answered yet";  // guarded by it; empty: all are
     Pulse pulse_;
     std::thread thread_;  // the last member: it uses what stands above
 };

@@ -142,17 +142,17 @@ TEST_F(ConfigFile, StationsAreAddedToTheTable) {
         return complaint(std::string(paths) + "[[station]]\n" + text);
     };
     EXPECT_EQ(complaint_of("icao = \"KTLX\"\n" + place),
-              "s.toml:6: [[station]] icao: KTLX stands in the station table already");
+              "s.toml:6: [station] icao: KTLX stands in the station table already");
     EXPECT_EQ(complaint_of("icao = \"x\"\n" + place),
-              "s.toml:6: [[station]] icao: \"x\" is no station: four capital letters or digits, "
+              "s.toml:6: [station] icao: \"x\" is no station: four capital letters or digits, "
               "as in \"KTLX\"");
-    EXPECT_EQ(complaint_of(place), "s.toml:5: [[station]] icao: the station must be named");
+    EXPECT_EQ(complaint_of(place), "s.toml:5: [station] icao: the station must be named");
     EXPECT_EQ(complaint_of("icao = \"XABC\"\nlatitude_deg = 91\nlongitude_deg = 2\n"
                            "antenna_altitude_m = 3\n")
-                  .substr(0, 36),
-              "s.toml:7: [[station]] latitude_deg: ");
+                  .substr(0, 34),
+              "s.toml:7: [station] latitude_deg: ");
     EXPECT_EQ(complaint_of("icao = \"XABC\"\n"),
-              "s.toml:5: [[station]] latitude_deg: is needed");
+              "s.toml:5: [station] latitude_deg: is needed");
 }
 
 TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
@@ -183,7 +183,7 @@ TEST_F(ConfigFile, BudgetsThatMakeNoSenseAreRefused) {
     const std::string p = std::string(paths) + "[cache]\n";
     EXPECT_EQ(complaint(p + "bytes = \"20 XB\"\n"),
               "s.toml:6: [cache] bytes: '20 XB' is no amount of bytes, as 20 GB, 512 MiB or 0");
-    EXPECT_EQ(complaint(p + "bytes = -1\n").substr(0, 36), "s.toml:6: [cache] bytes: -1 is out o");
+    EXPECT_EQ(complaint(p + "bytes = -1\n").substr(0, 34), "s.toml:6: [cache] bytes: -1 is out o");
     EXPECT_EQ(complaint(p + "percent = 101\n").substr(0, 9), "s.toml:6:");
     EXPECT_EQ(complaint(p + "low_watermark = 0\n").substr(0, 9), "s.toml:6:");
     EXPECT_EQ(complaint(p + "byte = 1\n"), "s.toml:6: unknown key [cache] byte");

@@ -422,11 +422,13 @@ TEST(EndToEnd, WaitsForADropDirectoryThatIsNotThereYet) {
     RunningDaemon daemon;
     fs::remove(daemon.drop());
     daemon.start("[watch]\nrescan_seconds = 1\n");
-    ASSERT_TRUE(daemon.wait_for_log("ready: waiting for " + daemon.drop().native() + ", "))
+    ASSERT_TRUE(daemon.wait_for_log("not ready: drop directory " + daemon.drop().native() + ": "))
         << daemon.log();
+    EXPECT_EQ(daemon.log().find(" ready: "), daemon.log().find("not ready: ") + 3);
     EXPECT_TRUE(daemon.wait_for_log("drop directory " + daemon.drop().native() +
                                     ": No such file or directory; looking again every 1 s"));
     ASSERT_TRUE(daemon.wait_for([](const json& s) { return s["drop_lost"].is_string(); }));
+    EXPECT_EQ(daemon.status()["state"], "starting");
     fs::create_directory(daemon.drop());
     fs::copy_file(volumes[0], daemon.drop() / "a");
     ASSERT_TRUE(daemon.wait_for([](const json& s) {
