@@ -47,6 +47,7 @@ class ServiceTest : public ::testing::Test {
         service_ = std::make_unique<Service>(
             config_, root_ / "stormcellard.toml",
             ServiceParts{*sink_, *events_, notifier_, real_file_system(), signals_});
+        if (needs_) service_->need(needs_);
         thread_ = std::thread([this] { stopped_ = service_->run(); });
     }
     Stopped stop() {
@@ -54,16 +55,13 @@ class ServiceTest : public ::testing::Test {
         if (thread_.joinable()) thread_.join();
         return stopped_;
     }
+    [[nodiscard]] bool has_message(const std::string& start) const {
+        const auto sent = notifier_.sent();
+        return std::any_of(sent.begin(), sent.end(),
+                           [&](const auto& text) { return text.starts_with(start); });
+    }
     bool wait_for_message(const std::string& start) {
-        for (int i = 0; i < 2000; ++i) {
-            const auto sent = notifier_.sent();
-            if (std::any_of(sent.begin(), sent.end(),
-                            [&](const auto& text) { return text.starts_with(start); })) {
-                return true;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds{10});
-        }
-        return false;
+        return wait_for([&] { return has_message(start); });
     }
     static bool wait_for(const std::function<bool()>& condition) {
         for (int i = 0; i < 2000 && !condition(); ++i)
@@ -83,6 +81,7 @@ class ServiceTest : public ::testing::Test {
     FakeNotifier notifier_;
     const Signals* signals_ = nullptr;
     std::function<void(const Sink::OnStep&)> looks_, rolls_;
+    Readiness::Check needs_;
     std::unique_ptr<FakeSink> sink_;
     std::unique_ptr<EventSource> events_;
     std::unique_ptr<Service> service_;
@@ -251,16 +250,17 @@ TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
 }
 
 // 2026-11-22: a drop directory that was mounted late, or that a group was let into late, ended the
-// start, and systemd gave up after ten of them.
+// start, and systemd gave up after ten of them. 2026-11-25: READY was said without it.
 TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
-    config_.rescan = std::chrono::milliseconds{200};
     fs::remove(config_.drop);
     start(always(IngestResult::gridded));
-    ASSERT_TRUE(wait_for_message("READY=1"));
     const std::string why = config_.drop.native() + ": No such file or directory";
+    EXPECT_TRUE(
+        wait_for_message("STATUS=waiting: drop directory " + why + "\nEXTEND_TIMEOUT_USEC="));
     EXPECT_TRUE(wait_for_message("STATUS=drop directory " + why + "; ingested 0"));
     ASSERT_TRUE(wait_for([&] { return fs::exists(root_ / "state/status.json"); }));
-    EXPECT_EQ(status()["state"], "running");
+    EXPECT_EQ(status()["state"], "starting");
+    EXPECT_FALSE(has_message("READY=1"));
     EXPECT_EQ(status()["drop_lost"], why);
     EXPECT_FALSE(fs::exists(config_.drop)) << "it belongs to LDM, so it is not made";
     EXPECT_EQ(sink_->missing_looks(), 0)
@@ -269,10 +269,34 @@ TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     write_file(root_ / "made/a", "1");
     fs::rename(root_ / "made", config_.drop);
     EXPECT_TRUE(sink_->wait_for_calls(1));
+    EXPECT_TRUE(wait_for_message("READY=1"));
     write_file(config_.drop / "b", "1");
     EXPECT_TRUE(sink_->wait_for_calls(2));
     EXPECT_EQ(stop(), Stopped::cleanly);
     EXPECT_TRUE(status()["drop_lost"].is_null());
+}
+
+// 2026-11-25: READY was said while every socket, the state and the cache failed.
+TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
+    fs::remove_all(config_.state);
+    write_file(config_.state, "no directory");
+    std::atomic<bool> answers = false;
+    needs_ = [&]() -> Status {
+        if (answers) return {};
+        return fail(ErrorCode::io, "the socket is taken");
+    };
+    start(always(IngestResult::gridded));
+    EXPECT_TRUE(wait_for_message("STATUS=waiting: " + config_.state.native()));
+    EXPECT_FALSE(has_message("READY=1"));
+    fs::remove(config_.state);
+    fs::create_directory(config_.state);
+    EXPECT_TRUE(wait_for_message("STATUS=waiting: the socket is taken"));
+    write_file(config_.drop / "a", "1");
+    EXPECT_TRUE(sink_->wait_for_calls(1)) << "what can be taken in is";
+    EXPECT_FALSE(has_message("READY=1"));
+    answers = true;
+    EXPECT_TRUE(wait_for_message("READY=1"));
+    EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
 // As /srv/drop -> /mnt/spool/nexrad2 where /mnt/spool is mounted later.
@@ -281,7 +305,7 @@ TEST_F(ServiceTest, StartsBeforeWhatItsDropDirectoryLinksTo) {
     fs::remove(config_.drop);
     fs::create_directory_symlink(root_ / "spool", config_.drop);
     start(always(IngestResult::gridded));
-    ASSERT_TRUE(wait_for_message("READY=1"));
+    ASSERT_TRUE(wait_for_message("STATUS=waiting: drop directory "));
     fs::create_directory(root_ / "spool");
     write_file(root_ / "spool/a", "1");
     EXPECT_TRUE(sink_->wait_for_calls(1));
@@ -293,7 +317,6 @@ TEST_F(ServiceTest, AFileInPlaceOfTheDropDirectoryIsWaitedOutToo) {
     fs::remove(config_.drop);
     write_file(config_.drop, "1");
     start(always(IngestResult::gridded));
-    ASSERT_TRUE(wait_for_message("READY=1"));
     EXPECT_TRUE(
         wait_for_message("STATUS=drop directory " + config_.drop.native() + ": Not a directory; "));
     EXPECT_EQ(stop(), Stopped::cleanly);

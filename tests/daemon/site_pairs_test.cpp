@@ -15,6 +15,7 @@ TEST(SitePairs, GoToTheLogAndIntoTheStatus) {
     RunningDaemon daemon;
     testing::write_two_radars(daemon.drop(), 2);
     daemon.start(
+        "[ingest]\nstations = [\"XSYA\", \"XSYB\"]\n"
         "[[domain]]\nname = \"plains\"\ncenter = [35, -97]\nspacing_km = 2\n"
         "extent_km = [300, 320]\nlevels_km = \"0.5:12:0.5\"\n");
     ASSERT_TRUE(daemon.wait_for([](const json& status) { return !status["sites"].empty(); }))

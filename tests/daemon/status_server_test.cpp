@@ -294,7 +294,7 @@ TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     EXPECT_EQ(status_of(with_port + "Host: evil.example\r\n"), "421") << "either of two";
     EXPECT_EQ(status_of("Host: evil.example\r\n" + with_port), "421");
     EXPECT_EQ(status_of("Host: evil.example\r\n", false), "200") << "the socket";
-    EXPECT_EQ(rendered_, 4) << "no page was made for those who were refused";
+    EXPECT_EQ(rendered_, 5) << "no page was made for those who were refused";
 }
 
 // 2026-11-25: nothing kept a browser from storing an answer, or from taking it for another type.
