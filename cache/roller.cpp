@@ -205,6 +205,13 @@ bool Roller::make_room(const GridName& name, std::uint64_t bytes) {
     return evicted_ > before;
 }
 
+bool Roller::leaves_out(const GridName& name) {
+    const Lock lock(mutex_);
+    if (account_.is_known(group_of(name.domain))) return false;
+    ++not_kept_;
+    return true;
+}
+
 bool Roller::would_keep(const GridName& name) {
     const Lock lock(mutex_);
     account_.set_now(surroundings_.now());

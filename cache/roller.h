@@ -70,6 +70,9 @@ class Roller {
     // A full disk refused this grid: evicts the oldest grids that hold so many bytes. False when
     // the budgets do not provide for that or nothing may go.
     bool make_room(const GridName& name, std::uint64_t bytes);
+    // Whether a grid is left out where the disk is full: it is of others, and nobody is to wait for
+    // room for those. Counted as not kept.
+    bool leaves_out(const GridName& name);
     // A temporary file that could not be removed: counted, and removed at a later roll.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
 

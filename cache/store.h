@@ -105,7 +105,8 @@ class Store {
     // one that is pinned, when there is no room for it: the budget is smaller than the grid, or
     // what is held is pinned or cannot be removed. On success the grid survives a power cut (unless
     // less is asked for), new directories included. On a full disk the oldest grids go, where a
-    // budget of bytes or percent is set; no_space when that does not help.
+    // budget of bytes or percent is set; when that does not help, no_space, and others' grids are
+    // not kept.
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
                                          const grid::BrickView& view,
