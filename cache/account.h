@@ -3,8 +3,8 @@
 // Pure bookkeeping: it reads no file and asks no clock. Grids are ordered by the time that counts:
 // their own, or, where that is more than 10 minutes in the future, the time at which the file was
 // written, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
-// Victims are never pinned, being written or evicted (busy), stuck, or the newest of their domain
-// and moment.
+// All grids of others (cache/budget.h) stand before all of known groups. Victims are never pinned,
+// being written or evicted (busy), stuck, or protected.
 // Thread contract: one thread at a time.
 #pragma once
 
@@ -15,6 +15,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,12 +31,34 @@ struct GridFacts {
     bool pinned = false;
 };
 
+// Which grids may have to go.
+enum class Reach {
+    others,       // those of groups that are not known
+    unprotected,  // and those of known groups that are not protected
+    all,          // and the protected ones
+};
+
+// What is protected from one limit.
+struct Protection {
+    std::chrono::milliseconds age{};     // written less than this ago; 0: whatever the age
+    std::optional<std::uint64_t> space;  // half of it at most; none: however much it is
+};
+
 class Account {
   public:
     static constexpr std::chrono::minutes tolerated_future{10};
+    using IsKnown = std::function<bool(std::string_view group)>;
+
+    explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
 
     // What time it is. Grids whose time has come are believed from now on.
     void set_now(UtcTime now);
+    // How large the file system is, for budgets of percent; 0: not known.
+    void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
+    // Who is known is asked when a group's first grid comes, and again here.
+    void ask_who_is_known();
+    void ask_who_is_known(std::string_view group);
+    [[nodiscard]] bool is_known(std::string_view group) const;
 
     // Adds the grid or replaces what is known of it; it is neither busy nor stuck then.
     void put(const GridName& name, const GridFacts& facts);
@@ -55,6 +79,7 @@ class Account {
 
     [[nodiscard]] std::uint64_t used() const { return used_; }
     [[nodiscard]] std::uint64_t used(std::string_view group) const;
+    [[nodiscard]] std::uint64_t used_by_others() const;
     [[nodiscard]] std::size_t grid_count() const { return grids_; }
     [[nodiscard]] std::size_t pinned_count() const { return pinned_; }
     [[nodiscard]] std::vector<std::string> groups() const;
@@ -63,20 +88,26 @@ class Account {
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
     // Whether a grid of this name is or would be the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
-    // Whether a grid of this name would stay whatever happens: it is the newest, or pinned already.
+    // Whether a grid of this name, written now, would be one to keep whatever has to go for it: it
+    // is of a known group, and the newest or pinned already.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Whether a grid of this name is older than the group's age, and not protected from it.
+    // Whether a grid of this name, written now, is older than the group's age, and not protected
+    // from it.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
+
+    // As cache/budget.h says it; none: no limit.
+    [[nodiscard]] std::optional<std::uint64_t> space_of(const Budget& budget) const;
+    [[nodiscard]] std::optional<std::uint64_t> others_limit(const Budgets& budgets) const;
 
     // Whether so many bytes more fit now.
     [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
                             const Budgets& budgets) const;
     // Which grids must go so that `bytes` of this grid fit, oldest first, beside what is leaving
-    // already; none when it cannot be. Only those are taken that are older than it, unless it is to
+    // already; none when it cannot be. Only those are taken that stand before it, unless it is to
     // stay.
-    [[nodiscard]] std::optional<std::vector<GridName>> room_for(const GridName& name,
-                                                                std::uint64_t bytes,
-                                                                const Budgets& budgets) const;
+    [[nodiscard]] std::optional<std::vector<GridName>> room_for(
+        const GridName& name, std::uint64_t bytes, const Budgets& budgets,
+        Reach reach = Reach::unprotected) const;
     // The oldest grids that hold so many bytes on disk: of all where the budget of all limits
     // space, else of the grid's group. By the same rule, and fewer where there are no more.
     [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
@@ -84,31 +115,44 @@ class Account {
 
     // At most `most` of the oldest, so that the group (empty: all) holds `bytes` or less.
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
-                                                std::size_t most) const;
+                                                std::size_t most, const Protection& protection = {},
+                                                Reach reach = Reach::unprotected) const;
+    // The same so that the others hold `bytes` or less together.
+    [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
+    // Grids of others that were written longer ago than anything is protected.
+    [[nodiscard]] std::vector<GridName> outlived(const Budgets& budgets, std::size_t most) const;
 
   private:
     struct Entry {
         GridFacts facts;
         UtcTime counted;
+        bool known = true;  // as its group
         bool busy = false, leaving = false, stuck = false;
         [[nodiscard]] bool may_go() const { return !facts.pinned && !busy && !stuck; }
     };
     using Item = std::pair<const GridName, Entry>;
     struct ByAge {
         using is_transparent = void;
-        using Key = std::pair<UtcTime, const GridName*>;
-        static Key key(const Item* item) { return {item->second.counted, &item->first}; }
+        struct Key {
+            bool known;  // false first
+            UtcTime counted;
+            const GridName* name;
+        };
+        static Key key(const Item* item) {
+            return {item->second.known, item->second.counted, &item->first};
+        }
         static Key key(const Key& key) { return key; }
         bool operator()(const auto& a, const auto& b) const {
             const Key first = key(a), second = key(b);
-            if (first.first != second.first) return first.first < second.first;
-            return *first.second < *second.second;
+            return std::tie(first.known, first.counted, *first.name) <
+                   std::tie(second.known, second.counted, *second.name);
         }
     };
     using Order = std::set<const Item*, ByAge>;  // those that may go
     struct Group {
+        bool known = true;
         std::map<GridName, Entry> grids;
         Order order;
         std::uint64_t used = 0, leaving = 0;
@@ -117,18 +161,33 @@ class Account {
 
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
     [[nodiscard]] bool believed(UtcTime time) const { return time <= now_ + tolerated_future; }
-    [[nodiscard]] std::optional<UtcTime> newest_of(const Group& group, const std::string& domain,
-                                                   level2::Moment moment) const;
-    [[nodiscard]] bool is_protected(const Item& item) const;
+    // The newest believed; where none is, the newest of all.
+    [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
+                                        level2::Moment moment) const;
+    // Calls for the newest of each domain and moment of the group.
+    template <class Visit>
+    void for_each_newest(const Group& group, Visit visit) const;
+    [[nodiscard]] UtcTime counted_if_written_now(const GridName& name) const;
+    [[nodiscard]] bool is_younger(const Item& item, std::chrono::milliseconds age) const;
+    [[nodiscard]] bool is_protected(const Item& item, std::chrono::milliseconds age) const;
+    [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
+                                               const Protection& protection) const;
+    class Shield;
+    [[nodiscard]] std::uint64_t staying_of_others() const;  // used by others, without what leaves
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);
+    Group& group_to_fill(std::string_view name);
+    void drop_if_empty(Groups::iterator group);
+    void set_known(Group& group, bool known);
     void enter(Group& group, Item& item);
     void withdraw(Group& group, Item& item);
     void count(Group& group, const Item& item, bool add);
     template <class Change>
     void change(const GridName& name, Change what);
 
+    IsKnown is_known_;
     UtcTime now_{};
+    std::uint64_t capacity_ = 0;
     Groups groups_;
     Order order_;
     std::set<std::pair<UtcTime, GridName>> future_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/station_table.h"
+
 namespace stormcellar::cache {
 
 const Budget& Budgets::of(std::string_view group) const {
@@ -21,6 +23,10 @@ bool Budgets::makes_room(std::string_view group) const {
 
 std::uint64_t Budgets::low_mark(std::uint64_t limit) const {
     return std::min(limit, static_cast<std::uint64_t>(static_cast<double>(limit) * low_watermark));
+}
+
+bool is_known_group(std::string_view group) {
+    return !is_icao(group) || find_station(group).has_value();
 }
 
 }  // namespace stormcellar::cache

@@ -9,9 +9,25 @@
 //            is taken from the cache within 10 s, as far as the cache has it.
 //   age      before the newest grid of the same group, not before now, so that old data stay when
 //            they are replayed. Times more than 10 minutes in the future do not count as newest.
-// What was over is brought down to low_watermark times the limit. Never evicted: pinned grids, and
-// the newest of each domain and moment (of a part only while it is within the age).
-// Thread contract: plain data.
+// What was over is brought down to low_watermark times the limit.
+//
+// Known is every group that the store's opener calls known (Surroundings::is_known in store.h; by
+// default is_known_group() below). Every other group is an invented station until somebody says
+// otherwise, and its grids are the others' grids.
+//   others     go before any known grid, whoever needs room, and make room only for one another.
+//              Together they hold at most a tenth of the space of the total budget; what is beyond
+//              that is not kept. They go at a roll when they were written longer ago than
+//              protected_for, whatever the budgets.
+//   protected  is the newest grid of each domain (or part) and moment of a known group, as long as
+//              it was written less than protected_for ago; by when the file was written, so that
+//              old data that are replayed are protected too. A part is not protected from the age.
+//              All that are protected from one limit hold at most half of its space; the protection
+//              of the largest of them lapses, and among equals that of the oldest. It also lapses
+//              where the newest grid of a known group would otherwise find no room.
+//   pinned     grids never go.
+// The space of a budget is its bytes, or what its percent is of the file system, or the smaller of
+// the two. A budget of neither has no space: nothing lapses, and the others have no share.
+// Thread contract: plain data, and pure functions.
 #pragma once
 
 #include <chrono>
@@ -36,6 +52,9 @@ struct Budgets {
     Budget every_domain;  // of each group that is not named
     std::map<std::string, Budget, std::less<>> domains;  // by group
     double low_watermark = 0.9;                          // above 0, up to 1; a share of each limit
+    // 0: without limit, so that the newest of the known stay protected and the others' grids go by
+    // the budgets alone.
+    std::chrono::milliseconds protected_for = std::chrono::hours{168};
 
     [[nodiscard]] const Budget& of(std::string_view group) const;
     // The shorter of the group's and of all.
@@ -46,5 +65,9 @@ struct Budgets {
     [[nodiscard]] std::uint64_t low_mark(std::uint64_t limit) const;
     bool operator==(const Budgets&) const = default;
 };
+
+// Every name that has not the form of an ICAO: only a configuration gives such names to domains. Of
+// those that have it the ones that find_station() knows.
+[[nodiscard]] bool is_known_group(std::string_view group);
 
 }  // namespace stormcellar::cache

@@ -63,7 +63,8 @@ Roller::Roller(FileSystem& file_system, fs::path directory, Budgets budgets,
       surroundings_(std::move(surroundings)),
       lock_(std::move(lock)),
       block_bytes_(block_bytes_of(directory_)),
-      budgets_(std::move(budgets)) {}
+      budgets_(std::move(budgets)),
+      account_(surroundings_.is_known) {}
 
 Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path directory,
                                              Budgets budgets, Surroundings surroundings) {
@@ -81,17 +82,20 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     return roller;
 }
 
+// The others' grids are no reason to bring known history down to the low mark.
 void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
     const auto is_full = [&](std::uint64_t used, const Budget& budget) {
         return budget.bytes && used + bytes > *budget.bytes;
     };
     if (is_full(account_.used(group), budgets_.of(group))) reached_.insert(group);
-    if (is_full(account_.used(), budgets_.total)) reached_.insert("");
+    const std::uint64_t used_by_known = account_.used() - account_.used_by_others();
+    if (account_.is_known(group) && is_full(used_by_known, budgets_.total)) reached_.insert("");
 }
 
 Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::uint64_t bytes) {
     const std::string group(group_of(name.domain));
     Lock lock(mutex_);
+    account_.ask_who_is_known(group);
     for (;;) {
         changed_.wait(lock, [&] { return !in_flight_.contains(name); });
         account_.set_now(surroundings_.now());
@@ -103,15 +107,18 @@ Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::ui
             return std::optional<Reservation>(std::in_place, *this, name, bytes);
         }
         note_reached(group, bytes);
-        const auto victims = account_.room_for(name, bytes, budgets_);
+        auto victims = account_.room_for(name, bytes, budgets_);
+        if (!victims && in_flight_.empty() && account_.is_to_stay(name)) {
+            victims = account_.room_for(name, bytes, budgets_, Reach::all);
+        }
         if (victims && !victims->empty()) {
             evict(lock, *victims);
         } else if (!in_flight_.empty()) {
             changed_.wait(lock);  // what others write or evict may yet make room
         } else if (account_.is_to_stay(name)) {
             return fail(ErrorCode::over_budget,
-                        "{}: no room for {} within the cache's budget: what is held ({}; {} of {}) "
-                        "is pinned, the newest of its domain, or cannot be removed",
+                        "{}: no room for {} within the cache's budget: it is smaller than that, or "
+                        "what is held ({}; {} of {}) is pinned or cannot be removed",
                         path_of(name).native(), format_byte_size(bytes),
                         format_byte_size(account_.used()), format_byte_size(account_.used(group)),
                         group);
@@ -198,9 +205,17 @@ bool Roller::make_room(const GridName& name, std::uint64_t bytes) {
     return evicted_ > before;
 }
 
+bool Roller::leaves_out(const GridName& name) {
+    const Lock lock(mutex_);
+    if (account_.is_known(group_of(name.domain))) return false;
+    ++not_kept_;
+    return true;
+}
+
 bool Roller::would_keep(const GridName& name) {
     const Lock lock(mutex_);
     account_.set_now(surroundings_.now());
+    account_.ask_who_is_known(group_of(name.domain));
     if (account_.is_expired(name, budgets_)) return false;
     if (account_.is_to_stay(name)) return true;
     const std::uint64_t mean = account_.used() / std::max<std::size_t>(1, account_.grid_count());

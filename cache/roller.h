@@ -63,13 +63,16 @@ class Roller {
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);
 
-    // None: the budgets would evict the grid at once, so it need not be written. over_budget: it is
-    // the newest of its domain or pinned, and what stands may not go or is not enough. One commit
-    // of a name at a time: the others wait.
+    // None: the budgets would not keep the grid, so it need not be written. over_budget: it is
+    // the newest of a known domain or pinned, and what stands cannot go or is not enough. One
+    // commit of a name at a time: the others wait.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
     // A full disk refused this grid: evicts the oldest grids that hold so many bytes. False when
     // the budgets do not provide for that or nothing may go.
     bool make_room(const GridName& name, std::uint64_t bytes);
+    // Whether a grid is left out where the disk is full: it is of others, and nobody is to wait for
+    // room for those. Counted as not kept.
+    bool leaves_out(const GridName& name);
     // A temporary file that could not be removed: counted, and removed at a later roll.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
 
@@ -100,6 +103,7 @@ class Roller {
     void evict_all(Lock& lock, const std::function<std::vector<GridName>()>& choose);
     void keep_budget(Lock& lock, const std::string& group, const std::optional<Filling>& filling,
                      RollReport& report, const OnStep& step);
+    void limit_others(Lock& lock, const OnStep& step);
     void note_reached(const std::string& group, std::uint64_t bytes);
     Status reread(bool all, const OnStep& step);
     Status reread_day(const Day& day, bool even_unchanged);

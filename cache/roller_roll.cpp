@@ -125,6 +125,20 @@ void Roller::remove_leftovers() {
     });
 }
 
+// What others hold beyond their share, and what of them nothing has replaced for long.
+void Roller::limit_others(Lock& lock, const OnStep& step) {
+    const auto evict_each = [&](auto choose) {
+        evict_all(lock, [&] {
+            if (step) step();
+            return choose();
+        });
+    };
+    evict_each([&] { return account_.outlived(budgets_, batch); });
+    const auto limit = account_.others_limit(budgets_);
+    if (!limit || account_.used_by_others() <= *limit) return;
+    evict_each([&] { return account_.others_down_to(budgets_.low_mark(*limit), batch); });
+}
+
 // One budget: of a group, or of all when the name is empty. `filling` is what it would be if all
 // that was evicted since it was read is free by now.
 void Roller::keep_budget(Lock& lock, const std::string& group,
@@ -151,10 +165,16 @@ void Roller::keep_budget(Lock& lock, const std::string& group,
         }
     }
     if (target) {
-        evict_all(lock, [&] {
-            if (step) step();
-            return account_.down_to(group, *target, batch);
-        });
+        const Protection protection{budgets_.protected_for, account_.space_of(budget)};
+        const auto bring_down = [&](Reach reach) {
+            evict_all(lock, [&] {
+                if (step) step();
+                return account_.down_to(group, *target, batch, protection, reach);
+            });
+        };
+        // Where others' grids are all that is over, no known history goes.
+        bring_down(Reach::others);
+        if (reached || held() > *limit) bring_down(Reach::unprotected);
     }
     if (!limit || held() <= *limit) return;
     report.problems.push_back(
@@ -177,6 +197,7 @@ RollReport Roller::roll(const OnStep& step) {
     Lock lock(mutex_);
     remove_leftovers();
     account_.set_now(surroundings_.now());
+    account_.ask_who_is_known();
     const std::vector<std::string> groups = account_.groups();
     for (const std::string& group : groups)
         evict_all(lock, [&] {
@@ -186,7 +207,9 @@ RollReport Roller::roll(const OnStep& step) {
 
     auto filling = surroundings_.filling(directory_);
     if (!filling) report.problems.push_back(filling.error().message);
+    if (filling) account_.set_capacity(filling->capacity_bytes);
     std::uint64_t counted = evicted_bytes_;
+    limit_others(lock, step);
     const auto filling_now = [&]() -> std::optional<Filling> {
         if (!filling) return std::nullopt;
         const std::uint64_t freed = evicted_bytes_ - std::exchange(counted, evicted_bytes_);

@@ -140,9 +140,10 @@ Result<fs::path> Store::commit_within_budgets(const GridName& name, const fs::pa
         Status written = write(watch, path, description, view, durability);
         if (watch.leftover()) roller_->add_leftover(group_of(name.domain), *watch.leftover());
         if (written) return path;
-        const bool again = written.error().code == ErrorCode::no_space && tries < most_tries &&
-                           roller_->make_room(name, most);
-        if (!again) return pass_on(written);
+        const bool full = written.error().code == ErrorCode::no_space;
+        if (full && tries < most_tries && roller_->make_room(name, most)) continue;
+        if (full && roller_->leaves_out(name)) return fs::path{};
+        return pass_on(written);
     }
 }
 

@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/file_system.h"
@@ -49,6 +50,9 @@ struct Filling {
 struct Surroundings {
     std::function<UtcTime()> now = now_utc;
     std::function<Result<Filling>(const std::filesystem::path&)> filling = filling_of;
+    // Whether a group (a domain without its part) is known, as cache/budget.h means it. Asked by
+    // any thread, again and again, while the store is locked: it must not call the store.
+    std::function<bool(std::string_view group)> is_known = is_known_group;
 };
 
 // Since the roll before, commits included.
@@ -95,13 +99,14 @@ class Store {
     void pack_with(Packing packing) { packing_ = packing; }
 
     // The path at which the grid now stands; empty when the budgets do not keep it (it is older
-    // than the age, or the oldest of a full cache): then nothing was written. bad_argument for what
-    // is no domain's name, for a store that was opened for reading, and as write_grid_file.
-    // over_budget for the newest grid of its domain, or a pinned one, when there is no room for it:
-    // the newest stay until a newer one stands, so a budget must hold two of each domain. On
-    // success the grid survives a power cut (unless less is asked for), new directories included.
-    // On a full disk the oldest grids go, where a budget of bytes or percent is set; no_space when
-    // that does not help.
+    // than the age, the oldest of a full cache, or of others and beyond what they may hold): then
+    // nothing was written. bad_argument for what is no domain's name, for a store that was opened
+    // for reading, and as write_grid_file. over_budget for the newest grid of a known domain, or
+    // one that is pinned, when there is no room for it: the budget is smaller than the grid, or
+    // what is held is pinned or cannot be removed. On success the grid survives a power cut (unless
+    // less is asked for), new directories included. On a full disk the oldest grids go, where a
+    // budget of bytes or percent is set; when that does not help, no_space, and others' grids are
+    // not kept.
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
                                          const grid::BrickView& view,

@@ -148,9 +148,10 @@ Command add_evict(CLI::App& cache) {
     evict->add_option("--domain", options->domain, "One domain and its parts; all when left out");
     evict->add_option("--to", options->to,
                       "All up to this time, itself and the newest included: UTC, or -1h, now");
-    evict->add_option("--bytes", options->bytes,
-                      "The oldest, until the rest takes no more than this, as 20 GB; the newest of "
-                      "each domain stays");
+    evict->add_option(
+        "--bytes", options->bytes,
+        "The oldest, until the rest takes no more than this, as 20 GB; those of stations "
+        "that nobody knows first; the newest of each other domain stays");
     evict->add_option("--older-than", options->older_than_h,
                       "All more hours than this before the newest of the same domain");
     evict->add_flag("--dry-run", options->dry_run, "Only say what would go");

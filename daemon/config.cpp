@@ -256,6 +256,8 @@ void read_budget(TomlTable& table, cache::Budget& budget) {
 void read_budgets(TomlTable& cache, cache::Budgets& budgets) {
     read_budget(cache, budgets.total);
     if (const auto share = cache.number("low_watermark", {0.01, 1})) budgets.low_watermark = *share;
+    if (const auto hours = cache.number("protect_hours", {0, 1e6}))
+        budgets.protected_for = milliseconds_of(*hours * 3600);
     for (TomlTable& domain : cache.tables("domain")) {
         cache::Budget budget;
         read_budget(domain, budget);

@@ -30,7 +30,12 @@ Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
     auto stations = std::make_shared<StationRule>(config.stations);
     auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog");
     if (!catalog) return pass_on(catalog);
-    auto store = cache::Store::open_rolling(real_file_system(), config.cache, config.budgets);
+    // Names of domains never have the form of an ICAO, so the table says of all that do who is
+    // known.
+    cache::Surroundings surroundings;
+    surroundings.is_known = cache::is_known_group;
+    auto store = cache::Store::open_rolling(real_file_system(), config.cache, config.budgets,
+                                            std::move(surroundings));
     if (!store) return pass_on(store);
     store->pack_with(config.packing);
     return std::unique_ptr<IngestSink>(

@@ -64,7 +64,8 @@ TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
     put("B", 2);
     account_.put({"A", level2::Moment::vel, noon}, {10, noon, false});
     EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(name("A", 0)));
-    budgets_.total.bytes = 40;
+    account_.reserve("C", 20);
+    budgets_.total.bytes = 60;
     EXPECT_THAT(*room(name("C", 3), 10), ElementsAre(name("A", 0)));
     EXPECT_FALSE(room(name("C", 3), 11)) << "nothing else may go";
     // The newest stays until a newer one stands.

@@ -65,6 +65,14 @@ TEST_F(EvictTest, ByBytesKeepsTheNewestOfEachDomain) {
     EXPECT_EQ(most.bytes_left, 3 * grid_bytes_);
 }
 
+TEST_F(EvictTest, ByBytesTakesFirstWhatIsOfStationsThatNobodyKnows) {
+    ASSERT_TRUE(testing::commit_sized(store_, "XAAA", noon + minutes{50}));
+    ASSERT_TRUE(testing::commit_sized(store_, "KTLX", noon - minutes{50}));
+    EXPECT_THAT(names(plan({"", {}, 7 * grid_bytes_, {}}).victims), ElementsAre("XAAA+50"));
+    EXPECT_THAT(names(plan({"", {}, 0, {}}).victims),
+                ElementsAre("A+0", "A+10", "A+20", "XAAA+50"));
+}
+
 TEST_F(EvictTest, ByAgeCountsFromEachDomainsNewest) {
     EXPECT_THAT(names(plan({"", {}, {}, minutes{15}}).victims), ElementsAre("A+0", "A+10"));
     EXPECT_THAT(names(plan({"B", {}, {}, minutes{5}}).victims), IsEmpty());

@@ -71,6 +71,25 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
     EXPECT_EQ(testing::all_grids(store).size(), 1U) << "the newest stays";
 }
 
+// The daemon takes no file of any station while the disk is full, so that must not be said for
+// stations that nobody knows while those that are known would find room.
+TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
+    budgets_.total.bytes = 1'000'000'000;
+    const Store store = open(budgets_);
+    for (int minute = 0; minute < 8; ++minute)
+        ASSERT_TRUE(commit(store, minute));
+    const std::uint64_t before = testing::allocated_bytes(cache_);
+    disk_.set_capacity(before + 4096);
+    const auto path = testing::commit_sized(store, "XAAA", noon + minutes{100});
+    ASSERT_TRUE(path) << path.error().message;
+    EXPECT_TRUE(path->empty());
+    EXPECT_EQ(testing::all_grids(store).size(), 8U);
+    EXPECT_EQ(testing::allocated_bytes(cache_), before);
+    EXPECT_EQ(store.usage()->bytes, before);
+    EXPECT_EQ(store.usage()->not_kept, 1U);
+    ASSERT_TRUE(commit(store, 9)) << "a known one takes the oldest's place";
+}
+
 // Its temporary file cannot even be removed again: it is counted, and removed when that works.
 class Unremovable final : public FileSystem {
   public:

@@ -136,19 +136,40 @@ TEST_F(RollingStoreTest, AFullCacheDoesNotKeepWhatWouldBeTheFirstToGo) {
     EXPECT_EQ(store.usage()->evicted, 0U);
 }
 
-TEST_F(RollingStoreTest, TheNewestStaysUntilANewerStandsAndTooSmallABudgetIsAnError) {
-    budgets_.total.bytes = room_for(1);
+TEST_F(RollingStoreTest, TheNewestStaysUntilANewerStandsWhereTheBudgetHoldsTwo) {
+    budgets_.total.bytes = room_for(2);
     const Store store = open(budgets_);
     ASSERT_TRUE(commit(store, "A", 1));
-    const auto second = commit(store, "A", 2);
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::over_budget);
-    EXPECT_TRUE(second.error().message.starts_with(path("A", 2).native()))
-        << second.error().message;
-    EXPECT_THAT(second.error().message, HasSubstr("budget"));
+    disk_.set_capacity(grid_bytes_ + 8192);
+    EXPECT_EQ(commit(store, "A", 2).error().code, ErrorCode::no_space);
     EXPECT_THAT(grids(store), ElementsAre("A+1"));
+    disk_.set_capacity(capacity_);
+    ASSERT_TRUE(commit(store, "A", 2));
+    EXPECT_THAT(grids(store), ElementsAre("A+1", "A+2"));
+    ASSERT_TRUE(commit(store, "A", 3));
+    EXPECT_THAT(grids(store), ElementsAre("A+2", "A+3"));
+}
+
+TEST_F(RollingStoreTest, InABudgetOfOneGridTheNewestGivesWayToANewerOne) {
+    budgets_.total.bytes = room_for(1);
+    const Store store = open(budgets_);
+    for (const int minute : {1, 2, 3})
+        ASSERT_TRUE(commit(store, "A", minute));
+    EXPECT_THAT(grids(store), ElementsAre("A+3"));
+    EXPECT_TRUE(commit(store, "A", 2)->empty()) << "what is older gives no reason for it";
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
-    EXPECT_EQ(store.usage()->bytes, grid_bytes_) << "the reservation was given back";
+}
+
+TEST_F(RollingStoreTest, ABudgetBelowOneGridIsAnError) {
+    budgets_.total.bytes = grid_bytes_ - 4096;
+    const Store store = open(budgets_);
+    const auto refused = commit(store, "A", 2);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::over_budget);
+    EXPECT_TRUE(refused.error().message.starts_with(path("A", 2).native()))
+        << refused.error().message;
+    EXPECT_THAT(refused.error().message, HasSubstr("budget"));
+    EXPECT_EQ(store.usage()->bytes, 0U) << "the reservation was given back";
 
     Budgets larger = budgets_;
     larger.total.bytes = room_for(2);
@@ -290,11 +311,17 @@ TEST_F(RollingStoreTest, AllThatIsHeldPinnedIsAnErrorForTheNewest) {
     const Store store = open(budgets_);
     for (const int minute : {0, 1})
         ASSERT_TRUE(commit(store, "A", minute));
-    ASSERT_TRUE(pin_grid(real_file_system(), path("A", 0)));
+    for (const int minute : {0, 1})
+        ASSERT_TRUE(pin_grid(real_file_system(), path("A", minute)));
     const auto third = commit(store, "A", 2);
     ASSERT_FALSE(third);
     EXPECT_EQ(third.error().code, ErrorCode::over_budget);
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+1"));
+    // With one pin less the newest finds room, although nothing else may go.
+    ASSERT_TRUE(*unpin_grid(real_file_system(), path("A", 1)));
+    store.roll();
+    ASSERT_TRUE(commit(store, "A", 2));
+    EXPECT_THAT(grids(store), ElementsAre("A+0", "A+2"));
 }
 
 TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {

@@ -159,6 +159,7 @@ TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
     const Result<Config> config =
         load(std::string(paths) +
              "[cache]\nbytes = \"20 GB\"\npercent = 80.5\nage_hours = 48\nlow_watermark = 0.8\n"
+             "protect_hours = 0.5\n"
              "[[cache.domain]]\nname = \"KTLX\"\nbytes = 500000\n"
              "[[cache.domain]]\nname = \"*\"\nage_hours = 0.5\npercent = 70\n");
     ASSERT_TRUE(config) << config.error().message;
@@ -167,6 +168,7 @@ TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
     EXPECT_EQ(budgets.total.file_system_percent, 80.5);
     EXPECT_EQ(budgets.total.age, std::chrono::hours{48});
     EXPECT_EQ(budgets.low_watermark, 0.8);
+    EXPECT_EQ(budgets.protected_for, std::chrono::minutes{30});
     EXPECT_EQ(budgets.of("KTLX").bytes, 500'000U);
     EXPECT_EQ(budgets.of("KTLX").file_system_percent, std::nullopt);
     EXPECT_EQ(budgets.of("KBGM").age, std::chrono::minutes{30});
@@ -177,6 +179,7 @@ TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {
     const Result<Config> none = load(std::string(paths) + "[cache]\nbytes = 0\npercent = 0\n");
     ASSERT_TRUE(none);
     EXPECT_EQ(none->budgets, cache::Budgets{}) << "0 is no limit";
+    EXPECT_EQ(none->budgets.protected_for, std::chrono::hours{168});
 }
 
 TEST_F(ConfigFile, BudgetsThatMakeNoSenseAreRefused) {
@@ -186,6 +189,7 @@ TEST_F(ConfigFile, BudgetsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(complaint(p + "bytes = -1\n").substr(0, 36), "s.toml:6: [cache] bytes: -1 is out o");
     EXPECT_EQ(complaint(p + "percent = 101\n").substr(0, 9), "s.toml:6:");
     EXPECT_EQ(complaint(p + "low_watermark = 0\n").substr(0, 9), "s.toml:6:");
+    EXPECT_EQ(complaint(p + "protect_hours = -1\n").substr(0, 9), "s.toml:6:");
     EXPECT_EQ(complaint(p + "byte = 1\n"), "s.toml:6: unknown key [cache] byte");
     EXPECT_EQ(complaint(p + "[[cache.domain]]\nbytes = 1\n"),
               "s.toml:6: [cache.domain] name: the domain must be named");
