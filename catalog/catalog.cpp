@@ -200,8 +200,7 @@ Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uin
     const std::string guess = home.value_or(std::string{impl_->home_of(path.native())});
     // A name that says nothing is no reason to ask for the database of files without a station.
     const bool is_its_own = home || guess != unknown_station;
-    auto guessed =
-        is_its_own ? impl_->with(guess, false, ask) : impl_->with_neighbor(guess, ask);
+    auto guessed = is_its_own ? impl_->with(guess, false, ask) : impl_->with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;
     const bool is_missing = !guessed && guessed.error().code == ErrorCode::not_found;
     if (!guessed && !is_missing && is_its_own) return guessed;

@@ -209,9 +209,7 @@ bool Catalog::Impl::may_have_strays(const std::string& name) {
         if (place->strays != Strays::unknown) return true;  // somebody else did meanwhile
         const auto has_one = database.has_path(
             [&](std::string_view path) { return home_of(path) != name; }, most_looked_through);
-        place->strays = !has_one   ? Strays::too_many_rows
-                        : *has_one ? Strays::some
-                                   : Strays::none;
+        place->strays = !has_one ? Strays::too_many_rows : *has_one ? Strays::some : Strays::none;
         return true;
     });
     if (!looked && looked.error().code == ErrorCode::not_found) is_listing_old_ = true;

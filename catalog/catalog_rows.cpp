@@ -1,5 +1,5 @@
-// What a writer does to all rows now and then: marks those of files that went, and deletes old ones.
-// One station's database that cannot be used does not keep it from the others (troubles()).
+// What a writer does to all rows now and then: marks those of files that went, and deletes old
+// ones. One station's database that cannot be used does not keep it from the others (troubles()).
 #include <algorithm>
 #include <map>
 #include <span>
@@ -99,8 +99,9 @@ Result<Rolled> Catalog::roll(const std::function<void()>& step) {
         }
     }
     while (rolled.used_bytes > impl_->options.most_bytes && !used.empty()) {
-        const auto largest = std::max_element(
-            used.begin(), used.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto largest =
+            std::max_element(used.begin(), used.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
         const std::string name = largest->first;
         if (!shrink(name)) used.erase(name);
     }

@@ -7,9 +7,9 @@
 // by as many as threads work at once.
 // What a slot remembers of a closed database costs some 200 bytes; a slot that remembers nothing is
 // dropped with its last lease, so that asking for names leaves nothing behind.
-// Cost: a lease takes 0.1 microseconds. The close of a database that was written to is a checkpoint
-// of its WAL with two syncs: 0.9 ms, and opening it again takes 0.3 ms (medians of 200, 2026-11-25,
-// ext4 on a shared cloud machine's virtual disk; tests/catalog/open_databases_test.cpp prints them).
+// Cost: a lease takes 0.1 microseconds. To close a database that was written to is a checkpoint of
+// its WAL, which is synced: 0.4 ms; to open it again takes 0.5 ms (medians of 200, 2026-11-25, a
+// shared cloud machine of two cores; tests/catalog/open_databases_test.cpp prints them).
 // Inside the catalog room only. Thread contract: any thread; what a slot holds is guarded by its
 // mutex.
 #pragma once

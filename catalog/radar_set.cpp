@@ -10,7 +10,7 @@ namespace {
 
 // What the catalog has for a file name; the newest when several directories have it.
 Result<CatalogEntry> entry_of(Catalog& catalog, const std::string& station,
-                                      const std::string& name) {
+                              const std::string& name) {
     auto entries = catalog.list(station, Query{});
     if (!entries) return pass_on(entries);
     const auto found = std::find_if(entries->rbegin(), entries->rend(), [&](const auto& entry) {

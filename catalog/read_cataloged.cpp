@@ -19,13 +19,12 @@ bool lies_below(const fs::path& root, const fs::path& path) {
 }
 
 Status check_size(const CatalogEntry& entry, std::uint64_t size_bytes) {
-    const bool fits = has_final_hash(entry) ? size_bytes == entry.size_bytes
-                                            : size_bytes >= entry.size_bytes;
+    const bool fits =
+        has_final_hash(entry) ? size_bytes == entry.size_bytes : size_bytes >= entry.size_bytes;
     if (fits) return {};
-    return fail(ErrorCode::corrupt,
-                "{}: is not the file that was cataloged: it has {} bytes and not {}{}",
-                entry.path.native(), size_bytes, entry.size_bytes,
-                has_final_hash(entry) ? "" : " or more");
+    return fail(
+        ErrorCode::corrupt, "{}: is not the file that was cataloged: it has {} bytes and not {}{}",
+        entry.path.native(), size_bytes, entry.size_bytes, has_final_hash(entry) ? "" : " or more");
 }
 
 }  // namespace

@@ -448,10 +448,9 @@ std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
     std::vector<CatalogEntry> found = entries(rows);
     if (query.with_rejected) {
         SQLite::Statement others(
-            database_,
-            std::string{columns_without_volume} +
-                "WHERE NOT EXISTS (SELECT 1 FROM part p WHERE p.file_id = f.id) "
-                "ORDER BY f.registered_ms, f.path");
+            database_, std::string{columns_without_volume} +
+                           "WHERE NOT EXISTS (SELECT 1 FROM part p WHERE p.file_id = f.id) "
+                           "ORDER BY f.registered_ms, f.path");
         for (CatalogEntry& entry : entries(others))
             found.push_back(std::move(entry));
     }

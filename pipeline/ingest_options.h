@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/result.h"
 #include "level2/volume.h"
 #include "pipeline/domain.h"
 #include "pipeline/frames_when.h"
@@ -61,6 +62,12 @@ struct IngestOptions {
     std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
     // Likewise one that unpacks to more.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
+    // Asked of each file that was read, before anything is made of it: its error rejects the file,
+    // as where it is no longer the one that was cataloged. Empty: every file is taken. Called by
+    // the threads that ingest.
+    std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
+                         std::uint64_t content_hash)>
+        check_read;
 };
 
 }  // namespace stormcellar::pipeline
