@@ -17,6 +17,9 @@ constexpr std::int64_t most_looked_through = 10'000;
 // So long a database that was in trouble is not tried on behalf of other stations.
 constexpr std::chrono::seconds between_tries{10};
 
+// A try that took longer is not made again within that time on behalf of its own station, either.
+constexpr std::chrono::seconds longest_try{1};
+
 // So many databases are closed when descriptors run out: room for one, and for what else the
 // process wants to open just then.
 constexpr std::size_t closed_when_out = 8;
@@ -113,14 +116,16 @@ bool Catalog::Impl::mend(Slot& place, const std::string& name) {
     return true;
 }
 
-void Catalog::Impl::note_outcome(const std::string& name, const Error* error) {
+void Catalog::Impl::note_outcome(const std::string& name, const Error* error,
+                                 std::chrono::steady_clock::time_point began) {
     // A full disk is no station's trouble, and a database that is not there is none.
     const bool is_trouble = error != nullptr && error->code != ErrorCode::not_found &&
                             error->code != ErrorCode::no_space;
     if (!is_trouble && !has_troubles_) return;
     const std::scoped_lock lock(troubles_mutex_);
     if (is_trouble) {
-        troubles_.insert_or_assign(name, Standing{*error, std::chrono::steady_clock::now()});
+        const auto now = std::chrono::steady_clock::now();
+        troubles_.insert_or_assign(name, Standing{*error, began, now});
     } else if (error == nullptr || error->code == ErrorCode::not_found) {
         troubles_.erase(name);
     }
@@ -135,13 +140,25 @@ std::vector<Trouble> Catalog::Impl::troubles() const {
     return found;
 }
 
-std::optional<Error> Catalog::Impl::recent_trouble(const std::string& name) const {
+std::optional<Catalog::Impl::Standing> Catalog::Impl::recently_tried(
+    const std::string& name) const {
     if (!has_troubles_) return std::nullopt;
     const std::scoped_lock lock(troubles_mutex_);
     const auto found = troubles_.find(name);
     if (found == troubles_.end()) return std::nullopt;
     const bool is_recent = std::chrono::steady_clock::now() - found->second.tried < between_tries;
-    return is_recent ? std::optional{found->second.error} : std::nullopt;
+    return is_recent ? std::optional{found->second} : std::nullopt;
+}
+
+std::optional<Error> Catalog::Impl::recent_trouble(const std::string& name) const {
+    const auto standing = recently_tried(name);
+    return standing ? std::optional{standing->error} : std::nullopt;
+}
+
+std::optional<Error> Catalog::Impl::slow_trouble(const std::string& name) const {
+    const auto standing = recently_tried(name);
+    const bool was_slow = standing && standing->tried - standing->began > longest_try;
+    return was_slow ? std::optional{standing->error} : std::nullopt;
 }
 
 Result<std::vector<std::string>> Catalog::Impl::names() const {
@@ -204,6 +221,7 @@ bool Catalog::Impl::may_have_strays(const std::string& name) {
     if (place->strays != Strays::unknown) return place->strays != Strays::none;
     if (recent_trouble(name)) return true;
     const std::scoped_lock lock(place->mutex);
+    const auto began = std::chrono::steady_clock::now();
     // Damage is mended where the database is asked, or its own station's files come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
         if (place->strays != Strays::unknown) return true;  // somebody else did meanwhile
@@ -213,7 +231,9 @@ bool Catalog::Impl::may_have_strays(const std::string& name) {
         return true;
     });
     if (!looked && looked.error().code == ErrorCode::not_found) is_listing_old_ = true;
-    if (!looked && looked.error().code != ErrorCode::corrupt) note_outcome(name, &looked.error());
+    if (!looked && looked.error().code != ErrorCode::corrupt) {
+        note_outcome(name, &looked.error(), began);
+    }
     return place->strays != Strays::none;
 }
 

@@ -71,11 +71,13 @@ struct Catalog::Impl {
         -> Result<decltype(work(std::declval<StationDatabase&>()))> {
         const OpenDatabases::Lease place = databases.lease(name);
         const std::scoped_lock lock(place->mutex);
+        if (auto slow = slow_trouble(name)) return tl::unexpected<Error>(std::move(*slow));
+        const auto began = std::chrono::steady_clock::now();
         auto done = attempt(*place, name, create, work);
         if (!done && writing && done.error().code == ErrorCode::corrupt && mend(*place, name)) {
             done = attempt(*place, name, create, work);
         }
-        note_outcome(name, done ? nullptr : &done.error());
+        note_outcome(name, done ? nullptr : &done.error(), began);
         return done;
     }
 
@@ -139,13 +141,19 @@ struct Catalog::Impl {
     [[nodiscard]] bool may_have_strays(const std::string& name);
     void look_for_admitted_stations();
     // Notes a trouble, or with no error that it is over.
-    void note_outcome(const std::string& name, const Error* error);
+    void note_outcome(const std::string& name, const Error* error,
+                      std::chrono::steady_clock::time_point began);
+    // The trouble of a database that was tried seconds ago.
     [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
+    // The same where the try took long, as of a database that somebody has locked: its own files
+    // do not try again at once, either, for who waits here is missing for the other stations.
+    [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;
 
     struct Standing {
         Error error;
-        std::chrono::steady_clock::time_point tried;
+        std::chrono::steady_clock::time_point began, tried;
     };
+    [[nodiscard]] std::optional<Standing> recently_tried(const std::string& name) const;
     std::atomic<bool> has_troubles_ = false;
     mutable std::mutex troubles_mutex_;  // guards troubles_
     std::map<std::string, Standing, std::less<>> troubles_;

@@ -198,10 +198,10 @@ int check_catalog(const CareOptions& options) {
         print_cleared(cleared);
         print_check(*check);
     }
-    for (const auto* troubles : {&cleared.kept, &check->troubles}) {
-        for (const Trouble& trouble : *troubles)
-            report_error(trouble.error);
-    }
+    for (const Trouble& trouble : cleared.kept)
+        report_error(trouble.error);
+    for (const Trouble& trouble : check->troubles)
+        report_error(trouble.error);
     if (!cleared.kept.empty() || !check->is_sound()) return exit_failed;
     const bool is_empty = check->stations.empty() && cleared.cleared.empty();
     return is_empty ? report_nothing_matched() : exit_done;

@@ -129,6 +129,32 @@ TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
     expect_that_it_is_over(catalog);
 }
 
+// Who waits for a lock is a worker, who is missing for the other stations meanwhile.
+TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAndThen) {
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    const auto seconds = [](const auto& work) {
+        const auto began = std::chrono::steady_clock::now();
+        work();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    };
+    {
+        SQLite::Database other(database_, SQLite::OPEN_READWRITE);
+        other.exec("BEGIN EXCLUSIVE");
+        EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {})));
+        const double own =
+            seconds([&] { EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {}))); });
+        EXPECT_LT(own, 1.0);
+        const double others = seconds([&] {
+            EXPECT_FALSE(*catalog.is_known("/d/odd"));
+            EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+            EXPECT_TRUE(catalog.register_file(file("/d/KFWS_b", {}, "KFWS")));
+            EXPECT_EQ(*catalog.mark_gone("/d/odd"), 1);
+        });
+        EXPECT_LT(others, 3.0);
+        EXPECT_EQ(catalog.troubles().size(), 1U);
+    }
+}
+
 // Files whose names do not say their station are looked for among the unknown ones first.
 TEST_F(Neighbors, TheDatabaseOfUnknownFilesHoldsNobodyUp) {
     fs::create_directory(catalog_ / "_unknown.sqlite");
