@@ -99,22 +99,30 @@ Result<Catalog> Catalog::open_for_reading(fs::path directory) {
     return Catalog(std::make_unique<Impl>(std::move(directory), std::move(options), false));
 }
 
-// Called after the path was written into the database of that name. What another database does not
-// let be deleted stays there until it does.
-void Catalog::forget_elsewhere(const fs::path& path, const std::string& name) {
+// Called after the path was written into the database of that name. A database that is known to
+// have a row of it must let that be deleted; one that may have a row, and cannot be asked, is its
+// own station's trouble.
+Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) {
     const auto home = impl_->homes.exchange(path, name);
-    if (home && (home->empty() || *home == name)) return;
-    bool is_alone = true;
+    if (home && (home->empty() || *home == name)) return {};
     const auto names = impl_->names_that_may_have(path);
+    Status outcome = names ? Status{} : pass_on(names);
+    bool is_alone = names.has_value();
     for (const std::string& other : names ? *names : std::vector<std::string>{}) {
         if (other == name) continue;
+        bool has_row = home == other;
         const auto forgotten = impl_->with_neighbor(other, [&](StationDatabase& database) {
-            database.forget(path);
+            has_row = database.is_settled(path, 0, 0).has_value();
+            if (has_row) database.forget(path);
             return true;
         });
         is_alone = is_alone && forgotten;
+        if (!forgotten && has_row && forgotten.error().code != ErrorCode::not_found) {
+            outcome = pass_on(forgotten);
+        }
     }
-    if (!is_alone || !names) impl_->homes.forget(path);
+    if (!is_alone) impl_->homes.forget(path);
+    return outcome;
 }
 
 Status Catalog::note_file(const FileFacts& facts) {
@@ -148,7 +156,7 @@ Result<Registered> Catalog::register_file(const FileFacts& facts) {
     });
     if (!registered) return registered;
     // What stood there before may have been of another station, or of none that was known.
-    forget_elsewhere(facts.path, name);
+    if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
     if (*registered == Registered::left_out) impl_->homes.forget(facts.path);
     return registered;
 }
@@ -161,8 +169,9 @@ Status Catalog::register_files(const std::string& station, const std::vector<Fil
         return database.register_files(files);
     });
     if (!left_out) return pass_on(left_out);
-    for (const FileFacts& file : files)
-        forget_elsewhere(file.path, name);
+    for (const FileFacts& file : files) {
+        if (Status alone = forget_elsewhere(file.path, name); !alone) return alone;
+    }
     for (const fs::path& path : *left_out)
         impl_->homes.forget(path);
     return {};

@@ -54,6 +54,9 @@ enum class FileState {
 // when it is next looked at.
 inline constexpr std::int64_t never_read_ns = std::numeric_limits<std::int64_t>::min();
 
+// An archive's file holds a handful; a made-up one must not fill the database by itself.
+inline constexpr std::size_t most_volumes_a_file = 1000;
+
 // A volume as a file holds it.
 struct VolumeFacts {
     std::optional<UtcTime> start_time;
@@ -73,7 +76,7 @@ struct FileFacts {
     std::uint64_t content_hash = 0;
     FileState state = FileState::seen;
     std::string reason;                // why rejected or partial; one line
-    std::vector<VolumeFacts> volumes;  // file order
+    std::vector<VolumeFacts> volumes;  // file order; the first most_volumes_a_file get rows
 };
 
 // A row of the answer to a query: one volume in one file, or a file without volumes.
@@ -230,7 +233,7 @@ class Catalog {
     // Whether the row of the path is settled; none where it has no row.
     Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
                                              std::uint64_t size_bytes, std::int64_t modified_ns);
-    void forget_elsewhere(const std::filesystem::path& path, const std::string& name);
+    Status forget_elsewhere(const std::filesystem::path& path, const std::string& name);
     template <class Work>
     auto ask(std::string_view station, Work work);
     explicit Catalog(std::unique_ptr<Impl> impl);

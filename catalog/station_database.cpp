@@ -1,6 +1,8 @@
 #include "catalog/station_database.h"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace stormcellar::catalog {
@@ -208,7 +210,8 @@ Registered StationDatabase::register_row(const FileFacts& facts) {
     // The file's volumes are described anew: a growing file must not become its own re-send.
     if (known) drop_volumes(file_id);
     int ordinal = 0;
-    for (const VolumeFacts& volume : facts.volumes) {
+    const std::size_t kept = std::min(facts.volumes.size(), most_volumes_a_file);
+    for (const VolumeFacts& volume : std::span{facts.volumes}.first(kept)) {
         if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
         insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }

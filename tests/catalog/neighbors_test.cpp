@@ -155,6 +155,21 @@ TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAn
     }
 }
 
+// A file has one row: where the old one cannot be deleted, the file waits, and it alone.
+TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    ASSERT_TRUE(catalog.register_file(file("/d/odd", {}, "KTLX")));
+    fs::rename(database_, directory_ / "aside");
+    fs::create_directory(database_);
+    EXPECT_FALSE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+    EXPECT_TRUE(catalog.register_file(file("/d/odd2", {}, "KFWS")));
+    fs::remove(database_);
+    fs::rename(directory_ / "aside", database_);
+    catalog = *Catalog::open_for_writing(catalog_);
+    EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+    EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
+}
+
 // Files whose names do not say their station are looked for among the unknown ones first.
 TEST_F(Neighbors, TheDatabaseOfUnknownFilesHoldsNobodyUp) {
     fs::create_directory(catalog_ / "_unknown.sqlite");

@@ -131,6 +131,20 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
     EXPECT_FALSE(*catalog.is_known(path(5999)));
 }
 
+TEST_F(RowsBound, OfAFileWithVeryManyVolumesTheFirstGetRows) {
+    auto catalog = open({});
+    FileFacts facts = unknown(1);
+    facts.station = "KTLX";
+    for (int k = 0; k < 1500; ++k) {
+        facts.volumes.push_back(volume("2022-03-17T00:00", k % 1000));
+        *facts.volumes.back().start_time += std::chrono::minutes{k};
+    }
+    ASSERT_TRUE(catalog.register_file(facts));
+    const auto entries = *catalog.list("KTLX", {});
+    ASSERT_EQ(entries.size(), most_volumes_a_file);
+    EXPECT_EQ(entries.back().volume.start_time, facts.volumes[999].start_time);
+}
+
 // A database from before there were bounds.
 TEST_F(RowsBound, RollingBringsADatabaseBelowItsOwnBound) {
     CatalogOptions options;
