@@ -161,8 +161,11 @@ std::optional<Error> Catalog::Impl::slow_trouble(const std::string& name) const 
     return was_slow ? std::optional{standing->error} : std::nullopt;
 }
 
-Result<std::vector<std::string>> Catalog::Impl::names() const {
+Result<std::vector<std::string>> Catalog::Impl::names() {
     auto found = database_names(directory);
+    if (!found && is_out_of_descriptors() && databases.close_idle(closed_when_out) > 0) {
+        found = database_names(directory);
+    }
     if (found) {
         std::erase_if(*found, [&](const std::string& name) {
             return name != unknown_station && !knows(name);

@@ -119,7 +119,7 @@ struct Catalog::Impl {
     [[nodiscard]] std::vector<Trouble> troubles() const;
 
     // The names of the databases in the directory whose stations are known, sorted.
-    [[nodiscard]] Result<std::vector<std::string>> names() const;
+    [[nodiscard]] Result<std::vector<std::string>> names();
 
     // The names of those that may have a row of the path. A row in another database than
     // home_of() says is a stray: of a file that is named like one station and holds another's,

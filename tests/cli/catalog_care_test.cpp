@@ -25,6 +25,7 @@ class CatalogCare : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
+        fs::create_directory(directory_ / "state");
         fs::create_directories(drop_ / "KBGM");
         for (const std::string& name : {first_, second_}) {
             fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw(name));
