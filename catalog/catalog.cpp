@@ -2,38 +2,37 @@
 
 #include <algorithm>
 #include <mutex>
-#include <span>
 #include <utility>
 
 #include "base/beneath.h"
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "catalog/catalog_parts.h"
+#include "catalog/drop_directory.h"
 
 namespace stormcellar::catalog {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t files_a_step = 1000;
-
-// The database that a station's rows stand in. Nothing unchecked becomes a file name.
-std::string database_name(std::string_view station) {
-    return std::string{is_icao(station) ? station : unknown_station};
-}
+constexpr std::size_t most_left_alone_named = 5;
 
 // Of a station that a user asks for. Lower case is no other station's answer.
-Result<std::string> name_asked_for(std::string_view station) {
-    if (station.empty() || is_icao(station)) return database_name(station);
+Status check_asked_for(std::string_view station) {
+    if (station.empty() || is_icao(station)) return {};
     return fail(ErrorCode::bad_argument, "'{}' is no station: four letters and digits, as in KTLX",
                 station);
 }
 
-// Of another station's database: whether it concerns a file of this one. A damaged, foreign or
-// missing database does not; it is named when its own station's files come, or when it is asked.
-bool is_ours_to_solve(const Error& error) {
-    return error.code != ErrorCode::not_found && error.code != ErrorCode::corrupt &&
-           error.code != ErrorCode::unsupported;
+// When something was last written to a database.
+fs::file_time_type written_last(const fs::path& database) {
+    fs::file_time_type newest = fs::file_time_type::min();
+    for (const char* ending : {"", "-wal"}) {
+        std::error_code error;
+        const auto time = fs::last_write_time(database.native() + ending, error);
+        if (!error) newest = std::max(newest, time);
+    }
+    return newest;
 }
 
 }  // namespace
@@ -47,7 +46,24 @@ const fs::path& Catalog::directory() const {
     return impl_->directory;
 }
 
-Result<Catalog> Catalog::open_for_writing(fs::path directory) {
+Status admit_existing(const fs::path& directory, StationRule& rule) {
+    if (rule.kind() != StationRule::Kind::any) return {};
+    auto names = database_names(directory);
+    if (!names) return pass_on(names);
+    std::vector<std::pair<fs::file_time_type, std::string>> by_time;
+    for (std::string& name : *names) {
+        if (name == unknown_station || rule.knows(name)) continue;
+        const fs::path path = directory / (name + std::string{database_ending});
+        by_time.emplace_back(written_last(path), std::move(name));
+    }
+    std::sort(by_time.rbegin(), by_time.rend());
+    for (const auto& [time, name] : by_time) {
+        if (!rule.admits(name)) break;
+    }
+    return {};
+}
+
+Result<Catalog> Catalog::open_for_writing(fs::path directory, CatalogOptions options) {
     std::error_code error;
     const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
@@ -60,10 +76,17 @@ Result<Catalog> Catalog::open_for_writing(fs::path directory) {
             }
         }
     }
-    auto impl = std::make_unique<Impl>();
-    impl->directory = std::move(directory);
-    impl->writing = true;
-    return Catalog(std::move(impl));
+    if (!options.drop.empty()) {
+        Status written = write_drop_directory(directory, options.drop);
+        // On a full disk readers do without it.
+        if (!written && written.error().code != ErrorCode::no_space) return pass_on(written);
+    }
+    if (options.stations) {
+        if (Status admitted = admit_existing(directory, *options.stations); !admitted) {
+            return pass_on(admitted);
+        }
+    }
+    return Catalog(std::make_unique<Impl>(std::move(directory), std::move(options), true));
 }
 
 Result<Catalog> Catalog::open_for_reading(fs::path directory) {
@@ -71,42 +94,51 @@ Result<Catalog> Catalog::open_for_reading(fs::path directory) {
     if (!fs::is_directory(directory, ignored)) {
         return fail(ErrorCode::not_found, "{}: no such catalog directory", directory.native());
     }
-    auto impl = std::make_unique<Impl>();
-    impl->directory = std::move(directory);
-    return Catalog(std::move(impl));
+    CatalogOptions options;
+    options.most_open = CatalogOptions::most_open_of_reader;
+    return Catalog(std::make_unique<Impl>(std::move(directory), std::move(options), false));
 }
 
-// Called after the path was written into the database of that name.
+// Called after the path was written into the database of that name. A database that is known to
+// have a row of it must let that be deleted; one that may have a row, and cannot be asked, is its
+// own station's trouble.
 Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) {
     const auto home = impl_->homes.exchange(path, name);
     if (home && (home->empty() || *home == name)) return {};
-    Status outcome;
-    bool is_alone = true;
     const auto names = impl_->names_that_may_have(path);
-    if (!names) outcome = pass_on(names);
+    Status outcome = names ? Status{} : pass_on(names);
+    bool is_alone = names.has_value();
     for (const std::string& other : names ? *names : std::vector<std::string>{}) {
         if (other == name) continue;
-        const auto forgotten = impl_->with(other, false, [&](StationDatabase& database) {
-            database.forget(path);
+        bool has_row = home == other;
+        const auto forgotten = impl_->with_neighbor(other, [&](StationDatabase& database) {
+            has_row = database.is_settled(path, 0, 0).has_value();
+            if (has_row) database.forget(path);
             return true;
         });
-        // A damaged database of another station must not hold this file up.
-        if (!forgotten && is_ours_to_solve(forgotten.error())) outcome = pass_on(forgotten);
         is_alone = is_alone && forgotten;
+        if (!forgotten && has_row && forgotten.error().code != ErrorCode::not_found) {
+            outcome = pass_on(forgotten);
+        }
     }
-    if (!is_alone || !outcome) impl_->homes.forget(path);
+    if (!is_alone) impl_->homes.forget(path);
     return outcome;
 }
 
 Status Catalog::note_file(const FileFacts& facts) {
-    const std::string name = database_name(facts.station);
+    const std::string name = impl_->name_for(facts.station);
     const auto noted = impl_->with(name, true, [&](StationDatabase& database) {
         impl_->expect_row(facts.path, name);
-        if (!database.is_settled(facts.path, 0, 0)) database.register_file(facts);
-        return true;
+        if (database.is_settled(facts.path, 0, 0)) return Registered::unchanged;
+        return database.register_file(facts);
     });
-    if (!noted) return pass_on(noted);
-    if (impl_->homes.set_if_free(facts.path, name)) return {};
+    if (!noted) {
+        // A file whose name does not say its station may be of any: it does not wait for this one.
+        const bool is_other_trouble =
+            name == unknown_station && noted.error().code != ErrorCode::no_space;
+        return is_other_trouble ? Status{} : pass_on(noted);
+    }
+    if (*noted == Registered::left_out || impl_->homes.set_if_free(facts.path, name)) return {};
     // Somebody who has read it has put it where it belongs meanwhile.
     const auto forgotten = impl_->with(name, false, [&](StationDatabase& database) {
         database.forget(facts.path);
@@ -117,7 +149,7 @@ Status Catalog::note_file(const FileFacts& facts) {
 }
 
 Result<Registered> Catalog::register_file(const FileFacts& facts) {
-    const std::string name = database_name(facts.station);
+    const std::string name = impl_->name_for(facts.station);
     auto registered = impl_->with(name, true, [&](StationDatabase& database) {
         impl_->expect_row(facts.path, name);
         return database.register_file(facts);
@@ -125,91 +157,46 @@ Result<Registered> Catalog::register_file(const FileFacts& facts) {
     if (!registered) return registered;
     // What stood there before may have been of another station, or of none that was known.
     if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
+    if (*registered == Registered::left_out) impl_->homes.forget(facts.path);
     return registered;
 }
 
 Status Catalog::register_files(const std::string& station, const std::vector<FileFacts>& files) {
-    const std::string name = database_name(station);
-    const auto registered = impl_->with(name, true, [&](StationDatabase& database) {
+    const std::string name = impl_->name_for(station);
+    const auto left_out = impl_->with(name, true, [&](StationDatabase& database) {
         for (const FileFacts& file : files)
             impl_->expect_row(file.path, name);
-        database.register_files(files);
-        return true;
+        return database.register_files(files);
     });
-    if (!registered) return pass_on(registered);
+    if (!left_out) return pass_on(left_out);
     for (const FileFacts& file : files) {
         if (Status alone = forget_elsewhere(file.path, name); !alone) return alone;
     }
+    for (const fs::path& path : *left_out)
+        impl_->homes.forget(path);
     return {};
 }
 
 Result<int> Catalog::mark_gone(const fs::path& path) {
     const auto home = impl_->homes.of(path);
     if (home && home->empty()) return 0;
+    const std::string likely = home.value_or(std::string{impl_->home_of(path.native())});
     const auto names = home ? Result<std::vector<std::string>>{std::vector<std::string>{*home}}
                             : impl_->names_that_may_have(path);
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
         // To look is cheaper than to begin to write.
-        const auto here = impl_->with(name, false, [&](StationDatabase& database) {
+        const auto mark = [&](StationDatabase& database) {
             return database.is_settled(path, 0, 0) ? database.mark_gone({path}) : 0;
-        });
-        if (!here && is_ours_to_solve(here.error())) return pass_on(here);
+        };
+        const bool is_its_own = name == likely && (home || name != unknown_station);
+        const auto here =
+            is_its_own ? impl_->with(name, false, mark) : impl_->with_neighbor(name, mark);
+        if (!here && is_its_own && here.error().code != ErrorCode::not_found) return pass_on(here);
         marked += here.value_or(0);
     }
     return marked;
-}
-
-Result<int> Catalog::mark_missing(const fs::path& directory, const std::function<void()>& step) {
-    const auto names = impl_->names();
-    if (!names) return pass_on(names);
-    int marked = 0;
-    for (const std::string& name : *names) {
-        const auto paths = impl_->with(name, false, [&](StationDatabase& database) {
-            return impl_->paths_below(database, directory, name);
-        });
-        if (!paths && is_ours_to_solve(paths.error())) return pass_on(paths);
-        if (!paths) continue;
-        if (step) step();
-        std::vector<fs::path> gone;
-        std::size_t looked_at = 0;
-        for (const fs::path& path : *paths) {
-            if (step && ++looked_at % files_a_step == 0) step();
-            const auto found = look_beneath(directory, path);
-            if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
-        }
-        if (gone.empty()) continue;
-        const auto here = impl_->with(
-            name, false, [&](StationDatabase& database) { return database.mark_gone(gone); });
-        if (!here) return pass_on(here);
-        marked += *here;
-    }
-    return marked;
-}
-
-Result<int> Catalog::forget_gone(UtcTime before, const std::function<void()>& step) {
-    const auto names = impl_->names();
-    if (!names) return pass_on(names);
-    int forgotten = 0;
-    for (const std::string& name : *names) {
-        const auto rows = impl_->with(
-            name, false, [&](StationDatabase& database) { return database.gone_before(before); });
-        if (!rows && is_ours_to_solve(rows.error())) return pass_on(rows);
-        if (step) step();
-        // Others may write between two batches.
-        for (std::size_t i = 0; rows && i < rows->size(); i += files_a_step) {
-            const auto batch = std::span{*rows}.subspan(i).first(
-                std::min<std::size_t>(files_a_step, rows->size() - i));
-            const auto here = impl_->with(name, false, [&](StationDatabase& database) {
-                return database.forget_gone(batch, before);
-            });
-            if (!here) return pass_on(here);
-            forgotten += *here;
-            if (step) step();
-        }
-    }
-    return forgotten;
 }
 
 Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uint64_t size_bytes,
@@ -219,19 +206,21 @@ Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uin
     };
     const auto home = impl_->homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
-    const std::string guess = home.value_or(std::string{guessed_home(path.native())});
-    auto guessed = impl_->with(guess, false, ask);
+    const std::string guess = home.value_or(std::string{impl_->home_of(path.native())});
+    // A name that says nothing is no reason to ask for the database of files without a station.
+    const bool is_its_own = home || guess != unknown_station;
+    auto guessed = is_its_own ? impl_->with(guess, false, ask) : impl_->with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;
-    if (!guessed && guessed.error().code != ErrorCode::not_found) return guessed;
+    const bool is_missing = !guessed && guessed.error().code == ErrorCode::not_found;
+    if (!guessed && !is_missing && is_its_own) return guessed;
     if (home) return std::optional<bool>{};
 
     const auto names = impl_->names_that_may_have(path);
     if (!names) return pass_on(names);
-    bool is_sure = true;
+    bool is_sure = guessed || is_missing;
     for (const std::string& name : *names) {
         if (name == guess) continue;
-        auto here = impl_->with(name, false, ask);
-        if (!here && is_ours_to_solve(here.error())) return here;
+        auto here = impl_->with_neighbor(name, ask);
         if (here && here->has_value()) return here;
         is_sure = is_sure && here;
     }
@@ -261,6 +250,30 @@ Result<std::vector<std::string>> Catalog::station_names() const {
     return names;
 }
 
+Result<LeftAlone> Catalog::left_alone() const {
+    LeftAlone found;
+    if (!impl_->writing) return found;
+    const auto all = database_names(impl_->directory);
+    if (!all) return pass_on(all);
+    for (const std::string& name : *all) {
+        if (name == unknown_station || impl_->knows(name)) continue;
+        if (found.count++ < most_left_alone_named) found.some.push_back(name);
+    }
+    return found;
+}
+
+std::vector<Trouble> Catalog::troubles() const {
+    return impl_->troubles();
+}
+
+Result<fs::path> Catalog::drop_directory() const {
+    return read_drop_directory(impl_->directory);
+}
+
+std::size_t Catalog::open_databases() const {
+    return impl_->databases.open_count();
+}
+
 Status Catalog::examine_all() {
     const auto stations = station_names();
     if (!stations) return pass_on(stations);
@@ -285,9 +298,9 @@ Status Catalog::examine(std::string_view station) {
     const auto found = examine_database(path);
     if (!found) return pass_on(found);
     if (found->damage.empty()) return {};
-    Impl::Slot& place = impl_->slot(*name);
-    const std::scoped_lock lock(place.mutex);
-    if (impl_->mend(place, *name)) return {};
+    const OpenDatabases::Lease place = impl_->databases.lease(*name);
+    const std::scoped_lock lock(place->mutex);
+    if (impl_->mend(*place, *name)) return {};
     return fail(ErrorCode::corrupt, "{}: {}, and cannot be mended", path.native(),
                 found->damage.front());
 }
@@ -304,31 +317,38 @@ Result<std::vector<StationSummary>> Catalog::stations() {
     for (const std::string& name : *names) {
         auto summary =
             impl_->with(name, false, [](StationDatabase& database) { return database.summary(); });
-        if (!summary) return pass_on(summary);
-        summaries.push_back(std::move(*summary));
+        if (summary) summaries.push_back(std::move(*summary));
     }
     return summaries;
 }
 
+// Runs a query of a user on the database of that station.
+template <class Work>
+auto Catalog::ask(std::string_view station, Work work) {
+    using Answer = decltype(impl_->with(std::string{}, false, work));
+    if (Status asked = check_asked_for(station); !asked) return Answer{pass_on(asked)};
+    if (!station.empty() && !impl_->knows(station)) {
+        return Answer{fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
+                           impl_->directory.native(), station)};
+    }
+    return impl_->with(impl_->name_for(station), false, std::move(work));
+}
+
 Result<std::vector<CatalogEntry>> Catalog::list(std::string_view station, const Query& query) {
-    const auto name = name_asked_for(station);
-    if (!name) return pass_on(name);
-    return impl_->with(*name, false,
-                       [&](StationDatabase& database) { return database.list(query); });
+    return ask(station, [&](StationDatabase& database) { return database.list(query); });
 }
 
 Result<std::optional<CatalogEntry>> Catalog::latest(std::string_view station) {
-    const auto name = name_asked_for(station);
-    if (!name) return pass_on(name);
-    return impl_->with(*name, false,
-                       [](StationDatabase& database) { return database.first(true); });
+    return ask(station, [](StationDatabase& database) { return database.first(true); });
 }
 
 Result<std::optional<CatalogEntry>> Catalog::oldest(std::string_view station) {
-    const auto name = name_asked_for(station);
-    if (!name) return pass_on(name);
-    return impl_->with(*name, false,
-                       [](StationDatabase& database) { return database.first(false); });
+    return ask(station, [](StationDatabase& database) { return database.first(false); });
+}
+
+Result<std::optional<CatalogEntry>> Catalog::find_file(std::string_view station,
+                                                       const fs::path& path) {
+    return ask(station, [&](StationDatabase& database) { return database.find_file(path); });
 }
 
 }  // namespace stormcellar::catalog

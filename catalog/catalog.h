@@ -9,11 +9,18 @@
 // holds which volume).
 // Damage: a writer that meets a damaged database sets it aside and goes on with a new one, which
 // has the rows of files that are gone (repair.h); take_repairs() says so, and whoever feeds the
-// catalog then offers it the files again. The same when a database was deleted under it. Errors:
-// io, no_space, permission (SQLite's reason), corrupt (damaged; of a writer only where it could not
-// be mended), unsupported (a later version's or another program's database), not_found. What
-// concerns one station is not held up by the database of another. Thread contract: a Catalog may be
-// used by many threads (a mutex a database inside); many processes may read while one writes.
+// catalog then offers it the files again. The same when a database was deleted under it.
+// Stations: a writer is told by a rule which stations it knows. Only these have databases; rows of
+// all other files stand among those of no known station. Databases of other stations, which an
+// attack or an older configuration left, are left alone: a writer does not open them.
+// Bounds: of the databases only so many are open at once (catalog/open_databases.h), and each has a
+// most that its rows may take.
+// Errors: io, no_space, permission (SQLite's reason), corrupt (damaged; of a writer only where it
+// could not be mended), unsupported (a later version's or another program's database), not_a_file
+// (a FIFO or directory in its place), not_found. A database that cannot be opened is the trouble of
+// its own station alone: what concerns another, or all, goes on without it, and troubles() names
+// it. Thread contract: a Catalog may be used by many threads (a mutex a database inside); many
+// processes may read while one writes.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +34,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/station_rule.h"
 #include "base/utc_time.h"
 #include "catalog/repair.h"
 
@@ -45,6 +53,9 @@ enum class FileState {
 // The modification time of a file that could not be read: it is never settled, and tried again
 // when it is next looked at.
 inline constexpr std::int64_t never_read_ns = std::numeric_limits<std::int64_t>::min();
+
+// An archive's file holds a handful; a made-up one must not fill the database by itself.
+inline constexpr std::size_t most_volumes_a_file = 1000;
 
 // A volume as a file holds it.
 struct VolumeFacts {
@@ -65,7 +76,7 @@ struct FileFacts {
     std::uint64_t content_hash = 0;
     FileState state = FileState::seen;
     std::string reason;                // why rejected or partial; one line
-    std::vector<VolumeFacts> volumes;  // file order
+    std::vector<VolumeFacts> volumes;  // file order; the first most_volumes_a_file get rows
 };
 
 // A row of the answer to a query: one volume in one file, or a file without volumes.
@@ -78,6 +89,8 @@ struct CatalogEntry {
     VolumeFacts volume;
     int generation = 0;       // 0 for the first; +1 for each re-send that differs
     UtcTime registered_time;  // when the row was made
+    std::int64_t modified_ns = 0;
+    std::uint64_t content_hash = 0;  // 0: not known
 };
 
 struct Query {
@@ -93,13 +106,54 @@ struct StationSummary {
     std::optional<UtcTime> oldest, latest;
 };
 
-// What registering did.
-enum class Registered { added, updated, unchanged };
+// What registering did. left_out: no row was written, as the database has reached its bound and no
+// row of a file that is gone could make room.
+enum class Registered { added, updated, unchanged, left_out };
+
+struct CatalogOptions {
+    static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+    static constexpr std::size_t most_open_of_reader = 32;
+
+    // Which stations have a database; none: every ICAO.
+    std::shared_ptr<StationRule> stations;
+    // So many databases are open at once; each takes three descriptors.
+    std::size_t most_open = 256;
+    // The directory that raw files are dropped into, canonical. It is written down for those who
+    // read the files later (catalog/read_cataloged.h). Empty: what was written down stays.
+    std::filesystem::path drop;
+    // What rows may take: of files of no known station, of one station's files, and of all.
+    std::uint64_t most_unknown_bytes = std::uint64_t{64} << 20;
+    std::uint64_t most_station_bytes = std::uint64_t{1} << 30;
+    std::uint64_t most_bytes = no_limit;
+};
+
+// What is wrong with the database of a station; empty: with that of files without one.
+struct Trouble {
+    std::string station;
+    Error error;
+};
+
+// Databases of stations that are not known.
+struct LeftAlone {
+    std::size_t count = 0;
+    std::vector<std::string> some;  // the first few names
+};
+
+struct Rolled {
+    std::int64_t rows = 0;         // were deleted
+    std::uint64_t used_bytes = 0;  // by the rows of all databases, after it
+};
+
+// By the rule `any`, admits the stations that have a database in the directory; see
+// Catalog::open_for_writing().
+Status admit_existing(const std::filesystem::path& directory, StationRule& rule);
 
 class Catalog {
   public:
-    // Creates the directory when it is missing.
-    static Result<Catalog> open_for_writing(std::filesystem::path directory);
+    // Creates the directory when it is missing. By the rule `any` the stations that have a database
+    // already are admitted, the newest database first, as far as the rule's bound allows.
+    static Result<Catalog> open_for_writing(std::filesystem::path directory,
+                                            CatalogOptions options = {});
     // Never creates or changes anything; not_found when the directory does not exist.
     static Result<Catalog> open_for_reading(std::filesystem::path directory);
     Catalog(Catalog&&) noexcept;
@@ -113,7 +167,8 @@ class Catalog {
     // A file of which is_known() said that it has no row, as seen; what somebody else has written
     // of it meanwhile stays.
     Status note_file(const FileFacts& facts);
-    // The same as register_file() of several files of one station, all of them or none.
+    // The same as register_file() of several files of one station, all of them or none; rows that
+    // find no room are left out.
     Status register_files(const std::string& station, const std::vector<FileFacts>& files);
     // Marks rows whose raw file no longer exists as gone; gives how many were marked.
     Result<int> mark_gone(const std::filesystem::path& path);
@@ -129,6 +184,11 @@ class Catalog {
     // `step` is called after each station and every 1,000 rows.
     Result<int> forget_gone(UtcTime before, const std::function<void()>& step = {});
 
+    // Deletes rows of files that are gone, the oldest first, where they take more than they may:
+    // first in each database beyond its own bound, then in the largest while all are beyond theirs.
+    // Rows of files that are there are never deleted. To be called now and then, as forget_gone().
+    Result<Rolled> roll(const std::function<void()>& step = {});
+
     // True when the path stands in the catalog with this size and modification time and was decoded
     // to its end (complete, partial or rejected): nothing to do again.
     Result<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
@@ -137,8 +197,18 @@ class Catalog {
     // True when the path stands in the catalog, in any state.
     Result<bool> is_known(const std::filesystem::path& path);
 
-    // The stations that have a database, sorted; "" for files without one comes first.
+    // The known stations that have a database, sorted; "" for files without one comes first.
     [[nodiscard]] Result<std::vector<std::string>> station_names() const;
+    // The databases of other stations, which stand there and are not opened.
+    [[nodiscard]] Result<LeftAlone> left_alone() const;
+    // Which databases could not be used when they were asked last, and why; by station. One is
+    // added when its trouble begins, and removed when it can be used again.
+    [[nodiscard]] std::vector<Trouble> troubles() const;
+    // The directory that raw files are dropped into, as the writer wrote it down; not_found where
+    // no writer did.
+    [[nodiscard]] Result<std::filesystem::path> drop_directory() const;
+    // How many databases are open.
+    [[nodiscard]] std::size_t open_databases() const;
     // Reads the whole database of a station ("": of files without one), and mends it where it is
     // damaged. For a writer. Errors: those of a database that cannot be looked at or mended.
     Status examine(std::string_view station);
@@ -147,11 +217,15 @@ class Catalog {
     // What was mended since the last call.
     std::vector<Repair> take_repairs();
 
+    // Of all stations whose databases can be read.
     Result<std::vector<StationSummary>> stations();
     Result<std::vector<CatalogEntry>> list(std::string_view station, const Query& query);
     // The entry with the latest or oldest start; none when the station has no volume.
     Result<std::optional<CatalogEntry>> latest(std::string_view station);
     Result<std::optional<CatalogEntry>> oldest(std::string_view station);
+    // The row of a file in that station's database, without a volume; none where it has no row.
+    Result<std::optional<CatalogEntry>> find_file(std::string_view station,
+                                                  const std::filesystem::path& path);
     [[nodiscard]] const std::filesystem::path& directory() const;
 
   private:
@@ -160,6 +234,8 @@ class Catalog {
     Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
                                              std::uint64_t size_bytes, std::int64_t modified_ns);
     Status forget_elsewhere(const std::filesystem::path& path, const std::string& name);
+    template <class Work>
+    auto ask(std::string_view station, Work work);
     explicit Catalog(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <system_error>
 
-#include <sys/stat.h>
-
 #include "base/station_table.h"
 
 namespace stormcellar::catalog {
@@ -15,6 +13,16 @@ namespace fs = std::filesystem;
 // The rows of one database that are looked through for strays while a new file waits: some
 // milliseconds. Larger ones are looked through with mark_missing().
 constexpr std::int64_t most_looked_through = 10'000;
+
+// So long a database that was in trouble is not tried on behalf of other stations.
+constexpr std::chrono::seconds between_tries{10};
+
+// A try that took longer is not made again within that time on behalf of its own station, either.
+constexpr std::chrono::seconds longest_try{1};
+
+// So many databases are closed when descriptors run out: room for one, and for what else the
+// process wants to open just then.
+constexpr std::size_t closed_when_out = 8;
 
 std::string summary_of(const std::vector<std::string>& damage) {
     std::string first = damage.front().substr(0, damage.front().find('\n'));
@@ -28,52 +36,7 @@ std::string station_of(const std::string& name) {
     return name == unknown_station ? std::string{} : name;
 }
 
-FileIdentity FileIdentity::of(const fs::path& path) {
-    struct stat facts {};
-    if (::stat(path.c_str(), &facts) != 0) return {};
-    return {facts.st_dev, facts.st_ino};
-}
-
-Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
-    const fs::path path = path_of(name);
-    if (place.database && place.file != FileIdentity::of(path)) {
-        place.database.reset();  // what we write there would be seen by nobody
-        is_listing_old_ = true;
-        if (writing) note_repair({station_of(name), path, {}, "was deleted or replaced"});
-    }
-    if (place.database) return {};
-    if (writing) {
-        if (Status adopted = adopt_mended_database(path); !adopted) return adopted;
-    }
-    std::error_code ignored;
-    if (!(writing && create) && !fs::exists(path, ignored)) {
-        return fail(ErrorCode::not_found, "{}: the catalog knows no station {}", directory.native(),
-                    name);
-    }
-    auto opened = writing ? StationDatabase::open_for_writing(path, station_of(name))
-                          : StationDatabase::open_for_reading(path, station_of(name));
-    if (!opened) return pass_on(opened);
-    place.database = std::move(*opened);
-    place.file = FileIdentity::of(path);
-    place.strays = Strays::unknown;
-    is_listing_old_ = true;
-    return {};
-}
-
-bool Catalog::Impl::mend(Slot& place, const std::string& name) {
-    place.database.reset();
-    place.strays = Strays::unknown;
-    const fs::path path = path_of(name);
-    const auto found = examine_database(path);
-    if (!found || found->foreign) return false;
-    if (found->damage.empty()) return true;
-    auto repair = repair_database(path, station_of(name), summary_of(found->damage));
-    if (!repair) return false;
-    note_repair(std::move(*repair));
-    return true;
-}
-
-Result<std::vector<std::string>> Catalog::Impl::names() const {
+Result<std::vector<std::string>> database_names(const fs::path& directory) {
     std::vector<std::string> found;
     std::error_code error;
     for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
@@ -89,11 +52,146 @@ Result<std::vector<std::string>> Catalog::Impl::names() const {
     return found;
 }
 
+bool Catalog::Impl::knows(std::string_view station) const {
+    return options.stations ? options.stations->knows(station) : is_icao(station);
+}
+
+Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
+    const fs::path path = path_of(name);
+    // It is looked at also where it was closed to make room: rows that are lost with a file that
+    // somebody deleted must be made again.
+    if (place.file != FileIdentity{} && place.file != FileIdentity::of(path)) {
+        databases.close(place);  // what we write there would be seen by nobody
+        place.file = {};
+        place.strays = Strays::unknown;
+        is_listing_old_ = true;
+        if (writing) note_repair({station_of(name), path, {}, "was deleted or replaced"});
+    }
+    if (place.database) return {};
+    if (writing) {
+        if (Status adopted = adopt_mended_database(path); !adopted) return adopted;
+    }
+    std::error_code ignored;
+    if (!(writing && create) && !fs::exists(path, ignored)) {
+        return fail(ErrorCode::not_found, "{}: the catalog knows no station {}", directory.native(),
+                    name);
+    }
+    databases.make_room(place);
+    auto opened = open_database(name);
+    if (!opened && is_out_of_descriptors() && databases.close_idle(closed_when_out) > 0) {
+        opened = open_database(name);
+    }
+    if (!opened) {
+        databases.close(place);
+        return pass_on(opened);
+    }
+    place.database = std::move(*opened);
+    if (place.file == FileIdentity{}) is_listing_old_ = true;
+    place.file = FileIdentity::of(path);
+    return {};
+}
+
+Result<std::unique_ptr<StationDatabase>> Catalog::Impl::open_database(const std::string& name) {
+    const fs::path path = path_of(name);
+    if (!writing) return StationDatabase::open_for_reading(path, station_of(name));
+    auto opened = StationDatabase::open_for_writing(path, station_of(name));
+    if (opened) {
+        (*opened)->set_most_bytes(name == unknown_station ? options.most_unknown_bytes
+                                                          : options.most_station_bytes);
+    }
+    return opened;
+}
+
+bool Catalog::Impl::mend(Slot& place, const std::string& name) {
+    databases.close(place);
+    place.file = {};
+    place.strays = Strays::unknown;
+    const fs::path path = path_of(name);
+    const auto found = examine_database(path);
+    if (!found || found->foreign) return false;
+    if (found->damage.empty()) return true;
+    auto repair = repair_database(path, station_of(name), summary_of(found->damage));
+    if (!repair) return false;
+    note_repair(std::move(*repair));
+    return true;
+}
+
+void Catalog::Impl::note_outcome(const std::string& name, const Error* error,
+                                 std::chrono::steady_clock::time_point began) {
+    // A full disk is no station's trouble, and a database that is not there is none.
+    const bool is_trouble = error != nullptr && error->code != ErrorCode::not_found &&
+                            error->code != ErrorCode::no_space;
+    if (!is_trouble && !has_troubles_) return;
+    const std::scoped_lock lock(troubles_mutex_);
+    if (is_trouble) {
+        const auto now = std::chrono::steady_clock::now();
+        troubles_.insert_or_assign(name, Standing{*error, began, now});
+    } else if (error == nullptr || error->code == ErrorCode::not_found) {
+        troubles_.erase(name);
+    }
+    has_troubles_ = !troubles_.empty();
+}
+
+std::vector<Trouble> Catalog::Impl::troubles() const {
+    const std::scoped_lock lock(troubles_mutex_);
+    std::vector<Trouble> found;
+    for (const auto& [name, standing] : troubles_)
+        found.push_back({station_of(name), standing.error});
+    return found;
+}
+
+std::optional<Catalog::Impl::Standing> Catalog::Impl::recently_tried(
+    const std::string& name) const {
+    if (!has_troubles_) return std::nullopt;
+    const std::scoped_lock lock(troubles_mutex_);
+    const auto found = troubles_.find(name);
+    if (found == troubles_.end()) return std::nullopt;
+    const bool is_recent = std::chrono::steady_clock::now() - found->second.tried < between_tries;
+    return is_recent ? std::optional{found->second} : std::nullopt;
+}
+
+std::optional<Error> Catalog::Impl::recent_trouble(const std::string& name) const {
+    const auto standing = recently_tried(name);
+    return standing ? std::optional{standing->error} : std::nullopt;
+}
+
+std::optional<Error> Catalog::Impl::slow_trouble(const std::string& name) const {
+    const auto standing = recently_tried(name);
+    const bool was_slow = standing && standing->tried - standing->began > longest_try;
+    return was_slow ? std::optional{standing->error} : std::nullopt;
+}
+
+Result<std::vector<std::string>> Catalog::Impl::names() {
+    auto found = database_names(directory);
+    if (!found && is_out_of_descriptors() && databases.close_idle(closed_when_out) > 0) {
+        found = database_names(directory);
+    }
+    if (found) {
+        std::erase_if(*found, [&](const std::string& name) {
+            return name != unknown_station && !knows(name);
+        });
+    }
+    return found;
+}
+
+// A path that seemed to be of no known station may seem to be of one that was admitted since.
+// With listed_mutex_.
+void Catalog::Impl::look_for_admitted_stations() {
+    if (!options.stations || options.stations->kind() != StationRule::Kind::any) return;
+    const std::size_t admitted = options.stations->further().size();
+    if (std::exchange(admitted_, admitted) == admitted) return;
+    is_listing_old_ = true;
+    const OpenDatabases::Lease place = databases.lease(std::string{unknown_station});
+    const std::scoped_lock lock(place->mutex);
+    place->strays = Strays::unknown;
+}
+
 Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::path& path) {
     if (!writing) return names();
     std::vector<std::string> found;
     {
         const std::scoped_lock lock(listed_mutex_);
+        look_for_admitted_stations();
         if (is_listing_old_.exchange(false) || !listed_) {
             auto now = names();
             if (!now) {
@@ -104,7 +202,7 @@ Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::pa
         }
         found = *listed_;
     }
-    const std::string_view home = guessed_home(path.native());
+    const std::string_view home = home_of(path.native());
     std::erase_if(found,
                   [&](const std::string& name) { return name != home && !may_have_strays(name); });
     return found;
@@ -112,33 +210,34 @@ Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::pa
 
 std::vector<fs::path> Catalog::Impl::paths_below(StationDatabase& database, const fs::path& below,
                                                  const std::string& name) {
-    Slot& place = slot(name);
-    if (place.strays == Strays::unknown || place.strays == Strays::too_many_rows) {
+    const OpenDatabases::Lease place = databases.lease(name);
+    if (place->strays == Strays::unknown || place->strays == Strays::too_many_rows) {
         const auto has_one =
-            database.has_path([&](std::string_view path) { return guessed_home(path) != name; });
-        place.strays = *has_one ? Strays::some : Strays::none;
+            database.has_path([&](std::string_view path) { return home_of(path) != name; });
+        place->strays = *has_one ? Strays::some : Strays::none;
     }
     return database.paths_below(below);
 }
 
 bool Catalog::Impl::may_have_strays(const std::string& name) {
-    Slot& place = slot(name);
-    if (place.strays == Strays::unknown) {
-        const std::scoped_lock lock(place.mutex);
-        // Damage is mended where the database is asked, or its own station's files come.
-        const auto looked = attempt(place, name, false, [&](StationDatabase& database) {
-            if (place.strays != Strays::unknown) return true;  // somebody else did meanwhile
-            const auto has_one =
-                database.has_path([&](std::string_view path) { return guessed_home(path) != name; },
-                                  most_looked_through);
-            place.strays = !has_one   ? Strays::too_many_rows
-                           : *has_one ? Strays::some
-                                      : Strays::none;
-            return true;
-        });
-        if (!looked && looked.error().code == ErrorCode::not_found) is_listing_old_ = true;
+    const OpenDatabases::Lease place = databases.lease(name);
+    if (place->strays != Strays::unknown) return place->strays != Strays::none;
+    if (recent_trouble(name)) return true;
+    const std::scoped_lock lock(place->mutex);
+    const auto began = std::chrono::steady_clock::now();
+    // Damage is mended where the database is asked, or its own station's files come.
+    const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
+        if (place->strays != Strays::unknown) return true;  // somebody else did meanwhile
+        const auto has_one = database.has_path(
+            [&](std::string_view path) { return home_of(path) != name; }, most_looked_through);
+        place->strays = !has_one ? Strays::too_many_rows : *has_one ? Strays::some : Strays::none;
+        return true;
+    });
+    if (!looked && looked.error().code == ErrorCode::not_found) is_listing_old_ = true;
+    if (!looked && looked.error().code != ErrorCode::corrupt) {
+        note_outcome(name, &looked.error(), began);
     }
-    return place.strays != Strays::none;
+    return place->strays != Strays::none;
 }
 
 }  // namespace stormcellar::catalog

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -17,9 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include <sys/types.h>
-
 #include "catalog/catalog.h"
+#include "catalog/open_databases.h"
 #include "catalog/path_homes.h"
 #include "catalog/station_database.h"
 
@@ -30,35 +30,21 @@ inline constexpr std::string_view database_ending = ".sqlite";
 // Of a database's name; empty: of files whose station is not known.
 [[nodiscard]] std::string station_of(const std::string& name);
 
-// Tells whether a path still names the file that it named.
-struct FileIdentity {
-    dev_t device = 0;
-    ino_t inode = 0;
-    bool operator==(const FileIdentity&) const = default;
-
-    static FileIdentity of(const std::filesystem::path& path);
-};
-
-// Whether a database has a row of a path whose guessed_home() is another.
-enum class Strays : std::uint8_t {
-    unknown,
-    none,
-    some,
-    too_many_rows,  // to look through them while a file waits; mark_missing() does
-};
+// The names of the databases in a directory, sorted, whatever their stations.
+[[nodiscard]] Result<std::vector<std::string>> database_names(
+    const std::filesystem::path& directory);
 
 struct Catalog::Impl {
-    struct Slot {
-        std::mutex mutex;  // guards what follows
-        std::unique_ptr<StationDatabase> database;
-        FileIdentity file;
-        std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
-    };
+    Impl(std::filesystem::path its_directory, CatalogOptions its_options, bool is_writing)
+        : directory(std::move(its_directory)),
+          options(std::move(its_options)),
+          writing(is_writing),
+          databases(options.most_open) {}
 
-    std::filesystem::path directory;
-    bool writing = false;
-    std::mutex slots_mutex;  // guards the map, not what its slots hold
-    std::map<std::string, std::unique_ptr<Slot>, std::less<>> slots;
+    const std::filesystem::path directory;
+    const CatalogOptions options;
+    const bool writing;
+    OpenDatabases databases;
     PathHomes homes;
     std::mutex repairs_mutex;  // guards repairs
     std::vector<Repair> repairs;
@@ -67,24 +53,41 @@ struct Catalog::Impl {
         return directory / (name + std::string{database_ending});
     }
 
-    Slot& slot(const std::string& name) {
-        const std::scoped_lock lock(slots_mutex);
-        auto& place = slots[name];
-        if (!place) place = std::make_unique<Slot>();
-        return *place;
+    // Whether a station may have a database of its own.
+    [[nodiscard]] bool knows(std::string_view station) const;
+    // The database that a station's rows stand in. Nothing unchecked becomes a file name.
+    [[nodiscard]] std::string name_for(std::string_view station) const {
+        return std::string{knows(station) ? station : unknown_station};
+    }
+    [[nodiscard]] std::string_view home_of(std::string_view path) const {
+        return guessed_home(path, options.stations.get());
     }
 
     // Runs `work` on the database of that name, opened when need be, and mended when it is damaged.
-    // Missing databases are created when writing and `create` is set; else not_found.
+    // Missing databases are created when writing and `create` is set; else not_found. What fails is
+    // a trouble of that station until a later call succeeds.
     template <class Work>
     auto with(const std::string& name, bool create, Work work)
         -> Result<decltype(work(std::declval<StationDatabase&>()))> {
-        Slot& place = slot(name);
-        const std::scoped_lock lock(place.mutex);
-        auto done = attempt(place, name, create, work);
-        if (done || !writing || done.error().code != ErrorCode::corrupt) return done;
-        if (!mend(place, name)) return done;
-        return attempt(place, name, create, work);
+        const OpenDatabases::Lease place = databases.lease(name);
+        const std::scoped_lock lock(place->mutex);
+        if (auto slow = slow_trouble(name)) return tl::unexpected<Error>(std::move(*slow));
+        const auto began = std::chrono::steady_clock::now();
+        auto done = attempt(*place, name, create, work);
+        if (!done && writing && done.error().code == ErrorCode::corrupt && mend(*place, name)) {
+            done = attempt(*place, name, create, work);
+        }
+        note_outcome(name, done ? nullptr : &done.error(), began);
+        return done;
+    }
+
+    // The same on behalf of another station: a database that was in trouble seconds ago is not
+    // tried again, as that may take as long as a disk takes to give up.
+    template <class Work>
+    auto with_neighbor(const std::string& name, Work work)
+        -> Result<decltype(work(std::declval<StationDatabase&>()))> {
+        if (auto recent = recent_trouble(name)) return tl::unexpected<Error>(std::move(*recent));
+        return with(name, false, std::move(work));
     }
 
     template <class Work>
@@ -95,12 +98,12 @@ struct Catalog::Impl {
         const bool is_snapshot = place.database->is_snapshot();
         try {
             auto done = work(*place.database);
-            if (is_snapshot) place.database.reset();
+            if (is_snapshot) databases.close(place);
             return done;
         } catch (const SQLite::Exception& error) {
             // Where a file cannot be opened for writing, SQLite opens it for reading, and stays so.
             const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
-            if (is_snapshot || is_stuck) place.database.reset();
+            if (is_snapshot || is_stuck) databases.close(place);
             return fail(code_of(error), "{}: {}", path.native(), error.what());
         }
     }
@@ -113,12 +116,13 @@ struct Catalog::Impl {
         const std::scoped_lock lock(repairs_mutex);
         repairs.push_back(std::move(repair));
     }
+    [[nodiscard]] std::vector<Trouble> troubles() const;
 
-    // The names of all databases in the directory, sorted.
-    [[nodiscard]] Result<std::vector<std::string>> names() const;
+    // The names of the databases in the directory whose stations are known, sorted.
+    [[nodiscard]] Result<std::vector<std::string>> names();
 
     // The names of those that may have a row of the path. A row in another database than
-    // guessed_home() says is a stray: of a file that is named like one station and holds another's,
+    // home_of() says is a stray: of a file that is named like one station and holds another's,
     // or none's. A writer, who sees all that is written, knows which databases have any: few, so a
     // new file is not looked for in every station's.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
@@ -129,14 +133,35 @@ struct Catalog::Impl {
                                                                  const std::string& name);
     // Called before the row is written, with the slot's mutex held.
     void expect_row(const std::filesystem::path& path, const std::string& name) {
-        if (guessed_home(path.native()) != name) slot(name).strays = Strays::some;
+        if (home_of(path.native()) != name) databases.lease(name)->strays = Strays::some;
     }
 
   private:
+    [[nodiscard]] Result<std::unique_ptr<StationDatabase>> open_database(const std::string& name);
     [[nodiscard]] bool may_have_strays(const std::string& name);
+    void look_for_admitted_stations();
+    // Notes a trouble, or with no error that it is over.
+    void note_outcome(const std::string& name, const Error* error,
+                      std::chrono::steady_clock::time_point began);
+    // The trouble of a database that was tried seconds ago.
+    [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
+    // The same where the try took long, as of a database that somebody has locked: its own files
+    // do not try again at once, either, for who waits here is missing for the other stations.
+    [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;
+
+    struct Standing {
+        Error error;
+        std::chrono::steady_clock::time_point began, tried;
+    };
+    [[nodiscard]] std::optional<Standing> recently_tried(const std::string& name) const;
+    std::atomic<bool> has_troubles_ = false;
+    mutable std::mutex troubles_mutex_;  // guards troubles_
+    std::map<std::string, Standing, std::less<>> troubles_;
+
     // What names() gave, until a database is opened or found to have gone. Of a writer.
     std::mutex listed_mutex_;
     std::optional<std::vector<std::string>> listed_;
+    std::size_t admitted_ = 0;  // stations by the rule `any`, when names were listed last
     std::atomic<bool> is_listing_old_ = false;
 };
 

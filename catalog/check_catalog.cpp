@@ -6,8 +6,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sys/stat.h>
 
+#include "base/file_system.h"
 #include "base/station_table.h"
-#include "catalog/catalog.h"
+#include "catalog/catalog_parts.h"
 #include "catalog/path_homes.h"
 #include "catalog/repair.h"
 #include "catalog/station_database.h"
@@ -25,7 +26,10 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
     ++check.files;
     const fs::path path = row.getColumn(0).getString();
     const std::string state = row.getColumn(3).getString();
-    if (state == file_state_name(FileState::gone)) return;
+    if (state == file_state_name(FileState::gone)) {
+        ++check.gone;
+        return;
+    }
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) {
         check.missing.push_back(path);
@@ -67,12 +71,14 @@ Result<StationCheck> check_station(const fs::path& database) {
 }  // namespace
 
 bool CatalogCheck::is_sound() const {
-    return std::all_of(stations.begin(), stations.end(), [](const StationCheck& check) {
-        return check.damage.empty() && check.missing.empty() && check.changed.empty();
-    });
+    return troubles.empty() &&
+           std::all_of(stations.begin(), stations.end(), [](const StationCheck& check) {
+               return check.damage.empty() && check.missing.empty() && check.changed.empty();
+           });
 }
 
-Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view station) {
+Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view station,
+                                   const StationRule* stations) {
     std::error_code error;
     std::vector<fs::path> databases;
     CatalogCheck found;
@@ -99,10 +105,59 @@ Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view s
     std::sort(found.set_aside.begin(), found.set_aside.end());
     for (const fs::path& database : databases) {
         auto check = check_station(database);
-        if (!check) return pass_on(check);
-        found.stations.push_back(std::move(*check));
+        if (check) {
+            check->is_known =
+                check->station.empty() || stations == nullptr || stations->knows(check->station);
+            found.stations.push_back(std::move(*check));
+        } else {
+            const std::string stem = database.stem().native();
+            found.troubles.push_back({station_of(stem), check.error()});
+        }
     }
     return found;
+}
+
+namespace {
+
+// Its rows, where it is a sound database of ours.
+Result<ClearedDatabase> count_rows(const fs::path& database) {
+    const auto check = check_station(database);
+    if (!check) return pass_on(check);
+    if (!check->damage.empty()) {
+        return fail(ErrorCode::corrupt, "{}: {}", database.native(), check->damage.front());
+    }
+    ClearedDatabase counted{check->station, check->files, 0};
+    counted.there = check->files - check->gone - static_cast<std::int64_t>(check->missing.size());
+    return counted;
+}
+
+}  // namespace
+
+Result<ClearReport> clear_unknown(const fs::path& directory, const StationRule& stations) {
+    const auto names = database_names(directory);
+    if (!names) return pass_on(names);
+    ClearReport report;
+    FileSystem& disk = real_file_system();
+    for (const std::string& name : *names) {
+        if (name == unknown_station || stations.knows(name)) continue;
+        const fs::path database = directory / (name + std::string{database_ending});
+        const auto counted = count_rows(database);
+        Status removed = counted ? Status{} : pass_on(counted);
+        for (const char* ending : {"", "-wal", "-shm"}) {
+            if (!removed) break;
+            removed = disk.remove(database.native() + ending);
+            const bool was_there = removed || removed.error().code != ErrorCode::not_found;
+            if (!was_there && *ending != '\0') removed = {};
+        }
+        if (removed) {
+            report.cleared.push_back(*counted);
+        } else {
+            report.kept.push_back({name, removed.error()});
+        }
+    }
+    if (report.cleared.empty()) return report;
+    if (Status synced = disk.sync_directory(directory); !synced) return pass_on(synced);
+    return report;
 }
 
 }  // namespace stormcellar::catalog

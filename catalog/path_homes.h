@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "base/checksum.h"
+#include "base/station_rule.h"
 
 namespace stormcellar::catalog {
 
@@ -25,9 +26,11 @@ namespace stormcellar::catalog {
 inline constexpr std::string_view unknown_station = "_unknown";
 
 // The station that a path seems to belong to: by its name, its directory's (KTLX/FILE) or the one's
-// above (KTLX/123/CHUNK); else unknown_station.
+// above (KTLX/123/CHUNK); else unknown_station. Where a rule is given, a name that it does not know
+// says nothing, so that names of files alone make nothing.
 // The view is of the path's own bytes or of unknown_station.
-[[nodiscard]] std::string_view guessed_home(std::string_view path);
+[[nodiscard]] std::string_view guessed_home(std::string_view path,
+                                            const StationRule* rule = nullptr);
 
 class PathHomes {
   public:

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/file_system.h"
+#include "catalog/read_cataloged.h"
 
 namespace stormcellar::catalog {
 namespace {
 
-// The path that the catalog has for a file name; the newest when several directories have it.
-Result<std::filesystem::path> path_of(Catalog& catalog, const std::string& station,
-                                      const std::string& name) {
+// What the catalog has for a file name; the newest when several directories have it.
+Result<CatalogEntry> entry_of(Catalog& catalog, const std::string& station,
+                              const std::string& name) {
     auto entries = catalog.list(station, Query{});
     if (!entries) return pass_on(entries);
     const auto found = std::find_if(entries->rbegin(), entries->rend(), [&](const auto& entry) {
@@ -19,7 +19,7 @@ Result<std::filesystem::path> path_of(Catalog& catalog, const std::string& stati
     if (found == entries->rend()) {
         return fail(ErrorCode::not_found, "{}: the catalog has no file {}", station, name);
     }
-    return found->path;
+    return *found;
 }
 
 }  // namespace
@@ -42,13 +42,12 @@ Result<std::vector<RadarSet>> RadarSet::open_all(const std::filesystem::path& ca
 
 Result<RadarSet> RadarSet::open(const std::filesystem::path& catalog_directory,
                                 const std::string& station) {
-    auto sets = open_all(catalog_directory);
-    if (!sets) return pass_on(sets);
-    for (RadarSet& set : *sets) {
-        if (set.station() == station) return std::move(set);
-    }
-    return fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
-                catalog_directory.native(), station);
+    auto opened = Catalog::open_for_reading(catalog_directory);
+    if (!opened) return pass_on(opened);
+    if (station.empty()) return fail(ErrorCode::bad_argument, "the station has no name");
+    // Its own database is the only one that has to be sound.
+    if (const auto newest = opened->latest(station); !newest) return pass_on(newest);
+    return RadarSet(std::make_shared<Catalog>(std::move(*opened)), station);
 }
 
 Result<std::vector<std::string>> RadarSet::build_data_list(UtcTime from, UtcTime to) const {
@@ -72,15 +71,21 @@ Result<std::string> RadarSet::oldest_file_name() const {
 }
 
 Result<std::vector<std::byte>> RadarSet::radar_file(const std::string& name) const {
-    const auto path = path_of(*catalog_, station_, name);
-    if (!path) return pass_on(path);
-    return read_file(*path);
+    const auto entry = entry_of(*catalog_, station_, name);
+    if (!entry) return pass_on(entry);
+    auto read = read_cataloged(*catalog_, *entry);
+    if (!read) return pass_on(read);
+    return std::move(read->bytes);
 }
 
 Result<level2::Decoded> RadarSet::read_radar(const std::string& name) const {
-    const auto path = path_of(*catalog_, station_, name);
-    if (!path) return pass_on(path);
-    return level2::decode_file(*path);
+    const auto bytes = radar_file(name);
+    if (!bytes) return pass_on(bytes);
+    level2::DecodeOptions options;
+    options.fallback_station = station_;
+    auto decoded = level2::decode(*bytes, options);
+    if (!decoded) return fail(decoded.error().code, "{}: {}", name, decoded.error().message);
+    return decoded;
 }
 
 }  // namespace stormcellar::catalog

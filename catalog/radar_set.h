@@ -1,7 +1,8 @@
 // catalog/radar_set.h -- one object a station: its files in time, raw and decoded.
 //
 // The shape is that of the 2008 paper's storage-broker client, so that programs written to it can
-// be moved. Thread contract: as Catalog.
+// be moved. A file is given only where it is still the one that was cataloged
+// (catalog/read_cataloged.h). Thread contract: as Catalog.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ namespace stormcellar::catalog {
 
 class RadarSet {
   public:
-    // One for each station of a catalog directory, sorted by ICAO.
+    // One for each station of a catalog directory whose database can be read, sorted by ICAO.
     static Result<std::vector<RadarSet>> open_all(const std::filesystem::path& catalog_directory);
     // not_found when the catalog has no such station.
     static Result<RadarSet> open(const std::filesystem::path& catalog_directory,
@@ -32,8 +33,8 @@ class RadarSet {
     [[nodiscard]] Result<std::vector<std::string>> build_data_list(UtcTime from, UtcTime to) const;
     // not_found when the station has no volume.
     [[nodiscard]] Result<std::string> oldest_file_name() const;
-    // Raw bytes of a file named by build_data_list; not_found when the catalog or the disk has it
-    // no more.
+    // Raw bytes of a file named by build_data_list. Errors: not_found when the catalog or the disk
+    // has it no more, and those of read_cataloged().
     [[nodiscard]] Result<std::vector<std::byte>> radar_file(const std::string& name) const;
     [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
 

@@ -1,6 +1,8 @@
 #include "catalog/station_database.h"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace stormcellar::catalog {
@@ -49,9 +51,17 @@ std::optional<int> optional_int(const SQLite::Column& column) {
 
 constexpr const char* entry_columns =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, v.start_ms, v.end_ms, "
-    "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation ";
+    "v.number, v.vcp, v.sweep_count, v.radial_count, v.complete, v.generation, f.modified_ns, "
+    "f.content_hash ";
 constexpr const char* entry_join =
     "FROM volume v JOIN part p ON p.volume_id = v.id JOIN file f ON f.id = p.file_id ";
+constexpr const char* columns_without_volume =
+    "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "
+    "0, 0, 0, f.modified_ns, f.content_hash FROM file f ";
+
+// Rows that are deleted at once to make room, so that looking for them is rare.
+constexpr std::int64_t rows_a_batch = 1000;
+constexpr int most_batches = 8;
 
 }  // namespace
 
@@ -123,12 +133,15 @@ Registered StationDatabase::register_file(const FileFacts& facts) {
     return registered;
 }
 
-void StationDatabase::register_files(const std::vector<FileFacts>& files) {
+std::vector<fs::path> StationDatabase::register_files(const std::vector<FileFacts>& files) {
     set_durable(true);
     SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
-    for (const FileFacts& facts : files)
-        register_row(facts);
+    std::vector<fs::path> left_out;
+    for (const FileFacts& facts : files) {
+        if (register_row(facts) == Registered::left_out) left_out.push_back(facts.path);
+    }
     transaction.commit();
+    return left_out;
 }
 
 // Inside a transaction.
@@ -191,11 +204,14 @@ Registered StationDatabase::register_row(const FileFacts& facts) {
     bool is_same = false;
     const std::optional<std::int64_t> known = find_file(facts, is_same);
     if (is_same) return Registered::unchanged;
+    if (!known && !make_room()) return Registered::left_out;
     const std::int64_t file_id = write_file(facts);
+    if (facts.state == FileState::gone) may_have_gone_ = true;
     // The file's volumes are described anew: a growing file must not become its own re-send.
     if (known) drop_volumes(file_id);
     int ordinal = 0;
-    for (const VolumeFacts& volume : facts.volumes) {
+    const std::size_t kept = std::min(facts.volumes.size(), most_volumes_a_file);
+    for (const VolumeFacts& volume : std::span{facts.volumes}.first(kept)) {
         if (!volume.start_time) continue;  // metadata alone, with no time: nothing to look up
         insert_part(file_id, ordinal++, store_volume(file_id, facts.content_hash, volume));
     }
@@ -249,6 +265,7 @@ int StationDatabase::mark_gone(const std::vector<fs::path>& paths) {
         update.reset();
     }
     transaction.commit();
+    if (marked > 0) may_have_gone_ = true;
     return marked;
 }
 
@@ -309,6 +326,53 @@ int StationDatabase::forget_gone(std::span<const std::int64_t> rows, UtcTime bef
     return forgotten;
 }
 
+std::uint64_t StationDatabase::used_bytes() {
+    const auto ask = [&](const char* pragma) {
+        LentStatement row = prepared(pragma);
+        row->executeStep();
+        return row->getColumn(0).getInt64();
+    };
+    const std::int64_t pages = ask("PRAGMA page_count") - ask("PRAGMA freelist_count");
+    return static_cast<std::uint64_t>(pages * ask("PRAGMA page_size"));
+}
+
+bool StationDatabase::make_room() {
+    if (most_bytes_ == CatalogOptions::no_limit || used_bytes() < most_bytes_) return true;
+    for (int batch = 0; batch < most_batches && may_have_gone_; ++batch) {
+        // Others mark rows as gone through this object, too, so none stays none until then.
+        may_have_gone_ = delete_oldest_gone(rows_a_batch) == rows_a_batch;
+        if (used_bytes() < most_bytes_) return true;
+    }
+    return used_bytes() < most_bytes_;
+}
+
+std::int64_t StationDatabase::delete_oldest_gone(std::int64_t most) {
+    std::vector<std::int64_t> rows;
+    {
+        // The numbers rise in the order in which rows were made.
+        SQLite::Statement oldest(database_,
+                                 "SELECT id FROM file WHERE state = 'gone' ORDER BY id LIMIT ?");
+        oldest.bind(1, most);
+        while (oldest.executeStep())
+            rows.push_back(oldest.getColumn(0).getInt64());
+    }
+    for (const std::int64_t row : rows) {
+        drop_volumes(row);
+        LentStatement remove = prepared("DELETE FROM file WHERE id = ?");
+        remove->bind(1, row);
+        remove->exec();
+    }
+    return static_cast<std::int64_t>(rows.size());
+}
+
+std::int64_t StationDatabase::forget_oldest_gone(std::int64_t most) {
+    set_durable(false);
+    SQLite::Transaction transaction(database_, SQLite::TransactionBehavior::IMMEDIATE);
+    const std::int64_t deleted = delete_oldest_gone(most);
+    if (deleted > 0) transaction.commit();
+    return deleted;
+}
+
 std::optional<bool> StationDatabase::has_path(const std::function<bool(std::string_view)>& test,
                                               std::int64_t most) {
     {
@@ -363,9 +427,19 @@ std::vector<CatalogEntry> StationDatabase::entries(SQLite::Statement& rows) cons
         entry.volume.radial_count = rows.getColumn(10).getInt();
         entry.volume.complete = rows.getColumn(11).getInt() != 0;
         entry.generation = rows.getColumn(12).getInt();
+        entry.modified_ns = rows.getColumn(13).getInt64();
+        entry.content_hash = static_cast<std::uint64_t>(rows.getColumn(14).getInt64());
         found.push_back(std::move(entry));
     }
     return found;
+}
+
+std::optional<CatalogEntry> StationDatabase::find_file(const fs::path& path) {
+    SQLite::Statement row(database_, std::string{columns_without_volume} + "WHERE f.path = ?");
+    bind_path(row, 1, path);
+    std::vector<CatalogEntry> found = entries(row);
+    if (found.empty()) return std::nullopt;
+    return std::move(found.front());
 }
 
 std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
@@ -377,10 +451,9 @@ std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
     std::vector<CatalogEntry> found = entries(rows);
     if (query.with_rejected) {
         SQLite::Statement others(
-            database_,
-            "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, "
-            "NULL, 0, 0, 0, 0 FROM file f WHERE NOT EXISTS "
-            "(SELECT 1 FROM part p WHERE p.file_id = f.id) ORDER BY f.registered_ms, f.path");
+            database_, std::string{columns_without_volume} +
+                           "WHERE NOT EXISTS (SELECT 1 FROM part p WHERE p.file_id = f.id) "
+                           "ORDER BY f.registered_ms, f.path");
         for (CatalogEntry& entry : entries(others))
             found.push_back(std::move(entry));
     }

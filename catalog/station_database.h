@@ -61,9 +61,15 @@ class StationDatabase {
     // Opened as a file that nobody writes: what is written later is not seen by this object.
     [[nodiscard]] bool is_snapshot() const { return is_snapshot_; }
 
+    // From now on a new row is written only while the database takes less, or while rows of files
+    // that are gone can make room.
+    void set_most_bytes(std::uint64_t most_bytes) { most_bytes_ = most_bytes; }
+    // What its rows and indices take, without pages that are free.
+    std::uint64_t used_bytes();
+
     Registered register_file(const FileFacts& facts);
-    // All in one transaction.
-    void register_files(const std::vector<FileFacts>& files);
+    // All in one transaction; gives the paths of those that found no room.
+    std::vector<std::filesystem::path> register_files(const std::vector<FileFacts>& files);
     // Rows of files that are gone, verbatim but for their state; in one transaction. For a new
     // database.
     void restore_gone(const std::vector<SalvagedFile>& files);
@@ -76,6 +82,8 @@ class StationDatabase {
     std::vector<std::int64_t> gone_before(UtcTime before);
     // Deletes those of them that still are so, in one transaction; gives how many.
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
+    // Deletes the oldest of these, in one transaction; gives how many.
+    std::int64_t forget_oldest_gone(std::int64_t most);
     // Whether there is a row, in any state, of a path that `test` is true of. None where there may
     // be more than `most` rows, of which none is looked at then.
     std::optional<bool> has_path(const std::function<bool(std::string_view)>& test,
@@ -85,6 +93,7 @@ class StationDatabase {
                                    std::int64_t modified_ns);
 
     StationSummary summary();
+    std::optional<CatalogEntry> find_file(const std::filesystem::path& path);
     std::vector<CatalogEntry> list(const Query& query);
     std::optional<CatalogEntry> first(bool latest);
 
@@ -95,6 +104,9 @@ class StationDatabase {
     LentStatement prepared(const char* sql);
     void set_durable(bool durable);
     Registered register_row(const FileFacts& facts);
+    // Inside a transaction: whether a new row may be written.
+    bool make_room();
+    std::int64_t delete_oldest_gone(std::int64_t most);
     // The id of its row; is_same is set where the row says the same already.
     std::optional<std::int64_t> find_file(const FileFacts& facts, bool& is_same);
     std::int64_t write_file(const FileFacts& facts);
@@ -111,6 +123,8 @@ class StationDatabase {
     std::map<const char*, SQLite::Statement> statements_;
     bool is_snapshot_ = false;
     bool is_durable_ = true;  // of the next transaction, where it may write
+    std::uint64_t most_bytes_ = CatalogOptions::no_limit;
+    bool may_have_gone_ = true;  // rows of files that are gone; false: there are none
 };
 
 }  // namespace stormcellar::catalog

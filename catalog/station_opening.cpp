@@ -1,10 +1,15 @@
 // How a station's database is opened, made and recognised; what stands in it: station_database.cpp.
+#include <cerrno>
 #include <chrono>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/beneath.h"
 #include "catalog/database_uri.h"
 #include "catalog/schema.h"
 #include "catalog/station_database.h"
@@ -18,7 +23,24 @@ namespace fs = std::filesystem;
 constexpr int busy_timeout_ms = 10'000;
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
+    // SQLite says of a file without permission only that it cannot be opened.
+    const bool is_unopened = error.getErrorCode() == SQLITE_CANTOPEN;
+    if (is_unopened && ::access(path.c_str(), R_OK) != 0 && errno == EACCES) {
+        return fail(ErrorCode::permission, "{}: {}", path.native(),
+                    std::system_category().message(EACCES));
+    }
     return fail(code_of(error), "{}: {}", path.native(), error.what());
+}
+
+// SQLite would wait at a FIFO for somebody who writes to it.
+Status check_regular(const fs::path& path) {
+    for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
+        const fs::path file = path.native() + ending;
+        struct stat facts {};
+        if (::stat(file.c_str(), &facts) != 0 || S_ISREG(facts.st_mode)) continue;
+        return fail(ErrorCode::not_a_file, "{}: is {}", file.native(), kind_of_file(facts.st_mode));
+    }
+    return {};
 }
 
 // Whether the database is ours and of a version that we know; empty ones are ours to fill.
@@ -66,6 +88,8 @@ void enter_wal(SQLite::Database& database) {
 }
 
 void migrate(SQLite::Database& database) {
+    // To begin to write is to wait for whoever writes, which a database that stands need not.
+    if (database.execAndGet("PRAGMA user_version").getInt() >= schema_version) return;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     if (database.execAndGet("PRAGMA user_version").getInt() < 1) {
         database.exec(create_version_1);
@@ -79,7 +103,9 @@ void migrate(SQLite::Database& database) {
 // index exists; when there is no WAL nobody writes, and the file alone is the truth.
 template <class Open>
 auto try_to_read(const fs::path& path, Open open) -> decltype(open(std::string{})) {
-    const bool has_wal = fs::exists(fs::path{path.native() + "-wal"});
+    if (Status regular = check_regular(path); !regular) return pass_on(regular);
+    std::error_code ignored;
+    const bool has_wal = fs::exists(fs::path{path.native() + "-wal"}, ignored);
     for (const char* query : {"?mode=ro", "?mode=ro&immutable=1"}) {
         try {
             return open(uri_of(path, query));
@@ -117,6 +143,7 @@ StationDatabase::StationDatabase(const std::string& uri, int flags, std::string 
 
 Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const fs::path& path,
                                                                            std::string station) {
+    if (Status regular = check_regular(path); !regular) return pass_on(regular);
     try {
         std::unique_ptr<StationDatabase> opened(new StationDatabase(
             uri_of(path, ""), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, std::move(station)));

@@ -355,6 +355,8 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     const auto volumes = pipeline::archive_volumes(*catalog, plan->stations,
                                                    {*call.range.from, *call.range.to, between});
     if (!volumes) return pass_on(volumes);
+    for (const catalog::Trouble& trouble : catalog->troubles())
+        fmt::print(stderr, "stormcellar: warning: {}\n", printable(trouble.error.message));
     if (volumes->empty()) return std::optional<ArchiveGrids>{};
     note_without_volumes(call, *volumes);
     if (auto fit = check_cache_directory(plan->cache); !fit) return pass_on(fit);
@@ -366,7 +368,7 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     grids.directory = plan->cache;
     grids.mosaic = plan->mosaic;
     grids.domain = plan->mosaic ? plan->mosaic->name : plan->stations.front();
-    pipeline::ArchiveFill filling(*grids.store, plan->cache / ".catalog", plan->fill);
+    pipeline::ArchiveFill filling(*catalog, *grids.store, plan->cache / ".catalog", plan->fill);
     const auto missing = filling.missing(*volumes);
     if (!missing) return pass_on(missing);
     pipeline::ArchiveFill::DueFrames frames;

@@ -26,6 +26,8 @@ struct CatalogOptions {
     TimeRangeOptions times;
     bool rejected = false;
     bool json = false;
+    std::string stations = "known";
+    bool clear_unknown = false;
     GetOptions get;
 };
 
@@ -71,6 +73,13 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
     return entries.empty() ? report_nothing_matched() : exit_done;
 }
 
+// Databases that could not be read: each is its own station's trouble, the others were answered.
+int report_troubles(const Catalog& catalog, int status) {
+    for (const catalog::Trouble& trouble : catalog.troubles())
+        status = report_error(trouble.error);
+    return status;
+}
+
 int run_stations(const CatalogOptions& options) {
     auto opened = Catalog::open_for_reading(options.directory);
     if (!opened) return report_error(opened.error());
@@ -95,25 +104,23 @@ int run_stations(const CatalogOptions& options) {
                                   : "");
     }
     if (options.json) print_json(document);
-    return stations->empty() ? report_nothing_matched() : exit_done;
+    const int status = report_troubles(*opened, exit_done);
+    return stations->empty() && status == exit_done ? report_nothing_matched() : status;
 }
 
-// The entries that the options name, of one station or of all.
-Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options) {
+// The entries that the options name, of one station or of all whose databases can be read.
+Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options, Catalog& catalog) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
-    auto opened = Catalog::open_for_reading(options.directory);
-    if (!opened) return pass_on(opened);
     const catalog::Query query{range->from, range->to, options.rejected};
-    if (!options.station.empty()) return opened->list(options.station, query);
+    if (!options.station.empty()) return catalog.list(options.station, query);
 
-    const auto stations = opened->stations();
+    const auto stations = catalog.station_names();
     if (!stations) return pass_on(stations);
     std::vector<CatalogEntry> all;
-    for (const catalog::StationSummary& summary : *stations) {
-        auto entries = opened->list(summary.station, query);
-        if (!entries) return entries;
-        all.insert(all.end(), entries->begin(), entries->end());
+    for (const std::string& station : *stations) {
+        const auto entries = catalog.list(station, query);
+        if (entries) all.insert(all.end(), entries->begin(), entries->end());
     }
     return all;
 }
@@ -126,8 +133,14 @@ int report_query_error(const Error& error, const CatalogOptions& options) {
 }
 
 int run_list(const CatalogOptions& options) {
-    const auto entries = matching(options);
+    auto opened = Catalog::open_for_reading(options.directory);
+    if (!opened) return report_query_error(opened.error(), options);
+    const auto entries = matching(options, *opened);
     if (!entries) return report_query_error(entries.error(), options);
+    if (!opened->troubles().empty()) {
+        if (!entries->empty() || options.json) (void)print_entries(*entries, options.json);
+        return report_troubles(*opened, exit_failed);
+    }
     return print_entries(*entries, options.json);
 }
 
@@ -146,10 +159,12 @@ int run_one(const CatalogOptions& options, bool latest) {
 }
 
 int run_get(const CatalogOptions& options) {
-    const auto entries = matching(options);
+    auto opened = Catalog::open_for_reading(options.directory);
+    if (!opened) return report_query_error(opened.error(), options);
+    const auto entries = matching(options, *opened);
     if (!entries) return report_query_error(entries.error(), options);
     if (entries->empty()) return report_nothing_matched();
-    return get_files(*entries, options.get);
+    return get_files(*opened, *entries, options.get);
 }
 
 CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string& name,
@@ -193,6 +208,12 @@ Command add_catalog(CLI::App& app) {
                   "Set damaged databases aside and register what the drop directory holds");
     for (CLI::App* one : {check, rebuild})
         one->add_option("--station", options->station, station_help + "; all when left out");
+    for (CLI::App* one : {check, rebuild})
+        one->add_option("--stations", options->stations,
+                        "Which stations may have a database: known (those of the table), any, or a "
+                        "list as in known,XABC");
+    check->add_flag("--clear-unknown", options->clear_unknown,
+                    "Remove the databases of all other stations first (while no daemon runs)");
     rebuild->add_option("--drop", options->drop, "The directory that raw files are dropped into")
         ->required();
     for (CLI::App* one : {stations, list, latest, oldest, check, rebuild})
@@ -202,8 +223,8 @@ Command add_catalog(CLI::App& app) {
                 if (stations->parsed()) return run_stations(*options);
                 if (list->parsed()) return run_list(*options);
                 if (get->parsed()) return run_get(*options);
-                const CareOptions care{options->directory, options->drop, options->station,
-                                       options->json};
+                const CareOptions care{options->directory, options->drop,          options->station,
+                                       options->stations,  options->clear_unknown, options->json};
                 if (check->parsed()) return check_catalog(care);
                 if (rebuild->parsed()) return rebuild_catalog(care);
                 return run_one(*options, latest->parsed());

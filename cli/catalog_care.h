@@ -9,6 +9,9 @@ struct CareOptions {
     std::string directory;  // state/catalog
     std::string drop;       // of rebuild
     std::string station;    // empty: all
+    // Which stations are known: "known" (the table), "any", or a list of names and "known".
+    std::string stations = "known";
+    bool clear_unknown = false;  // of check: first remove the databases of other stations
     bool json = false;
 };
 

@@ -10,8 +10,7 @@
 #include "cli/commands.h"
 #include "cli/volume_export.h"
 #include "level2/decode.h"
-#include "pipeline/chunk_path.h"
-#include "pipeline/drop_names.h"
+#include "pipeline/cataloged_volume.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -61,36 +60,9 @@ class Targets {
     std::map<fs::path, fs::path> taken_;  // and the source of each
 };
 
-// The chunks of a volume in one file are a volume's file: what is joined is theirs, in the order of
-// their numbers, of each number one.
-Result<std::vector<std::byte>> read_chunks(const pipeline::ChunkPath& first) {
-    auto chunks = pipeline::chunks_beside(first);
-    if (!chunks) return pass_on(chunks);
-    chunks->insert(chunks->begin(), first);
-    std::vector<std::byte> joined;
-    int due = 1;
-    for (const pipeline::ChunkPath& chunk : *chunks) {
-        if (chunk.name.number < due) continue;  // a second one of its number
-        if (chunk.name.number > due) {
-            fmt::print(stderr, "{}: chunks are missing before this one\n",
-                       printable(chunk.path.native()));
-        }
-        due = chunk.name.number + 1;
-        const auto bytes = read_file(chunk.path);
-        if (!bytes) return pass_on(bytes);
-        joined.insert(joined.end(), bytes->begin(), bytes->end());
-    }
-    return joined;
-}
-
-// Where a volume came as one file a chunk, its row is that of the first.
-bool is_of_chunks(const CatalogEntry& entry) {
-    return entry.volume.start_time && pipeline::is_chunk_name(entry.path);
-}
-
 // As the archives name a volume's file: "KLOT20220317_000842".
 std::string name_of_file(const CatalogEntry& entry) {
-    if (!is_of_chunks(entry)) return entry.path.filename().string();
+    if (!pipeline::is_of_chunks(entry)) return entry.path.filename().string();
     const std::string time = format_utc(*entry.volume.start_time);  // 2022-03-17T00:08:42Z
     std::string name = entry.station;
     for (const char letter : time.substr(0, 19)) {
@@ -100,21 +72,19 @@ std::string name_of_file(const CatalogEntry& entry) {
     return name;
 }
 
-Result<std::vector<std::byte>> read_raw(const CatalogEntry& entry) {
-    const auto chunk = pipeline::ChunkPath::of(entry.path);
-    if (chunk && is_of_chunks(entry)) return read_chunks(*chunk);
-    auto bytes = read_file(entry.path);
-    if (bytes && bytes->size() != entry.size_bytes) {
-        return fail(ErrorCode::corrupt, "{}: has {} bytes and not the {} of the catalog",
-                    entry.path.native(), bytes->size(), entry.size_bytes);
-    }
-    return bytes;
+// With what is worth saying about it on stderr.
+Result<std::vector<std::byte>> read_raw(catalog::Catalog& catalog, const CatalogEntry& entry) {
+    auto volume = pipeline::read_cataloged_volume(catalog, entry);
+    if (!volume) return pass_on(volume);
+    for (const std::string& note : volume->notes)
+        fmt::print(stderr, "{}\n", printable(note));
+    return std::move(volume->bytes);
 }
 
-Status copy_raw(const MatchedFile& file, Targets& targets) {
+Status copy_raw(catalog::Catalog& catalog, const MatchedFile& file, Targets& targets) {
     const auto to = targets.claim(name_of_file(file.entry), file.entry.path);
     if (!to) return pass_on(to);
-    const auto bytes = read_raw(file.entry);
+    const auto bytes = read_raw(catalog, file.entry);
     if (!bytes) return pass_on(bytes);
     if (auto written = write_file_atomically(real_file_system(), *to, *bytes); !written) {
         return written;
@@ -130,8 +100,8 @@ std::string name_without_compression(const fs::path& path) {
     return (compressed ? path.stem() : path.filename()).string();
 }
 
-Result<level2::Decoded> decode_raw(const CatalogEntry& entry) {
-    const auto bytes = read_raw(entry);
+Result<level2::Decoded> decode_raw(catalog::Catalog& catalog, const CatalogEntry& entry) {
+    const auto bytes = read_raw(catalog, entry);
     if (!bytes) return pass_on(bytes);
     level2::DecodeOptions options;
     options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -143,8 +113,8 @@ Result<level2::Decoded> decode_raw(const CatalogEntry& entry) {
     return decoded;
 }
 
-Status write_decoded(const MatchedFile& file, Targets& targets) {
-    auto decoded = decode_raw(file.entry);
+Status write_decoded(catalog::Catalog& catalog, const MatchedFile& file, Targets& targets) {
+    auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
@@ -169,7 +139,8 @@ Status write_decoded(const MatchedFile& file, Targets& targets) {
 
 }  // namespace
 
-int get_files(const std::vector<CatalogEntry>& entries, const GetOptions& options) {
+int get_files(catalog::Catalog& catalog, const std::vector<CatalogEntry>& entries,
+              const GetOptions& options) {
     std::error_code error;
     fs::create_directories(options.output, error);
     if (error) {
@@ -179,7 +150,8 @@ int get_files(const std::vector<CatalogEntry>& entries, const GetOptions& option
     Targets targets(options);
     int status = exit_done;
     for (const MatchedFile& file : files_of(entries)) {
-        const Status done = options.decode ? write_decoded(file, targets) : copy_raw(file, targets);
+        const Status done = options.decode ? write_decoded(catalog, file, targets)
+                                           : copy_raw(catalog, file, targets);
         if (!done) status = report_error(done.error());
     }
     return status;

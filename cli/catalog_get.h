@@ -17,7 +17,9 @@ struct GetOptions {
 // Copies each file once under its own name; or writes each volume as NAME.nc, NAME without what
 // says that it is compressed, and as NAME_volumeN.nc when the file holds several. Prints the path
 // of each. Goes on after a failure; gives the exit status of the last one.
-[[nodiscard]] int get_files(const std::vector<catalog::CatalogEntry>& entries,
+// A file that is no longer the one that was cataloged is not copied and is a failure.
+[[nodiscard]] int get_files(catalog::Catalog& catalog,
+                            const std::vector<catalog::CatalogEntry>& entries,
                             const GetOptions& options);
 
 }  // namespace stormcellar::cli

@@ -1,12 +1,15 @@
 #include "pipeline/archive_fill.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <utility>
 
 #include "base/parallel.h"
 #include "cache/grid_file.h"
+#include "catalog/read_cataloged.h"
 #include "grid/grid_window.h"
+#include "pipeline/chunk_path.h"
 #include "pipeline/file_facts.h"
 #include "pipeline/ingest.h"
 #include "pipeline/mosaic_keeper.h"
@@ -89,11 +92,45 @@ std::string reason_of(const IngestOutcome& outcome, level2::Moment moment) {
     }
 }
 
-void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment moment,
-             Ledger& ledger) {
+// What the files of volumes are known by: a volume that came as one file a chunk by all of them.
+std::string key_of(const std::filesystem::path& path) {
+    const auto chunk = ChunkPath::of(path);
+    return chunk ? chunk->key : path.native();
+}
+
+// Whether files are those that the catalog has of these volumes.
+class CatalogedFiles {
+  public:
+    CatalogedFiles(catalog::Catalog& catalog, const std::vector<ArchiveVolume>& volumes)
+        : catalog_(catalog) {
+        for (const ArchiveVolume& volume : volumes)
+            stations_.emplace(key_of(volume.path), volume.station);
+    }
+    [[nodiscard]] Status check(const std::filesystem::path& path, std::uint64_t size_bytes,
+                               std::uint64_t content_hash) const {
+        const auto station = stations_.find(key_of(path));
+        if (station == stations_.end()) return is_unknown(path);
+        const auto row = catalog_.find_file(station->second, path);
+        if (!row) return pass_on(row);
+        if (!row->has_value()) return is_unknown(path);
+        return catalog::check_cataloged(**row, size_bytes, content_hash);
+    }
+
+  private:
+    static Status is_unknown(const std::filesystem::path& path) {
+        return fail(ErrorCode::corrupt, "{}: has come since, the catalog does not know it",
+                    path.native());
+    }
+
+    catalog::Catalog& catalog_;
+    std::map<std::string, std::string> stations_;
+};
+
+void take_in(Ingestor& ingestor, const ArchiveVolume& volume, const std::filesystem::path& root,
+             level2::Moment moment, Ledger& ledger) {
     const auto outcome = ingestor.ingest_again(volume.path);
     if (!outcome) {
-        const auto stamp = stamp_of(volume.path);
+        const auto stamp = stamp_of(volume.path, root);
         if (!stamp && stamp.error().code == ErrorCode::not_found) {
             ledger.left_out(volume.path, "is gone");
         } else {
@@ -108,9 +145,12 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment mom
 
 }  // namespace
 
-ArchiveFill::ArchiveFill(const cache::Store& store, std::filesystem::path scratch,
-                         ArchiveOptions options)
-    : store_(store), scratch_(std::move(scratch)), options_(std::move(options)) {}
+ArchiveFill::ArchiveFill(catalog::Catalog& catalog, const cache::Store& store,
+                         std::filesystem::path scratch, ArchiveOptions options)
+    : catalog_(catalog),
+      store_(store),
+      scratch_(std::move(scratch)),
+      options_(std::move(options)) {}
 
 std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
     return options_.domain ? options_.domain->name + "." + volume.station : volume.station;
@@ -133,7 +173,9 @@ Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     if (!file || !is_of_this_grid(file->description())) return false;
     const grid::Provenance& made_of = file->description().provenance;
     if (made_of.source_files != std::vector{volume.path.filename().string()}) return false;
-    const auto stamp = stamp_of(volume.path);
+    const auto root = catalog::root_of(catalog_, volume.path);
+    if (!root) return pass_on(root);
+    const auto stamp = stamp_of(volume.path, *root);
     if (!stamp) return stamp.error().code == ErrorCode::not_found;
     return stamp->modified_ns == made_of.source_modified_ns;
 }
@@ -191,16 +233,37 @@ std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) con
     return static_cast<std::uint64_t>((cells + echo) * bytes_a_cell + files * bytes_a_file);
 }
 
+// The drop directory, where all lie below it.
+Result<std::filesystem::path> ArchiveFill::root_of(
+    const std::vector<ArchiveVolume>& volumes) const {
+    std::filesystem::path root = "/";
+    for (const ArchiveVolume& volume : volumes) {
+        auto of_this = catalog::root_of(catalog_, volume.path);
+        if (!of_this || *of_this == "/") return of_this;
+        root = std::move(*of_this);
+    }
+    return root;
+}
+
 Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillProgress& progress,
                          const std::atomic<bool>& stop, FillReport& report) {
     auto catalog = catalog::Catalog::open_for_writing(scratch_);
     if (!catalog) return pass_on(catalog);
-    Ingestor ingestor(*catalog, store_, ingest_options(options_));
+    const auto root = root_of(missing);
+    if (!root) return pass_on(root);
+    const CatalogedFiles cataloged(catalog_, missing);
+    IngestOptions ingest = ingest_options(options_);
+    ingest.beneath = *root;
+    ingest.check_read = [&](const std::filesystem::path& path, std::uint64_t size_bytes,
+                            std::uint64_t content_hash) {
+        return cataloged.check(path, size_bytes, content_hash);
+    };
+    Ingestor ingestor(*catalog, store_, std::move(ingest));
     Ledger ledger(report, progress);
     const int workers = std::clamp(options_.threads, 1, most_workers);
     for_each_piece(static_cast<int>(missing.size()), workers, [&](int piece) {
         if (stop || ledger.has_failed()) return;
-        take_in(ingestor, missing[static_cast<std::size_t>(piece)], options_.moment, ledger);
+        take_in(ingestor, missing[static_cast<std::size_t>(piece)], *root, options_.moment, ledger);
     });
     const auto by_path = [](const LeftOut& a, const LeftOut& b) { return a.path < b.path; };
     std::sort(report.left_out.begin(), report.left_out.end(), by_path);

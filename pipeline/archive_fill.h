@@ -5,7 +5,9 @@
 // (pipeline/mosaic_keeper.h). What stands in the cache already is taken as it is: a grid made of
 // this file as it now is, on this grid; a frame made of these partials by these rules. So a second
 // call goes on where the first one was ended, however that happened, for grids appear whole.
-// A file that is gone, or holds nothing that can be gridded, is named and left out.
+// A file that is gone, or holds nothing that can be gridded, is named and left out. So is one that
+// is not the file that was cataloged (catalog/read_cataloged.h): another that took its place, or a
+// link in its path.
 //
 // The store should have been opened so that nobody else writes to it (Store::open_rolling()).
 // Memory: as many decoded volumes as there are workers (at most most_workers), and their grids.
@@ -57,8 +59,10 @@ using FillProgress = std::function<void(std::size_t done)>;
 
 class ArchiveFill {
   public:
-    // `scratch`: a directory for the chain's own catalog, which is made there. All must outlive it.
-    ArchiveFill(const cache::Store& store, std::filesystem::path scratch, ArchiveOptions options);
+    // `catalog`: where the volumes were found. `scratch`: a directory for the chain's own catalog,
+    // which is made there. All must outlive it.
+    ArchiveFill(catalog::Catalog& catalog, const cache::Store& store, std::filesystem::path scratch,
+                ArchiveOptions options);
 
     // The volumes of which no grid stands, to be made by fill().
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
@@ -89,6 +93,10 @@ class ArchiveFill {
     [[nodiscard]] bool is_of_this_grid(const cache::GridDescription& description) const;
     [[nodiscard]] std::string domain_of(const ArchiveVolume& volume) const;
 
+    [[nodiscard]] Result<std::filesystem::path> root_of(
+        const std::vector<ArchiveVolume>& volumes) const;
+
+    catalog::Catalog& catalog_;
     const cache::Store& store_;
     std::filesystem::path scratch_;
     ArchiveOptions options_;

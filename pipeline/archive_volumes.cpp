@@ -61,8 +61,9 @@ Result<std::vector<ArchiveVolume>> archive_volumes(catalog::Catalog& catalog,
     for (const std::string& station : stations) {
         const auto entries = catalog.list(station, query);
         if (!entries) {
-            if (entries.error().code == ErrorCode::not_found) continue;
-            return pass_on(entries);
+            const bool is_alone = stations.size() == 1;
+            if (is_alone && entries.error().code != ErrorCode::not_found) return pass_on(entries);
+            continue;
         }
         auto volumes = each_once(station, *entries);
         keep_taken(range, volumes);

@@ -36,7 +36,8 @@ inline constexpr std::chrono::minutes longest_volume{20};
 // So far outside of the range a neighbour may lie.
 inline constexpr std::chrono::minutes farthest_neighbour{25};
 
-// By station, then start. Stations that the catalog does not know have none.
+// By station, then start. Stations that the catalog does not know have none. Where several are
+// asked for, neither has one whose database cannot be read: the catalog's troubles() name it.
 // Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     catalog::Catalog& catalog, const std::vector<std::string>& stations, const ArchiveRange& range);

@@ -385,6 +385,13 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
         return outcome;
     }
     facts.content_hash = xxh3_64(*bytes);
+    if (options.check_read) {
+        const Status wanted = options.check_read(path, bytes->size(), facts.content_hash);
+        if (!wanted) {
+            const Error& why = wanted.error();
+            return reject(facts, {why.code, without_path(why.message, path)}, outcome);
+        }
+    }
 
     const auto decode_start = Clock::now();
     level2::DecodeOptions decode_options;

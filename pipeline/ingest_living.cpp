@@ -298,6 +298,11 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     facts.size_bytes = file.stamp.size_bytes;
     facts.modified_ns = file.stamp.modified_ns;
     facts.content_hash = file.content_hash;
+    for (const auto& [path, read] : volume.files()) {
+        if (!options.check_read) break;
+        const Status wanted = options.check_read(path, read.stamp.size_bytes, read.content_hash);
+        if (!wanted) return reject(facts, wanted.error(), outcome);
+    }
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);

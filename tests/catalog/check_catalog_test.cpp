@@ -82,6 +82,49 @@ TEST_F(CheckCatalog, DamageIsNamedAndNothingIsWritten) {
     EXPECT_EQ(mended->set_aside.size(), 1U);
 }
 
+// 2026-11-24: what an attack with invented names had left could only be removed by hand.
+TEST_F(CheckCatalog, DatabasesOfUnknownStationsAreNamedAndCleared) {
+    const fs::path real = put("real"), there = put("there", "XAAA"), went = put("went", "XBBB");
+    put("nameless", "");
+    {
+        auto catalog = *Catalog::open_for_writing(catalog_);
+        ASSERT_TRUE(catalog.mark_gone(went));
+    }
+    fs::remove(went);
+    std::ofstream(catalog_ / "XCCC.sqlite") << std::string(5000, 'x');
+    fs::create_directory(catalog_ / "XDDD.sqlite");
+    std::ofstream(catalog_ / "XAAA.sqlite-wal");
+    const StationRule known;
+    const auto check = check_catalog(catalog_, "", &known);
+    ASSERT_TRUE(check);
+    ASSERT_EQ(check->stations.size(), 5U);
+    for (const StationCheck& one : check->stations)
+        EXPECT_EQ(one.is_known, !one.station.starts_with('X')) << one.station;
+    ASSERT_EQ(check->troubles.size(), 1U) << "it does not keep us from the others";
+    EXPECT_EQ(check->troubles[0].station, "XDDD");
+    EXPECT_FALSE(check->is_sound());
+    EXPECT_TRUE(check_catalog(catalog_, "XAAA")->stations[0].is_known) << "without a rule";
+
+    const auto cleared = clear_unknown(catalog_, known);
+    ASSERT_TRUE(cleared) << cleared.error().message;
+    ASSERT_EQ(cleared->cleared.size(), 2U);
+    EXPECT_EQ(cleared->cleared[0].station, "XAAA");
+    EXPECT_EQ(cleared->cleared[0].files, 1);
+    EXPECT_EQ(cleared->cleared[0].there, 1);
+    EXPECT_EQ(cleared->cleared[1].station, "XBBB");
+    EXPECT_EQ(cleared->cleared[1].there, 0);
+    ASSERT_EQ(cleared->kept.size(), 2U);
+    EXPECT_EQ(cleared->kept[0].station, "XCCC");
+    EXPECT_EQ(cleared->kept[1].station, "XDDD");
+    for (const char* name : {"XAAA.sqlite", "XAAA.sqlite-wal", "XBBB.sqlite", "XBBB.sqlite-shm"})
+        EXPECT_FALSE(fs::exists(catalog_ / name)) << name;
+    for (const char* name : {"KTLX.sqlite", "_unknown.sqlite", "XCCC.sqlite", "XDDD.sqlite"})
+        EXPECT_TRUE(fs::exists(catalog_ / name)) << name;
+    EXPECT_TRUE(fs::exists(there)) << "a raw file is never touched";
+    EXPECT_TRUE(fs::exists(real));
+    EXPECT_TRUE(clear_unknown(catalog_, known)->cleared.empty());
+}
+
 TEST_F(CheckCatalog, UnknownStationsAndDirectoriesAreNotFound) {
     put("a");
     EXPECT_EQ(check_catalog(catalog_, "KOKX").error().code, ErrorCode::not_found);

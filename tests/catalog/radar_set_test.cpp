@@ -1,7 +1,10 @@
 #include "catalog/radar_set.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
+#include "base/checksum.h"
 #include "base/file_system.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
@@ -14,23 +17,29 @@ class RadarSetTest : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
+        std::filesystem::create_directory(drop_);
         auto catalog = Catalog::open_for_writing(directory_.path());
         ASSERT_TRUE(catalog);
         for (const char* name :
              {"KBGM20050822_030830.gz", "KBGM20050822_024414.gz", "KBGM20050822_030243.gz",
               "KBGM20050822_025549.gz", "KBGM20050822_025001.gz"}) {
-            const auto path = *testing::data_directory() / "sequence-kbgm" / name;
+            const auto path = drop_ / name;
+            std::filesystem::copy_file(*testing::data_directory() / "sequence-kbgm" / name, path);
             const auto decoded = level2::decode_file(path);
             ASSERT_TRUE(decoded);
+            const auto bytes = *read_file(path);
             FileFacts facts;
             facts.path = path;
             facts.station = decoded->volume.station;
+            facts.size_bytes = bytes.size();
+            facts.content_hash = xxh3_64(bytes);
             facts.state = FileState::complete;
             facts.volumes.emplace_back().start_time = decoded->volume.start_time();
             ASSERT_TRUE(catalog->register_file(facts));
         }
     }
     testing::TemporaryDirectory directory_;
+    std::filesystem::path drop_ = directory_ / "drop";
 };
 
 TEST_F(RadarSetTest, ListsFilesOldestFirstWithinInclusiveTimes) {
@@ -56,12 +65,38 @@ TEST_F(RadarSetTest, GivesRawBytesAndTheDecodedVolume) {
     EXPECT_EQ(decoded->volume.sweeps.size(), 11U);  // golden: n_sweeps
 }
 
+// 2026-11-24: a link in a file's place was followed, and what it leads to was given as the file.
+TEST_F(RadarSetTest, WhatIsNotTheCatalogedFileIsNotGiven) {
+    namespace fs = std::filesystem;
+    const auto set = RadarSet::open(directory_.path(), "KBGM");
+    ASSERT_TRUE(set);
+    const std::string linked = "KBGM20050822_024414.gz", changed = "KBGM20050822_025001.gz";
+    fs::rename(drop_ / linked, directory_ / "elsewhere");
+    fs::create_symlink(directory_ / "elsewhere", drop_ / linked);
+    fs::permissions(drop_ / changed, fs::perms::owner_write, fs::perm_options::add);
+    std::fstream(drop_ / changed, std::ios::in | std::ios::out | std::ios::binary) << "other";
+    for (const auto& [name, code] :
+         {std::pair{linked, ErrorCode::not_a_file}, std::pair{changed, ErrorCode::corrupt}}) {
+        EXPECT_EQ(set->radar_file(name).error().code, code) << name;
+        EXPECT_EQ(set->read_radar(name).error().code, code) << name;
+    }
+    EXPECT_TRUE(set->radar_file("KBGM20050822_025549.gz"));
+    fs::rename(drop_, directory_ / "moved");
+    fs::create_directory_symlink(directory_ / "moved", drop_);
+    EXPECT_EQ(set->radar_file("KBGM20050822_025549.gz").error().code, ErrorCode::not_found);
+}
+
 TEST_F(RadarSetTest, UnknownNamesAndStationsAreNotFound) {
     const auto set = RadarSet::open(directory_.path(), "KBGM");
     ASSERT_TRUE(set);
     EXPECT_EQ(set->radar_file("KBGM20050822_999999.gz").error().code, ErrorCode::not_found);
     EXPECT_EQ(RadarSet::open(directory_.path(), "KTLX").error().code, ErrorCode::not_found);
     EXPECT_EQ(RadarSet::open_all(directory_.path())->size(), 1U);
+    // A station whose database cannot be opened is no other's trouble, and is not called unknown.
+    std::filesystem::create_directory(directory_ / "KOUN.sqlite");
+    EXPECT_EQ(RadarSet::open_all(directory_.path())->size(), 1U);
+    EXPECT_TRUE(RadarSet::open(directory_.path(), "KBGM"));
+    EXPECT_EQ(RadarSet::open(directory_.path(), "KOUN").error().code, ErrorCode::not_a_file);
 }
 
 }  // namespace

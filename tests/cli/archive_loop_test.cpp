@@ -85,6 +85,20 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
     EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
 }
 
+// 2026-11-24: a loop from an archive was drawn of whatever stood in the cataloged files' places.
+TEST_F(ArchiveLoop, LeavesOutWhatIsNotTheFileThatWasCataloged) {
+    fs::rename(raw(sequence[0]), directory_ / "elsewhere");
+    fs::create_symlink(directory_ / "elsewhere", raw(sequence[0]));
+    const auto size = fs::file_size(raw(sequence[1]));
+    fs::copy_file(raw(sequence[4]), raw(sequence[1]), fs::copy_options::overwrite_existing);
+    fs::resize_file(raw(sequence[1]), size);
+    const auto ran = run_station({"--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["grids_made"], 3);
+    EXPECT_THAT(ran.err, HasSubstr(sequence[0] + ": is a symbolic link"));
+    EXPECT_THAT(ran.err, HasSubstr(sequence[1] + ": is not the file that was cataloged"));
+}
+
 TEST_F(ArchiveLoop, DrawsWhatTheCacheDraws) {
     ASSERT_EQ(run_station({"--cache", (directory_ / "c").string(), "--quiet"}).status, 0);
     const auto bytes = *read_file(out());

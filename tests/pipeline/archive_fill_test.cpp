@@ -40,6 +40,7 @@ class ArchiveFillTest : public ::testing::Test {
         rebuild.catalog = directory_ / "catalog";
         rebuild.drop = directory_ / "drop";
         ASSERT_TRUE(rebuild_catalog(rebuild));
+        catalog_.emplace(*catalog::Catalog::open_for_reading(rebuild.catalog));
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
     [[nodiscard]] cache::Store store(const std::string& name) const {
@@ -47,8 +48,7 @@ class ArchiveFillTest : public ::testing::Test {
             *cache::Store::open_for_writing(real_file_system(), directory_ / name, true));
     }
     [[nodiscard]] std::vector<ArchiveVolume> volumes() const {
-        auto catalog = catalog::Catalog::open_for_reading(directory_ / "catalog");
-        return *archive_volumes(*catalog, {"KBGM"},
+        return *archive_volumes(*catalog_, {"KBGM"},
                                 {at("2005-08-22T02:00Z"), at("2005-08-22T04:00Z"), false});
     }
     [[nodiscard]] ArchiveOptions options() const {
@@ -61,7 +61,7 @@ class ArchiveFillTest : public ::testing::Test {
     }
     [[nodiscard]] FillReport fill(const cache::Store& store, const ArchiveOptions& options) const {
         FillReport report;
-        ArchiveFill filling(store, directory_ / "scratch", options);
+        ArchiveFill filling(*catalog_, store, directory_ / "scratch", options);
         const auto missing = filling.missing(volumes());
         EXPECT_TRUE(missing);
         const Status filled = filling.fill(*missing, {}, stop_, report);
@@ -73,6 +73,7 @@ class ArchiveFillTest : public ::testing::Test {
     static std::vector<std::byte> bytes_of(const fs::path& path) { return *read_file(path); }
 
     testing::TemporaryDirectory directory_;
+    mutable std::optional<catalog::Catalog> catalog_;
     std::atomic<bool> stop_{false};
     std::vector<UtcTime> instants_ =
         instants_between(at("2005-08-22T02:00Z"), at("2005-08-22T04:00Z"), std::chrono::minutes{5});
@@ -174,16 +175,53 @@ TEST_F(ArchiveFillTest, WhatCannotBeReadIsNamedAndLeftOut) {
     EXPECT_EQ(report.left_out[1].reason, "is gone");
 }
 
+// 2026-11-24: whatever stood in the place of a cataloged file was gridded.
+TEST_F(ArchiveFillTest, WhatIsNotTheFileThatWasCatalogedIsNamedAndLeftOut) {
+    fs::rename(raw(sequence[0]), directory_ / "elsewhere");
+    fs::create_symlink(directory_ / "elsewhere", raw(sequence[0]));
+    // Another volume, which is as good, of the same size.
+    const auto size = fs::file_size(raw(sequence[1]));
+    fs::copy_file(*testing::data_directory() / "sequence-kbgm" / "KBGM20050822_030830.gz",
+                  raw(sequence[1]), fs::copy_options::overwrite_existing);
+    fs::permissions(raw(sequence[1]), fs::perms::owner_write, fs::perm_options::add);
+    fs::resize_file(raw(sequence[1]), size);
+    const cache::Store filled = store("filled");
+    const FillReport report = fill(filled, options());
+    EXPECT_EQ(report.grids_made, 1U);
+    EXPECT_THAT(*filled.list("KBGM", level2::Moment::ref, {}, {}), SizeIs(1));
+    ASSERT_THAT(report.left_out, SizeIs(2));
+    EXPECT_EQ(report.left_out[0].path.filename(), sequence[0]);
+    EXPECT_EQ(report.left_out[0].reason, "is a symbolic link");
+    EXPECT_EQ(report.left_out[1].path.filename(), sequence[1]);
+    EXPECT_THAT(report.left_out[1].reason, HasSubstr("is not the file that was cataloged"));
+}
+
+TEST_F(ArchiveFillTest, FilesBehindADirectoryThatBecameALinkAreGone) {
+    fs::create_directory(directory_ / "drop/day");
+    fs::rename(raw(sequence[0]), directory_ / "drop/day" / sequence[0]);
+    RebuildOptions rebuild;
+    rebuild.catalog = directory_ / "catalog";
+    rebuild.drop = directory_ / "drop";
+    ASSERT_TRUE(rebuild_catalog(rebuild));
+    fs::rename(directory_ / "drop/day", directory_ / "elsewhere");
+    fs::create_directory_symlink(directory_ / "elsewhere", directory_ / "drop/day");
+    const FillReport report = fill(store("filled"), options());
+    EXPECT_EQ(report.grids_made, 2U);
+    ASSERT_THAT(report.left_out, SizeIs(1));
+    EXPECT_EQ(report.left_out[0].reason, "is gone");
+}
+
 TEST_F(ArchiveFillTest, AGridOfAFileThatIsGoneSinceStands) {
     const cache::Store filled = store("filled");
     static_cast<void>(fill(filled, options()));
     const auto all = volumes();
     fs::remove(raw(sequence[2]));
-    ArchiveFill filling(filled, directory_ / "scratch", options());
+    ArchiveFill filling(*catalog_, filled, directory_ / "scratch", options());
     EXPECT_THAT(*filling.missing(all), IsEmpty());
     ArchiveOptions finer = options();
     finer.nx = 100;
-    EXPECT_THAT(*ArchiveFill(filled, directory_ / "scratch", finer).missing(all), SizeIs(3));
+    EXPECT_THAT(*ArchiveFill(*catalog_, filled, directory_ / "scratch", finer).missing(all),
+                SizeIs(3));
 }
 
 TEST_F(ArchiveFillTest, AFullDiskIsAnErrorAndWhatWasMadeStays) {
@@ -194,7 +232,7 @@ TEST_F(ArchiveFillTest, AFullDiskIsAnErrorAndWhatWasMadeStays) {
     FillReport report;
     ArchiveOptions alone = options();
     alone.threads = 1;
-    ArchiveFill filling(*filled, directory_ / "scratch", alone);
+    ArchiveFill filling(*catalog_, *filled, directory_ / "scratch", alone);
     const Status full = filling.fill(volumes(), {}, stop_, report);
     ASSERT_FALSE(full);
     EXPECT_EQ(full.error().code, ErrorCode::no_space);
@@ -218,7 +256,7 @@ TEST_F(ArchiveFillTest, TheGuessOfBytesIsOnTheSafeSide) {
     const auto entries = filled.list("KBGM", level2::Moment::ref, {}, {});
     for (const cache::StoreEntry& entry : *entries)
         bytes += entry.bytes_on_disk;
-    const ArchiveFill filling(filled, directory_ / "scratch", options());
+    const ArchiveFill filling(*catalog_, filled, directory_ / "scratch", options());
     EXPECT_GE(filling.bytes_of(3, 0), bytes);
     EXPECT_LE(filling.bytes_of(3, 0), 4 * bytes);
     EXPECT_EQ(filling.bytes_of(0, 0), 0U);
@@ -270,6 +308,17 @@ TEST_F(ArchiveVolumesTest, ThoseThatOverlapTheRangeAndTheirNeighbours) {
     EXPECT_THAT(taken("20:09:30", "20:09:40", false), ElementsAre());
     EXPECT_THAT(taken("20:09:30", "20:09:40", true), ElementsAre("b", "c"));
     EXPECT_THAT(taken("20:18", "20:40", true), ElementsAre("c", "d"));  // 21:30 is too far
+}
+
+TEST_F(ArchiveVolumesTest, AStationWhoseDatabaseCannotBeReadDoesNotKeepItFromTheOthers) {
+    add("a", "20:00", "20:04");
+    fs::create_directory(directory_ / "c/KFDR.sqlite");
+    EXPECT_THAT(taken("20:00", "20:10", false), ::testing::ElementsAre("a"));
+    EXPECT_THAT(catalog_.troubles(), SizeIs(1));
+    const auto alone = archive_volumes(catalog_, {"KFDR"},
+                                       {at("2013-05-20T20:00Z"), at("2013-05-20T21:00Z"), false});
+    ASSERT_FALSE(alone);
+    EXPECT_EQ(alone.error().code, ErrorCode::not_a_file);
 }
 
 TEST_F(ArchiveVolumesTest, AVolumeSentTwiceIsTakenOnceTheWholeOne) {

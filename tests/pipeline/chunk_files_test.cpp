@@ -1,4 +1,5 @@
 // Volumes of one file a chunk where nothing is followed: no living grids, no cache at all.
+#include <atomic>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,9 @@
 #include "cache/store.h"
 #include "catalog/catalog.h"
 #include "level2/chunk_directory.h"
+#include "pipeline/archive_fill.h"
+#include "pipeline/archive_volumes.h"
+#include "pipeline/cataloged_volume.h"
 #include "pipeline/chunk_path.h"
 #include "pipeline/ingest.h"
 #include "pipeline/rebuild_catalog.h"
@@ -92,6 +96,73 @@ TEST_F(ChunkFiles, ARebuiltCatalogHasTheVolumeAndNotItsParts) {
     const auto again = rebuild_catalog(options);
     ASSERT_TRUE(again);
     EXPECT_EQ(again->unchanged, paths_.size());
+}
+
+// 2026-11-24: chunks were joined as they lay there, whatever had taken their places.
+TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
+    RebuildOptions options;
+    options.catalog = directory_ / "catalog";
+    options.drop = directory_ / "drop";
+    ASSERT_TRUE(rebuild_catalog(options));
+    Catalog catalog = *Catalog::open_for_reading(options.catalog);
+    const auto entry = catalog.latest("KLOT")->value();
+    const auto whole = read_cataloged_volume(catalog, entry);
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_TRUE(whole->notes.empty());
+    std::uintmax_t bytes = 0;
+    for (const fs::path& path : paths_)
+        bytes += fs::file_size(path);
+    EXPECT_EQ(whole->bytes.size(), bytes);
+
+    const fs::path further = drop_ / "20260328-201457-056-I";
+    fs::copy_file(paths_[3], further);
+    const auto without = read_cataloged_volume(catalog, entry);
+    ASSERT_TRUE(without) << without.error().message;
+    EXPECT_EQ(without->bytes, whole->bytes);
+    ASSERT_EQ(without->notes.size(), 1U);
+    EXPECT_EQ(without->notes[0], further.native() + ": is not in the catalog, and left out");
+    fs::remove(further);
+
+    fs::rename(paths_[5], directory_ / "elsewhere");
+    fs::create_symlink(directory_ / "elsewhere", paths_[5]);
+    EXPECT_EQ(read_cataloged_volume(catalog, entry).error().code, ErrorCode::not_a_file);
+    fs::remove(paths_[5]);
+    std::ofstream(paths_[5]) << std::string(fs::file_size(directory_ / "elsewhere"), 'x');
+    const auto changed = read_cataloged_volume(catalog, entry);
+    ASSERT_FALSE(changed);
+    EXPECT_EQ(changed.error().code, ErrorCode::corrupt);
+    EXPECT_EQ(changed.error().message.find(paths_[5].native() + ": is not the file"), 0U);
+}
+
+// Of chunks, too, an archive's grids are made of what was cataloged alone.
+TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
+    RebuildOptions options;
+    options.catalog = directory_ / "catalog";
+    options.drop = directory_ / "drop";
+    ASSERT_TRUE(rebuild_catalog(options));
+    Catalog catalog = *Catalog::open_for_reading(options.catalog);
+    const auto start = *catalog.latest("KLOT")->value().volume.start_time;
+    const auto volumes = archive_volumes(catalog, {"KLOT"}, {start, start, false});
+    ArchiveOptions coarse;
+    coarse.spacing_m = 4000;
+    coarse.nx = coarse.ny = 115;
+    const std::atomic<bool> stop = false;
+    const auto fill = [&](const std::string& name) {
+        const auto store =
+            *cache::Store::open_for_writing(real_file_system(), directory_ / name, true);
+        FillReport report;
+        ArchiveFill filling(catalog, store, directory_ / (name + "-scratch"), coarse);
+        EXPECT_TRUE(filling.fill(*volumes, {}, stop, report));
+        return report;
+    };
+    EXPECT_EQ(fill("good").grids_made, 1U);
+    fs::copy_file(paths_[6], paths_[5], fs::copy_options::overwrite_existing);
+    const FillReport report = fill("bad");
+    EXPECT_EQ(report.grids_made, 0U);
+    ASSERT_EQ(report.left_out.size(), 1U);
+    EXPECT_NE(report.left_out[0].reason.find("is not the file that was cataloged"),
+              std::string::npos)
+        << report.left_out[0].reason;
 }
 
 TEST_F(ChunkFiles, AVolumeWithoutItsEndIsRebuiltAsPartial) {

@@ -99,6 +99,35 @@ TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
     EXPECT_EQ(rebuild_catalog(options_)->registered, 2U);
 }
 
+// 2026-11-24: one database that could not be opened ended the rebuilding of all others.
+TEST_F(RebuildCatalog, ADatabaseThatCannotBeUsedIsNamedAndTheOthersAreRebuilt) {
+    STORMCELLAR_NEED_DATA();
+    fill_drop();
+    fs::create_directories(catalog_ / "KAAA.sqlite");
+    fs::create_directories(catalog_ / "KOKX.sqlite");
+    fs::copy_file(*testing::data_directory() / "sequence-kbgm/KBGM20050822_024414.gz",
+                  drop_ / "KOKX20050822_024414.gz");
+    const auto report = rebuild_catalog(options_);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->registered, 2U);
+    EXPECT_EQ(report->rejected, 1U);
+    ASSERT_EQ(report->problems.size(), 2U) << "one for each database";
+    EXPECT_NE(report->problems[0].message.find("KAAA.sqlite"), std::string::npos);
+    EXPECT_NE(report->problems[1].message.find("KOKX.sqlite"), std::string::npos);
+    options_.station = "KAAA";
+    EXPECT_FALSE(rebuild_catalog(options_)) << "asked for alone it is an error";
+}
+
+TEST_F(RebuildCatalog, OnlyStationsThatAreKnownGetADatabaseAndTheDropDirectoryIsToldToReaders) {
+    STORMCELLAR_NEED_DATA();
+    fill_drop();
+    options_.stations = std::make_shared<StationRule>(StationRule::listed({"KTLX"}));
+    ASSERT_TRUE(rebuild_catalog(options_));
+    EXPECT_FALSE(fs::exists(catalog_ / "KBGM.sqlite"));
+    EXPECT_EQ(rows("").size(), 3U);
+    EXPECT_EQ(*Catalog::open_for_reading(catalog_)->drop_directory(), fs::canonical(drop_));
+}
+
 TEST_F(RebuildCatalog, AMissingDropDirectoryIsAnErrorAndMarksNothing) {
     options_.drop = directory_ / "none";
     EXPECT_EQ(rebuild_catalog(options_).error().code, ErrorCode::not_found);

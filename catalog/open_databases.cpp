@@ -1,0 +1,117 @@
+#include "catalog/open_databases.h"
+
+#include <array>
+#include <cerrno>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include "base/descriptor.h"
+
+namespace stormcellar::catalog {
+
+FileIdentity FileIdentity::of(const std::filesystem::path& path) {
+    struct stat facts {};
+    if (::stat(path.c_str(), &facts) != 0) return {};
+    return {facts.st_dev, facts.st_ino};
+}
+
+OpenDatabases::Lease OpenDatabases::lease(const std::string& name) {
+    const std::scoped_lock lock(mutex_);
+    auto found = slots_.find(name);
+    if (found == slots_.end()) {
+        found = slots_.emplace(name, std::make_unique<Slot>()).first;
+        found->second->name_ = name;
+    }
+    Slot& slot = *found->second;
+    ++slot.leases_;
+    if (slot.is_counted_) open_.splice(open_.begin(), open_, slot.place_);
+    return {*this, slot};
+}
+
+void OpenDatabases::give_back(Slot& slot) {
+    const std::scoped_lock lock(mutex_);
+    --slot.leases_;
+    drop_if_empty(slot);
+}
+
+void OpenDatabases::drop_if_empty(Slot& slot) {
+    const bool remembers =
+        slot.is_counted_ || slot.file != FileIdentity{} || slot.strays != Strays::unknown;
+    if (slot.leases_ == 0 && !remembers) slots_.erase(slots_.find(slot.name_));
+}
+
+void OpenDatabases::make_room(Slot& slot) {
+    std::size_t beyond = 0;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (slot.is_counted_) return;
+        open_.push_front(&slot);
+        slot.place_ = open_.begin();
+        slot.is_counted_ = true;
+        if (open_.size() > most_open_) beyond = open_.size() - most_open_;
+    }
+    close_idle(beyond);
+}
+
+void OpenDatabases::close(Slot& slot) {
+    slot.database.reset();
+    const std::scoped_lock lock(mutex_);
+    if (!slot.is_counted_) return;
+    open_.erase(slot.place_);
+    slot.is_counted_ = false;
+}
+
+std::size_t OpenDatabases::close_idle(std::size_t count) {
+    std::size_t closed = 0;
+    while (closed < count && close_one_idle())
+        ++closed;
+    return closed;
+}
+
+// A checkpoint takes milliseconds, so the mutex of all is not held meanwhile. Who wants this
+// database then waits for its slot's mutex and opens it again.
+bool OpenDatabases::close_one_idle() {
+    Slot* victim = nullptr;
+    std::unique_lock<std::mutex> hold;
+    {
+        const std::scoped_lock lock(mutex_);
+        for (auto slot = open_.rbegin(); slot != open_.rend() && victim == nullptr; ++slot) {
+            if ((*slot)->leases_ == 0) victim = *slot;
+        }
+        if (victim == nullptr) return false;
+        ++victim->leases_;
+        // It is free, as nobody has it without a lease.
+        hold = std::unique_lock(victim->mutex, std::try_to_lock);
+        if (!hold.owns_lock()) {
+            --victim->leases_;
+            return false;
+        }
+    }
+    close(*victim);
+    hold.unlock();
+    give_back(*victim);
+    return true;
+}
+
+std::size_t OpenDatabases::open_count() const {
+    const std::scoped_lock lock(mutex_);
+    return open_.size();
+}
+
+std::size_t OpenDatabases::slot_count() const {
+    const std::scoped_lock lock(mutex_);
+    return slots_.size();
+}
+
+bool is_out_of_descriptors() {
+    // SQLite opens the database, its WAL and the index, and for a moment their directory.
+    std::array<Descriptor, 4> tries;
+    for (Descriptor& one : tries) {
+        one = Descriptor{::open("/dev/null", O_RDONLY | O_CLOEXEC)};
+        if (one.number() < 0) return errno == EMFILE || errno == ENFILE;
+    }
+    return false;
+}
+
+}  // namespace stormcellar::catalog

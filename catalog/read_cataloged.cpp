@@ -1,0 +1,75 @@
+#include "catalog/read_cataloged.h"
+
+#include <algorithm>
+
+#include <sys/stat.h>
+
+#include "base/beneath.h"
+#include "base/checksum.h"
+#include "base/descriptor.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool lies_below(const fs::path& root, const fs::path& path) {
+    const fs::path relative = path.lexically_relative(root);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+Status check_size(const CatalogEntry& entry, std::uint64_t size_bytes) {
+    const bool fits =
+        has_final_hash(entry) ? size_bytes == entry.size_bytes : size_bytes >= entry.size_bytes;
+    if (fits) return {};
+    return fail(
+        ErrorCode::corrupt, "{}: is not the file that was cataloged: it has {} bytes and not {}{}",
+        entry.path.native(), size_bytes, entry.size_bytes, has_final_hash(entry) ? "" : " or more");
+}
+
+}  // namespace
+
+bool has_final_hash(const CatalogEntry& entry) {
+    return entry.state != FileState::seen && entry.modified_ns != never_read_ns &&
+           entry.content_hash != 0;
+}
+
+Result<fs::path> root_of(const Catalog& catalog, const fs::path& path) {
+    auto drop = catalog.drop_directory();
+    if (drop && lies_below(*drop, path)) return drop;
+    if (!drop && drop.error().code != ErrorCode::not_found) return drop;
+    return fs::path{"/"};
+}
+
+Status check_cataloged(const CatalogEntry& entry, std::uint64_t size_bytes,
+                       std::uint64_t content_hash) {
+    if (Status sized = check_size(entry, size_bytes); !sized) return sized;
+    if (!has_final_hash(entry) || content_hash == entry.content_hash) return {};
+    return fail(ErrorCode::corrupt,
+                "{}: is not the file that was cataloged: it has the same size and other contents",
+                entry.path.native());
+}
+
+Result<CatalogedBytes> read_cataloged(const Catalog& catalog, const CatalogEntry& entry) {
+    const auto root = root_of(catalog, entry.path);
+    if (!root) return pass_on(root);
+    const auto opened = open_beneath(*root, entry.path);
+    if (!opened) return pass_on(opened);
+    const Descriptor file{*opened};
+    // Before it is read: what stands there now may be far larger.
+    struct stat facts {};
+    if (::fstat(file.number(), &facts) != 0) {
+        return fail(ErrorCode::io, "{}: cannot be looked at", entry.path.native());
+    }
+    if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
+        return pass_on(sized);
+    }
+    auto bytes = read_open_file(file.number(), entry.path, default_read_limit);
+    if (!bytes) return pass_on(bytes);
+    if (Status same = check_cataloged(entry, bytes->size(), xxh3_64(*bytes)); !same) {
+        return pass_on(same);
+    }
+    return CatalogedBytes{std::move(*bytes), has_final_hash(entry)};
+}
+
+}  // namespace stormcellar::catalog

@@ -1,0 +1,190 @@
+// A database that cannot be opened is the trouble of its own station alone.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/catalog/catalog_fixture.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Neighbors : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        auto catalog = *Catalog::open_for_writing(catalog_);
+        ASSERT_TRUE(catalog.register_file(file("/d/KTLX_a", {volume("2022-03-17T00:00")})));
+        ASSERT_TRUE(catalog.register_file(file("/d/KFWS_a", {volume("2022-03-17T00:00")}, "KFWS")));
+    }
+    // All that one does with files of KFWS and of no station while KTLX cannot be used.
+    void expect_that_others_go_on(Catalog& catalog, ErrorCode code) {
+        EXPECT_FALSE(*catalog.is_known("/d/KFWS_b"));
+        ASSERT_TRUE(catalog.note_file(file("/d/KFWS_b", {}, "KFWS")));
+        EXPECT_TRUE(catalog.register_file(file("/d/KFWS_b", {}, "KFWS")));
+        EXPECT_FALSE(*catalog.is_known("/d/odd"));
+        EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KINX")));
+        EXPECT_TRUE(catalog.register_files("KINX", {file("/d/odd2", {}, "KINX")}));
+        EXPECT_TRUE(*catalog.is_settled("/d/odd", 1000, 42));
+        EXPECT_EQ(*catalog.mark_gone("/d/odd"), 1);
+        EXPECT_EQ(*catalog.mark_gone("/d/never"), 0);
+        EXPECT_EQ(*catalog.mark_missing("/d"), 3);
+        EXPECT_EQ(*catalog.forget_gone(now_utc() + std::chrono::hours{1}), 4);
+        EXPECT_TRUE(catalog.roll());
+        EXPECT_EQ(catalog.stations()->size(), 2U);
+        const auto own = catalog.register_file(file("/d/KTLX_b", {}));
+        ASSERT_FALSE(own);
+        EXPECT_EQ(own.error().code, code) << own.error().message;
+        EXPECT_FALSE(catalog.is_settled("/d/KTLX_b", 1, 1));
+        EXPECT_FALSE(catalog.examine("KTLX"));
+        const auto troubles = catalog.troubles();
+        ASSERT_EQ(troubles.size(), 1U) << "once, however often it was met";
+        EXPECT_EQ(troubles[0].station, "KTLX");
+        EXPECT_EQ(troubles[0].error.code, code);
+        EXPECT_NE(troubles[0].error.message.find("KTLX.sqlite"), std::string::npos);
+    }
+    void expect_that_it_is_over(Catalog& catalog) {
+        EXPECT_TRUE(catalog.register_file(file("/d/KTLX_b", {})));
+        EXPECT_TRUE(catalog.troubles().empty());
+        EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 2U);
+    }
+    testing::TemporaryDirectory directory_;
+    fs::path catalog_ = directory_ / "catalog";
+    fs::path database_ = catalog_ / "KTLX.sqlite";
+};
+
+// 2026-11-24: a FIFO in the place of a database. A reader waited for ever.
+TEST_F(Neighbors, AFifoInPlaceOfADatabaseHoldsNobodyUp) {
+    fs::rename(database_, directory_ / "aside");
+    ASSERT_EQ(::mkfifo(database_.c_str(), 0600), 0);
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    expect_that_others_go_on(catalog, ErrorCode::not_a_file);
+    auto reader = *Catalog::open_for_reading(catalog_);
+    EXPECT_EQ(reader.list("KTLX", {}).error().code, ErrorCode::not_a_file);
+    EXPECT_EQ(reader.stations()->size(), 2U);
+    EXPECT_EQ(reader.troubles().size(), 1U);
+    EXPECT_EQ(examine_database(database_).error().code, ErrorCode::not_a_file);
+    fs::remove(database_);
+    fs::rename(directory_ / "aside", database_);
+    expect_that_it_is_over(catalog);
+}
+
+TEST_F(Neighbors, FifosBesideADatabaseHoldNobodyUp) {
+    for (const char* ending : {"-wal", "-shm", "-journal"}) {
+        const fs::path fifo = database_.native() + ending;
+        ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+        auto reader = *Catalog::open_for_reading(catalog_);
+        EXPECT_EQ(reader.list("KTLX", {}).error().code, ErrorCode::not_a_file) << ending;
+        auto catalog = *Catalog::open_for_writing(catalog_);
+        EXPECT_EQ(catalog.list("KTLX", {}).error().code, ErrorCode::not_a_file) << ending;
+        fs::remove(fifo);
+    }
+}
+
+TEST_F(Neighbors, ADirectoryInPlaceOfADatabaseHoldsNobodyUp) {
+    fs::rename(database_, directory_ / "aside");
+    fs::create_directory(database_);
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    expect_that_others_go_on(catalog, ErrorCode::not_a_file);
+    fs::remove(database_);
+    fs::rename(directory_ / "aside", database_);
+    expect_that_it_is_over(catalog);
+}
+
+// 2026-11-24: a database of root's, as `sudo stormcellar catalog rebuild` left it, stopped the new
+// files of all other stations. In a process of a user who may not read it.
+TEST_F(Neighbors, ADatabaseWithoutPermissionHoldsNobodyUp) {
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can become a user without rights";
+    fs::permissions(directory_.path(), fs::perms::all);
+    fs::permissions(catalog_, fs::perms::all);
+    for (const auto& entry : fs::directory_iterator(catalog_))
+        fs::permissions(entry.path(), fs::perms{0666});
+    fs::permissions(database_, fs::perms{0600});
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        if (::setgid(65534) != 0 || ::setuid(65534) != 0) ::_exit(2);
+        auto catalog = *Catalog::open_for_writing(catalog_);
+        expect_that_others_go_on(catalog, ErrorCode::permission);
+        ::_exit(HasFailure() ? 1 : 0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0) << "see above";
+}
+
+// One that cannot be mended, either.
+TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
+    fs::rename(database_, directory_ / "aside");
+    {
+        SQLite::Database foreign(database_, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        foreign.exec("CREATE TABLE other (x)");
+    }
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    expect_that_others_go_on(catalog, ErrorCode::unsupported);
+    fs::remove(database_);
+    fs::rename(directory_ / "aside", database_);
+    expect_that_it_is_over(catalog);
+}
+
+// Who waits for a lock is a worker, who is missing for the other stations meanwhile.
+TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAndThen) {
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    const auto seconds = [](const auto& work) {
+        const auto began = std::chrono::steady_clock::now();
+        work();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    };
+    {
+        SQLite::Database other(database_, SQLite::OPEN_READWRITE);
+        other.exec("BEGIN EXCLUSIVE");
+        EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {})));
+        const double own =
+            seconds([&] { EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {}))); });
+        EXPECT_LT(own, 1.0);
+        const double others = seconds([&] {
+            EXPECT_FALSE(*catalog.is_known("/d/odd"));
+            EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+            EXPECT_TRUE(catalog.register_file(file("/d/KFWS_b", {}, "KFWS")));
+            EXPECT_EQ(*catalog.mark_gone("/d/odd"), 1);
+        });
+        EXPECT_LT(others, 3.0);
+        EXPECT_EQ(catalog.troubles().size(), 1U);
+    }
+}
+
+// A file has one row: where the old one cannot be deleted, the file waits, and it alone.
+TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    ASSERT_TRUE(catalog.register_file(file("/d/odd", {}, "KTLX")));
+    fs::rename(database_, directory_ / "aside");
+    fs::create_directory(database_);
+    EXPECT_FALSE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+    EXPECT_TRUE(catalog.register_file(file("/d/odd2", {}, "KFWS")));
+    fs::remove(database_);
+    fs::rename(directory_ / "aside", database_);
+    catalog = *Catalog::open_for_writing(catalog_);
+    EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+    EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
+}
+
+// Files whose names do not say their station are looked for among the unknown ones first.
+TEST_F(Neighbors, TheDatabaseOfUnknownFilesHoldsNobodyUp) {
+    fs::create_directory(catalog_ / "_unknown.sqlite");
+    auto catalog = *Catalog::open_for_writing(catalog_);
+    EXPECT_FALSE(*catalog.is_known("/d/odd"));
+    EXPECT_TRUE(catalog.note_file(file("/d/odd", {}, "")));
+    EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));
+    EXPECT_TRUE(*catalog.is_settled("/d/odd", 1000, 42));
+    EXPECT_EQ(*catalog.mark_gone("/d/odd"), 1);
+    EXPECT_EQ(*catalog.mark_gone("/d/odd2"), 0);
+    EXPECT_FALSE(catalog.register_file(file("/d/odd3", {}, "")));
+    const auto troubles = catalog.troubles();
+    ASSERT_EQ(troubles.size(), 1U);
+    EXPECT_EQ(troubles[0].station, "");
+}
+
+}  // namespace
+}  // namespace stormcellar::catalog

@@ -1,0 +1,198 @@
+// Open databases are a bounded set, and none is closed under somebody's hands.
+#include "catalog/open_databases.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "base/descriptor.h"
+#include "tests/catalog/catalog_fixture.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string station(int k) {
+    return fmt::format("X{:03}", k);
+}
+
+class OpenDatabasesTest : public ::testing::Test {
+  protected:
+    Catalog open(std::size_t most_open) {
+        CatalogOptions options;
+        options.most_open = most_open;
+        return *Catalog::open_for_writing(catalog_, options);
+    }
+    static std::size_t descriptors() {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator{}));
+    }
+    testing::TemporaryDirectory directory_;
+    fs::path catalog_ = directory_ / "catalog";
+};
+
+TEST_F(OpenDatabasesTest, OnlySoManyAreOpenAndEachIsFoundAgain) {
+    const std::size_t before = descriptors();
+    auto catalog = open(4);
+    for (int k = 0; k < 30; ++k) {
+        const std::string path = "/d/" + station(k) + "_a";
+        ASSERT_TRUE(catalog.register_file(file(path, {}, station(k))));
+        EXPECT_LE(catalog.open_databases(), 4U);
+    }
+    EXPECT_LE(descriptors() - before, 3U * 4U + 2U);
+    for (int k = 0; k < 30; ++k)
+        EXPECT_TRUE(*catalog.is_settled("/d/" + station(k) + "_a", 1000, 42)) << k;
+    EXPECT_EQ(*catalog.mark_missing("/d"), 30);
+    EXPECT_EQ(catalog.stations()->size(), 30U);
+    EXPECT_TRUE(catalog.examine_all());
+    EXPECT_LE(catalog.open_databases(), 4U);
+    EXPECT_TRUE(catalog.take_repairs().empty());
+
+    auto reader = *Catalog::open_for_reading(catalog_);
+    EXPECT_EQ(reader.stations()->size(), 30U);
+    EXPECT_LE(reader.open_databases(), CatalogOptions::most_open_of_reader);
+}
+
+TEST_F(OpenDatabasesTest, TheLeastRecentlyUsedIsClosedFirst) {
+    OpenDatabases all(2);
+    const auto use = [&](const std::string& name) {
+        const auto slot = all.lease(name);
+        const std::scoped_lock lock(slot->mutex);
+        const bool was_open = slot->database != nullptr;
+        if (!was_open) {
+            all.make_room(*slot);
+            slot->database = std::move(*StationDatabase::open_for_writing(directory_ / name, name));
+        }
+        return was_open;
+    };
+    EXPECT_FALSE(use("KAAA"));
+    EXPECT_FALSE(use("KBBB"));
+    EXPECT_TRUE(use("KAAA"));
+    EXPECT_FALSE(use("KCCC")) << "closes KBBB";
+    EXPECT_TRUE(use("KAAA"));
+    EXPECT_FALSE(use("KBBB"));
+    EXPECT_EQ(all.open_count(), 2U);
+    {
+        const auto one = all.lease("KAAA");
+        const auto other = all.lease("KBBB");
+        EXPECT_FALSE(use("KCCC"));
+        EXPECT_EQ(all.open_count(), 3U) << "those that somebody has leased stay open";
+        EXPECT_TRUE(use("KAAA"));
+    }
+    EXPECT_EQ(all.close_idle(9), 3U);
+    EXPECT_EQ(all.slot_count(), 0U) << "nothing is remembered of them";
+}
+
+TEST_F(OpenDatabasesTest, NamesThatAreAskedForLeaveNothingBehind) {
+    OpenDatabases all(2);
+    for (int k = 0; k < 1000; ++k)
+        (void)all.lease(station(k));
+    EXPECT_EQ(all.slot_count(), 0U);
+}
+
+TEST_F(OpenDatabasesTest, ManyThreadsUseMoreDatabasesThanMayBeOpen) {
+    auto catalog = open(2);
+    constexpr int files = 25;
+    std::atomic<bool> is_done = false;
+    std::atomic<int> failed = 0;
+    const auto register_all = [&](int thread) {
+        for (int k = 0; k < files; ++k) {
+            const std::string path = fmt::format("/d/{}_{}_{}", station(k % 7), thread, k);
+            if (!catalog.register_file(file(path, {}, station(k % 7)))) ++failed;
+            if (!*catalog.is_settled(path, 1000, 42)) ++failed;
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int thread = 0; thread < 4; ++thread)
+        threads.emplace_back(register_all, thread);
+    std::thread looker([&] {
+        while (!is_done) {
+            const auto stations = catalog.stations();
+            if (!stations || stations->size() > 7) ++failed;
+        }
+    });
+    for (std::thread& thread : threads)
+        thread.join();
+    is_done = true;
+    looker.join();
+    EXPECT_EQ(failed, 0);
+    EXPECT_TRUE(catalog.troubles().empty());
+    std::size_t rows = 0;
+    for (int k = 0; k < 7; ++k)
+        rows += catalog.list(station(k), {{}, {}, true})->size();
+    EXPECT_EQ(rows, 4U * files);
+}
+
+// 2026-11-24: without a descriptor left, no station could register anything any more.
+TEST_F(OpenDatabasesTest, WhereDescriptorsRunOutDatabasesAreClosed) {
+    auto catalog = open(256);
+    for (int k = 0; k < 10; ++k)
+        ASSERT_TRUE(catalog.register_file(file("/d/" + station(k), {}, station(k))));
+    EXPECT_EQ(catalog.open_databases(), 10U);
+    rlimit usual{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &usual), 0);
+    rlimit tight = usual;
+    tight.rlim_cur = 300;
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
+    std::vector<Descriptor> taken;
+    for (int one = ::open("/dev/null", O_RDONLY); one >= 0; one = ::open("/dev/null", O_RDONLY))
+        taken.emplace_back(one);
+    for (int k = 10; k < 30; ++k) {
+        const auto registered = catalog.register_file(file("/d/" + station(k), {}, station(k)));
+        EXPECT_TRUE(registered) << registered.error().message;
+    }
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
+    EXPECT_LT(catalog.open_databases(), 14U);
+    EXPECT_TRUE(catalog.troubles().empty());
+}
+
+TEST_F(OpenDatabasesTest, ADatabaseThatIsDeletedWhileItIsClosedIsMadeAgainAndSaid) {
+    auto catalog = open(1);
+    ASSERT_TRUE(catalog.register_file(file("/d/KTLX_a", {}, "KTLX")));
+    ASSERT_TRUE(catalog.register_file(file("/d/KOUN_a", {}, "KOUN")));
+    fs::remove(catalog_ / "KTLX.sqlite");
+    EXPECT_EQ(*catalog.register_file(file("/d/KTLX_b", {}, "KTLX")), Registered::added);
+    EXPECT_EQ(catalog.take_repairs().size(), 1U) << "so that its files are offered again";
+    EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
+}
+
+// The figures in the header.
+TEST_F(OpenDatabasesTest, WhatACloseAndAnOpenCost) {
+    std::vector<double> close_ms, open_ms;
+    const fs::path path = directory_ / "KTLX.sqlite";
+    for (int k = 0; k < 200; ++k) {
+        auto start = Clock::now();
+        auto database = StationDatabase::open_for_writing(path, "KTLX");
+        const std::chrono::duration<double, std::milli> opened = Clock::now() - start;
+        ASSERT_TRUE(database);
+        (*database)->register_file(file("/d/" + std::to_string(k), {}));
+        start = Clock::now();
+        database->reset();
+        const std::chrono::duration<double, std::milli> closed = Clock::now() - start;
+        if (k > 0) open_ms.push_back(opened.count());
+        close_ms.push_back(closed.count());
+    }
+    OpenDatabases all(2);
+    const auto start = Clock::now();
+    for (int k = 0; k < 100'000; ++k)
+        (void)all.lease("KTLX");
+    const std::chrono::duration<double, std::micro> leased = Clock::now() - start;
+    std::sort(close_ms.begin(), close_ms.end());
+    std::sort(open_ms.begin(), open_ms.end());
+    std::cout << fmt::format("close {:.2f} ms, open {:.2f} ms (medians), lease {:.2f} us\n",
+                             close_ms[close_ms.size() / 2], open_ms[open_ms.size() / 2],
+                             leased.count() / 100'000);
+    EXPECT_LT(close_ms[close_ms.size() / 2], 500.0);
+    EXPECT_LT(open_ms[open_ms.size() / 2], 50.0);
+}
+
+}  // namespace
+}  // namespace stormcellar::catalog

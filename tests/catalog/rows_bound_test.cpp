@@ -1,0 +1,168 @@
+// What rows may take: rows of files that are gone make room, and else new ones are left out.
+#include <gtest/gtest.h>
+
+#include "tests/catalog/catalog_fixture.h"
+
+namespace stormcellar::catalog {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RowsBound : public ::testing::Test {
+  protected:
+    Catalog open(const CatalogOptions& options) {
+        return *Catalog::open_for_writing(directory_ / "catalog", options);
+    }
+    static std::string path(int k) { return fmt::format("/d/{:06}", k); }
+    // As an attack's: seen, so that it is not synced.
+    static FileFacts unknown(int k) {
+        FileFacts facts = file(path(k), {}, "");
+        facts.state = FileState::seen;
+        return facts;
+    }
+    [[nodiscard]] std::uint64_t bytes_of(const std::string& name) const {
+        return fs::file_size(directory_ / "catalog" / (name + ".sqlite"));
+    }
+    testing::TemporaryDirectory directory_;
+};
+
+// 2026-11-24: each file with a new name took some 300 bytes of disk, for ever.
+TEST_F(RowsBound, AtItsBoundTheDatabaseOfUnknownFilesLeavesNewOnesOut) {
+    CatalogOptions options;
+    options.most_unknown_bytes = 200'000;
+    auto catalog = open(options);
+    int added = 0;
+    while (added < 4000 && *catalog.register_file(unknown(added)) == Registered::added)
+        ++added;
+    EXPECT_GT(added, 500);
+    EXPECT_LT(added, 4000);
+    for (int k = 5000; k < 5500; ++k) {
+        ASSERT_EQ(*catalog.register_file(unknown(k)), Registered::left_out);
+        ASSERT_FALSE(*catalog.is_known(path(k)));
+        ASSERT_TRUE(catalog.note_file(unknown(k)));
+        ASSERT_FALSE(*catalog.is_known(path(k)));
+    }
+    ASSERT_TRUE(catalog.register_files("", {unknown(6000), unknown(6001)}));
+    EXPECT_FALSE(*catalog.is_known(path(6000)));
+    EXPECT_EQ(catalog.list("", {{}, {}, true})->size(), static_cast<std::size_t>(added));
+    FileFacts changed = unknown(7);
+    changed.size_bytes = 7;
+    EXPECT_EQ(*catalog.register_file(changed), Registered::updated) << "what has a row keeps it";
+    EXPECT_EQ(*catalog.register_file(file("/d/KTLX", {})), Registered::added) << "others go on";
+    EXPECT_TRUE(catalog.troubles().empty());
+    catalog = open(options);
+    EXPECT_LT(bytes_of("_unknown"), 220'000U);
+}
+
+TEST_F(RowsBound, RowsOfFilesThatAreGoneMakeRoomTheOldestFirst) {
+    CatalogOptions options;
+    options.most_unknown_bytes = 600'000;
+    auto catalog = open(options);
+    for (int k = 0; k < 2000; ++k)
+        ASSERT_EQ(*catalog.register_file(unknown(k)), Registered::added);
+    ASSERT_EQ(*catalog.mark_missing("/d"), 2000);
+    for (int k = 2000; k < 12'000; ++k) {
+        ASSERT_EQ(*catalog.register_file(unknown(k)), Registered::added) << k;
+        if (k % 1000 == 999) {
+            ASSERT_EQ(*catalog.mark_missing("/d"), 1000);
+        }
+    }
+    EXPECT_FALSE(*catalog.is_known(path(0)));
+    EXPECT_TRUE(*catalog.is_known(path(11'999)));
+    EXPECT_TRUE(catalog.examine_all());
+    EXPECT_TRUE(catalog.take_repairs().empty());
+    catalog = open(options);
+    EXPECT_LT(bytes_of("_unknown"), 650'000U);
+}
+
+TEST_F(RowsBound, AStationsOwnDatabaseHasItsBoundToo) {
+    CatalogOptions options;
+    options.most_station_bytes = 200'000;
+    auto catalog = open(options);
+    Registered last = Registered::added;
+    for (int k = 0; k < 3000 && last == Registered::added; ++k) {
+        FileFacts facts = unknown(k);
+        facts.station = "KTLX";
+        last = *catalog.register_file(facts);
+    }
+    EXPECT_EQ(last, Registered::left_out);
+    EXPECT_EQ(*catalog.register_file(file("/d/KOUN", {}, "KOUN")), Registered::added);
+}
+
+TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
+    CatalogOptions options;
+    {
+        auto catalog = open(options);
+        std::vector<FileFacts> many, few;
+        for (int k = 0; k < 6000; ++k)
+            many.push_back(file(path(k), {volume("2022-03-17T00:00", k % 1000)}));
+        for (int k = 10'000; k < 10'100; ++k)
+            few.push_back(file(path(k), {}, "KOUN"));
+        ASSERT_TRUE(catalog.register_files("KTLX", many));
+        ASSERT_TRUE(catalog.register_files("KOUN", few));
+        ASSERT_EQ(*catalog.mark_missing("/d"), 6100);
+        const auto all = catalog.roll();
+        ASSERT_TRUE(all);
+        EXPECT_EQ(all->rows, 0) << "there is no bound";
+        EXPECT_GT(all->used_bytes, 500'000U);
+        options.most_bytes = all->used_bytes / 2;
+    }
+    auto catalog = open(options);
+    int steps = 0;
+    const auto rolled = catalog.roll([&] { ++steps; });
+    ASSERT_TRUE(rolled);
+    EXPECT_GE(rolled->rows, 2000);
+    EXPECT_LE(rolled->rows, 5000);
+    EXPECT_LE(rolled->used_bytes, options.most_bytes);
+    EXPECT_GE(steps, 4);
+    EXPECT_FALSE(*catalog.is_known(path(0)));
+    EXPECT_TRUE(*catalog.is_known(path(5999)));
+    EXPECT_EQ(catalog.list("KOUN", {{}, {}, true})->size(), 100U) << "it is not the largest";
+    EXPECT_EQ(catalog.roll()->rows, 0);
+    EXPECT_TRUE(catalog.examine_all());
+    EXPECT_TRUE(catalog.take_repairs().empty());
+
+    // Rows of files that are there stay, whatever they take.
+    options.most_bytes = 1;
+    catalog = open(options);
+    ASSERT_TRUE(catalog.register_file(file("/d/there", {})));
+    EXPECT_TRUE(catalog.roll());
+    EXPECT_TRUE(*catalog.is_known("/d/there"));
+    EXPECT_FALSE(*catalog.is_known(path(5999)));
+}
+
+TEST_F(RowsBound, OfAFileWithVeryManyVolumesTheFirstGetRows) {
+    auto catalog = open({});
+    FileFacts facts = unknown(1);
+    facts.station = "KTLX";
+    for (int k = 0; k < 1500; ++k) {
+        facts.volumes.push_back(volume("2022-03-17T00:00", k % 1000));
+        *facts.volumes.back().start_time += std::chrono::minutes{k};
+    }
+    ASSERT_TRUE(catalog.register_file(facts));
+    const auto entries = *catalog.list("KTLX", {});
+    ASSERT_EQ(entries.size(), most_volumes_a_file);
+    EXPECT_EQ(entries.back().volume.start_time, facts.volumes[999].start_time);
+}
+
+// A database from before there were bounds.
+TEST_F(RowsBound, RollingBringsADatabaseBelowItsOwnBound) {
+    CatalogOptions options;
+    {
+        auto catalog = open(options);
+        std::vector<FileFacts> many;
+        for (int k = 0; k < 4000; ++k)
+            many.push_back(file(path(k), {}, ""));
+        ASSERT_TRUE(catalog.register_files("", many));
+        ASSERT_EQ(*catalog.mark_missing("/d"), 4000);
+    }
+    options.most_unknown_bytes = 300'000;
+    auto catalog = open(options);
+    const auto rolled = catalog.roll();
+    ASSERT_TRUE(rolled);
+    EXPECT_GE(rolled->rows, 1000);
+    EXPECT_LT(rolled->used_bytes, 300'000U);
+}
+
+}  // namespace
+}  // namespace stormcellar::catalog

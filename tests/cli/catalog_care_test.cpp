@@ -1,0 +1,180 @@
+// stormcellar catalog against files and databases that others have tampered with, run as a user
+// runs it.
+#include <chrono>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include "base/file_system.h"
+#include "catalog/catalog.h"
+#include "pipeline/instance_lock.h"
+#include "tests/testing/data.h"
+#include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::ProgramResult;
+
+class CatalogCare : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        fs::create_directory(directory_ / "state");
+        fs::create_directories(drop_ / "KBGM");
+        for (const std::string& name : {first_, second_}) {
+            fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw(name));
+            fs::permissions(raw(name), fs::perms::owner_write, fs::perm_options::add);
+        }
+        const auto rebuilt = run({"rebuild", "--drop", drop_});
+        ASSERT_EQ(rebuilt.status, 0) << rebuilt.err;
+    }
+    [[nodiscard]] fs::path raw(const std::string& name) const { return drop_ / "KBGM" / name; }
+    ProgramResult run(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "catalog");
+        arguments.insert(arguments.end(), {"--catalog", catalog_});
+        return testing::run_program(STORMCELLAR_PROGRAM, arguments);
+    }
+    // Copies, or decodes, what the catalog has of KBGM.
+    ProgramResult get(const std::string& out, bool decode) {
+        std::vector<std::string> arguments = {"get", "--station", "KBGM", "-o", directory_ / out};
+        if (decode) arguments.emplace_back("--decode");
+        return run(arguments);
+    }
+    [[nodiscard]] std::size_t files_in(const std::string& out) const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(directory_ / out), fs::directory_iterator{}));
+    }
+    // A catalog of another station, as an older configuration left it.
+    void put_database(const std::string& station) {
+        auto catalog = *catalog::Catalog::open_for_writing(catalog_);
+        catalog::FileFacts facts;
+        facts.path = "/d/" + station;
+        facts.station = station;
+        facts.state = catalog::FileState::gone;
+        ASSERT_TRUE(catalog.register_file(facts));
+    }
+    testing::TemporaryDirectory directory_;
+    fs::path drop_ = directory_ / "drop";
+    fs::path catalog_ = directory_ / "state/catalog";
+    std::string first_ = "KBGM20050822_024414.gz", second_ = "KBGM20050822_025001.gz";
+};
+
+// 2026-11-24: a link in a file's place was followed with the rights of who asked.
+TEST_F(CatalogCare, GetDoesNotFollowALinkInAFilesPlace) {
+    fs::rename(raw(first_), directory_ / "secret");
+    fs::create_symlink(directory_ / "secret", raw(first_));
+    for (const bool decode : {false, true}) {
+        const std::string out = decode ? "decoded" : "copied";
+        const auto ran = get(out, decode);
+        EXPECT_EQ(ran.status, 1);
+        EXPECT_NE(ran.err.find(raw(first_).native() + ": is a symbolic link"), std::string::npos)
+            << ran.err;
+        EXPECT_EQ(files_in(out), 1U) << "the other one";
+    }
+}
+
+TEST_F(CatalogCare, GetDoesNotFollowALinkInADirectorysPlace) {
+    fs::rename(drop_ / "KBGM", directory_ / "elsewhere");
+    fs::create_directory_symlink(directory_ / "elsewhere", drop_ / "KBGM");
+    for (const bool decode : {false, true}) {
+        const std::string out = decode ? "decoded" : "copied";
+        EXPECT_EQ(get(out, decode).status, 1);
+        EXPECT_EQ(files_in(out), 0U);
+    }
+}
+
+TEST_F(CatalogCare, GetDoesNotGiveOtherContentsOfTheSameSize) {
+    const auto size = fs::file_size(raw(second_));
+    fs::copy_file(raw(first_), raw(second_), fs::copy_options::overwrite_existing);
+    fs::resize_file(raw(second_), size);
+    for (const bool decode : {false, true}) {
+        const std::string out = decode ? "decoded" : "copied";
+        const auto ran = get(out, decode);
+        EXPECT_EQ(ran.status, 1);
+        EXPECT_NE(ran.err.find("is not the file that was cataloged"), std::string::npos) << ran.err;
+        EXPECT_EQ(files_in(out), 1U) << "the other one";
+    }
+}
+
+// 2026-11-24: one database that could not be opened ended the listing of all stations.
+TEST_F(CatalogCare, OneDatabaseThatCannotBeReadIsNamedAndTheOthersAreListed) {
+    ASSERT_EQ(::mkfifo((catalog_ / "KAAA.sqlite").c_str(), 0600), 0);
+    for (const char* query : {"list", "stations"}) {
+        const auto ran = run({query});
+        EXPECT_EQ(ran.status, 1) << query;
+        EXPECT_NE(ran.out.find("KBGM"), std::string::npos) << ran.out;
+        EXPECT_NE(ran.err.find("KAAA.sqlite: is a FIFO"), std::string::npos) << ran.err;
+        EXPECT_GE(json::parse(run({query, "--json"}).out).size(), 1U);
+    }
+    const auto checked = run({"check"});
+    EXPECT_EQ(checked.status, 1);
+    EXPECT_NE(checked.out.find("2 files  sound"), std::string::npos) << checked.out;
+    EXPECT_NE(checked.err.find("KAAA.sqlite: is a FIFO"), std::string::npos) << checked.err;
+    EXPECT_EQ(run({"list", "--station", "KBGM"}).status, 0);
+    const auto rebuilt = run({"rebuild", "--drop", drop_});
+    EXPECT_EQ(rebuilt.status, 0) << "KAAA is of no known station, and left alone: " << rebuilt.err;
+}
+
+TEST_F(CatalogCare, DatabasesOfUnknownStationsAreSaidAndCleared) {
+    for (const char* station : {"XAAA", "XBBB", "XCCC"})
+        put_database(station);
+    const auto checked = run({"check"});
+    EXPECT_EQ(checked.status, 0) << checked.err;
+    EXPECT_NE(checked.out.find("0 changed, of no known station"), std::string::npos) << checked.out;
+    EXPECT_NE(checked.out.find("3 databases are of no known station"), std::string::npos);
+    EXPECT_EQ(run({"check", "--stations", "any"}).out.find("no known"), std::string::npos);
+    EXPECT_EQ(run({"check", "--stations", "known,XAAA,XBBB,XCCC"}).out.find("no known"),
+              std::string::npos);
+    EXPECT_EQ(run({"check", "--stations", "xaaa"}).status, 2);
+    {
+        const auto daemon = pipeline::InstanceLock::acquire(directory_ / "state");
+        const auto refused = run({"check", "--clear-unknown"});
+        EXPECT_EQ(refused.status, 1);
+        EXPECT_NE(refused.err.find("while no daemon runs"), std::string::npos) << refused.err;
+    }
+    const auto some = run({"check", "--clear-unknown", "--stations", "known,XBBB", "--json"});
+    EXPECT_EQ(some.status, 0) << some.err;
+    EXPECT_EQ(json::parse(some.out)["cleared"].size(), 2U);
+    EXPECT_TRUE(fs::exists(catalog_ / "XBBB.sqlite"));
+    const auto rest = run({"check", "--clear-unknown"});
+    EXPECT_EQ(rest.status, 0) << rest.err;
+    EXPECT_NE(rest.out.find("XBBB      removed, 1 file, 0 of them to be read again"),
+              std::string::npos)
+        << rest.out;
+    EXPECT_FALSE(fs::exists(catalog_ / "XBBB.sqlite"));
+    EXPECT_EQ(run({"list", "--station", "KBGM"}).status, 0);
+}
+
+// An attack's state, with few descriptors: bounded, and quick.
+TEST_F(CatalogCare, ThousandsOfDatabasesAreCheckedAndClearedWithFewDescriptors) {
+    put_database("XAAA");
+    constexpr int databases = 1500;
+    for (int k = 0; k < databases; ++k)
+        fs::copy_file(catalog_ / "XAAA.sqlite", catalog_ / fmt::format("Y{:03X}.sqlite", k));
+    const auto limited = [&](const std::string& command) {
+        const std::string line = fmt::format("ulimit -n 60 && exec {} catalog {} --catalog {}",
+                                             STORMCELLAR_PROGRAM, command, catalog_.native());
+        return testing::run_program("/bin/sh", {"-c", line});
+    };
+    const auto checked = limited("check");
+    EXPECT_EQ(checked.status, 0) << checked.err;
+    EXPECT_NE(checked.out.find("1501 databases are of no known station"), std::string::npos);
+    EXPECT_EQ(limited("stations").status, 0);
+    EXPECT_EQ(limited("list --rejected").status, 0);
+    EXPECT_EQ(limited("rebuild --drop " + drop_.native()).status, 0);
+    const auto cleared = limited("check --clear-unknown");
+    EXPECT_EQ(cleared.status, 0) << cleared.err;
+    for (const auto& entry : fs::directory_iterator(catalog_)) {
+        const std::string name = entry.path().filename();
+        EXPECT_TRUE(name.starts_with("KBGM.sqlite") || name == "drop-directory") << name;
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
