@@ -36,15 +36,14 @@ struct Claims {
 
 // The 24 bytes before the first record.
 [[nodiscard]] Bytes file_header(const Claims& claims, int number = 1);
-// The radials [first, end) of one sweep, counted from 0. `begins`: the sweep's first radial says
-// that a sweep begins; `ends`: the last one says that it ends.
+// The radials of one sweep, counted from 0.
 [[nodiscard]] Bytes sweep_messages(const Claims& claims, unsigned sweep);
 // A whole volume: the header and one record.
 [[nodiscard]] Bytes volume_bytes(const Claims& claims);
 // The same without compression, which is quicker to make.
 [[nodiscard]] Bytes plain_volume_bytes(const Claims& claims);
-// The header and records of one sweep that does not end: `radials` radials of `gates` gates of 16
-// bits. Of 1,250 and 20,000 it unpacks to 50 MB, and has some 23 kB.
+// The header and records of one sweep that does not end: `radials` radials (a multiple of 125) of
+// `gates` gates of 16 bits. Of 1,250 and 20,000 it unpacks to 50 MB, and has some 23 kB.
 [[nodiscard]] Bytes endless_bytes(Claims claims, unsigned radials = 1250, unsigned gates = 20'000);
 // The control word of a record of so many bytes, and the start of its stream.
 [[nodiscard]] Bytes begun_record(std::uint32_t bytes);

@@ -191,13 +191,6 @@ class HostileMixTest : public ::testing::Test {
                     descriptors);
         EXPECT_LE(descriptors, most_descriptors_afterwards);
     }
-    bool rests(double most_s) const {
-        return comes_true(most_s, [&] {
-            const json now = daemon_.status();
-            return !now.is_null() && now["state"] == "running" && now["pending"]["waiting"] == 0 &&
-                   now["pending"]["running"] == 0;
-        });
-    }
 
     daemon::RunningDaemon daemon_;
     int seconds_ = number_of("STORMCELLAR_HOSTILE_SECONDS", 20);
@@ -232,7 +225,7 @@ TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
     EXPECT_LE(real.p95, most_p95_s);
     EXPECT_LE(ready_s, most_ready_s);
     expect_bounded(peak_mib, peaks);
-    EXPECT_TRUE(rests(60)) << daemon_.status()["pending"].dump();
+    EXPECT_TRUE(comes_to_rest(daemon_, 60)) << daemon_.status()["pending"].dump();
     expect_nothing_left(fresh_descriptors);
     expect_cataloged(volumes);
     expect_all_gridded(volumes, "after the restart");

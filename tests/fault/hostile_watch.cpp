@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/station_table.h"
 #include "cache/grid_file.h"
@@ -98,6 +100,21 @@ std::uint64_t bytes_read_by(pid_t process) {
     return 0;
 }
 
+double cpu_seconds(pid_t process) {
+    std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+    std::string text;
+    std::getline(stat, text);
+    const std::size_t behind_name = text.rfind(')');
+    if (behind_name == std::string::npos) return 0;
+    std::istringstream fields(text.substr(behind_name + 2));
+    constexpr int before_times = 11;  // from the state on
+    for (int i = 0; i < before_times; ++i)
+        fields >> text;
+    double user = 0, system = 0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
 std::uint64_t unnamed_bytes(pid_t process) {
     std::uint64_t bytes = 0;
     for_each_entry("/proc/" + std::to_string(process) + "/fd",
@@ -137,6 +154,20 @@ bool comes_true(double seconds, const std::function<bool()>& wanted) {
     return true;
 }
 
+bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds) {
+    constexpr double hardly_s = 0.1;
+    const auto limit = Clock::now() + std::chrono::duration<double>(seconds);
+    while (Clock::now() < limit) {
+        const double before_s = cpu_seconds(daemon.id());
+        std::this_thread::sleep_for(milliseconds{1200});
+        const nlohmann::json now = daemon.status();
+        if (now.is_null() || now["pending"]["waiting"] != 0 || now["pending"]["running"] != 0)
+            continue;
+        if (cpu_seconds(daemon.id()) - before_s < hardly_s) return true;
+    }
+    return false;
+}
+
 // The socket goes when it is ready: nobody reads what comes later, and the daemon must not wait.
 double start_until_ready(daemon::RunningDaemon& daemon, const std::string& config) {
     const fs::path path = daemon.root() / "notify";
@@ -146,12 +177,12 @@ double start_until_ready(daemon::RunningDaemon& daemon, const std::string& confi
     ::chmod(path.c_str(), 0777);
     const auto begin = Clock::now();
     daemon.start(config, {{"NOTIFY_SOCKET", path.native()}});
-    while (Clock::now() < begin + std::chrono::minutes{1}) {
+    while (Clock::now() < begin + std::chrono::seconds{30}) {
         if (socket.receive().find("READY=1") != std::string::npos)
             return std::chrono::duration<double>(Clock::now() - begin).count();
         if (daemon.ended()) throw std::runtime_error("it ended before it was ready");
     }
-    throw std::runtime_error("it is not ready after a minute");
+    throw std::runtime_error("it is not ready after 30 s");
 }
 
 }  // namespace stormcellar::fault

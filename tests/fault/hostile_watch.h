@@ -35,6 +35,8 @@ struct CatalogRow {
 [[nodiscard]] std::set<std::string> invented_among(const std::set<std::string>& names);
 
 [[nodiscard]] std::size_t open_descriptors(pid_t process);
+// Of the processors, in user and system mode.
+[[nodiscard]] double cpu_seconds(pid_t process);
 // What it has asked to read in all, in bytes; 0 where that cannot be known.
 [[nodiscard]] std::uint64_t bytes_read_by(pid_t process);
 // On disk, of the files without a name that it holds open.
@@ -48,8 +50,12 @@ struct CatalogRow {
 // Asks again every 20 ms; false when it does not come true within `seconds`.
 bool comes_true(double seconds, const std::function<bool()>& wanted);
 
+// Waits until nothing is pending and it has taken hardly any time of the processors for a second:
+// what it is told of itself may be a second old. False where that does not come within `seconds`.
+bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds);
+
 // Starts it with a service manager's socket, and gives the seconds until it said READY=1; throws
-// where it ends before, or has not said so after a minute.
+// where it ends before, or has not said so after 30 s.
 double start_until_ready(daemon::RunningDaemon& daemon, const std::string& config);
 
 }  // namespace stormcellar::fault
