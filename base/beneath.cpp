@@ -25,6 +25,10 @@ ErrorCode code_of(int error_number) {
         case EACCES:
         case EPERM:
             return ErrorCode::permission;
+        case EMFILE:
+        case ENFILE:
+        case ENOMEM:
+            return ErrorCode::exhausted;
         default:
             return ErrorCode::io;
     }

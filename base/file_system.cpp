@@ -25,6 +25,10 @@ ErrorCode code_of(int error_number) {
         case ENOSPC:
         case EDQUOT:
             return ErrorCode::no_space;
+        case EMFILE:
+        case ENFILE:
+        case ENOMEM:
+            return ErrorCode::exhausted;
         default:
             return ErrorCode::io;
     }

@@ -1,5 +1,8 @@
 #include "base/printable.h"
 
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 
 namespace stormcellar {
@@ -33,22 +36,51 @@ std::size_t utf8_length(std::string_view text) {
     return length;
 }
 
+// The code point of one well-formed character.
+char32_t code_point(std::string_view character) {
+    const auto lead = static_cast<unsigned char>(character.front());
+    if (character.size() == 1) return lead;
+    char32_t code = lead & (0x7FU >> character.size());
+    for (const char c : character.substr(1))
+        code = (code << 6U) | (static_cast<unsigned char>(c) & 0x3FU);
+    return code;
+}
+
+struct CodePoints {
+    char32_t first, last;
+};
+
+// The controls; the characters that Unicode calls ignorable by default (those that no glyph shows:
+// DerivedCoreProperties.txt 15.0, Default_Ignorable_Code_Point), among them every control of
+// direction, zero-width characters, variation selectors and tags; the separators of lines and
+// paragraphs; and the marks of interlinear annotation.
+constexpr std::array<CodePoints, 20> unseen = {{
+    {0x0000, 0x001F}, {0x007F, 0x009F}, {0x00AD, 0x00AD},   {0x034F, 0x034F},   {0x061C, 0x061C},
+    {0x115F, 0x1160}, {0x17B4, 0x17B5}, {0x180B, 0x180F},   {0x200B, 0x200F},   {0x2028, 0x2029},
+    {0x202A, 0x202E}, {0x2060, 0x206F}, {0x3164, 0x3164},   {0xFE00, 0xFE0F},   {0xFEFF, 0xFEFF},
+    {0xFFA0, 0xFFA0}, {0xFFF0, 0xFFFB}, {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF},
+}};
+
+bool is_seen(char32_t code) {
+    return std::none_of(unseen.begin(), unseen.end(), [&](const CodePoints& range) {
+        return code >= range.first && code <= range.last;
+    });
+}
+
 }  // namespace
 
 std::string printable(std::string_view text) {
     std::string safe;
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
-        const auto byte = static_cast<unsigned char>(text.front());
-        const bool c1_control =
-            length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
-        if (length == 0 || byte < 0x20 || byte == 0x7F || c1_control) {
-            safe += fmt::format("\\x{:02x}", byte);
-            text.remove_prefix(1);
+        const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+        if (length > 0 && is_seen(code_point(character))) {
+            safe += character;
         } else {
-            safe += text.substr(0, length);
-            text.remove_prefix(length);
+            for (const char c : character)
+                safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
         }
+        text.remove_prefix(character.size());
     }
     return safe;
 }

@@ -12,6 +12,7 @@
 #include "base/file_system.h"
 #include "base/floating_point.h"
 #include "base/printable.h"
+#include "base/toml_depth.h"
 
 namespace stormcellar {
 namespace {
@@ -172,6 +173,10 @@ Result<TomlFile> TomlFile::open(const std::filesystem::path& file) {
 Result<TomlFile> TomlFile::parse(std::string_view text, std::string name) {
     auto document = std::make_unique<Document>();
     document->file = std::move(name);
+    if (const auto line = line_of_deep_key(text)) {
+        return fail(ErrorCode::bad_argument, "{}:{}: a key has more than {} parts",
+                    printable(document->file), *line, most_key_parts);
+    }
     try {
         document->root = toml::parse(text);
     } catch (const toml::parse_error& error) {

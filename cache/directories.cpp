@@ -49,6 +49,11 @@ tl::unexpected<Error> directory_failure(const fs::path& path, const std::error_c
         code = ErrorCode::permission;
     }
     if (error == std::errc::no_space_on_device) code = ErrorCode::no_space;
+    if (error == std::errc::too_many_files_open ||
+        error == std::errc::too_many_files_open_in_system ||
+        error == std::errc::not_enough_memory) {
+        code = ErrorCode::exhausted;
+    }
     if (error == std::errc::not_a_directory) code = ErrorCode::not_a_file;
     return fail(code, "{}: {}", path.native(), error.message());
 }

@@ -134,7 +134,7 @@ void print_measured_json(const std::string& subject, level2::Moment moment,
     json["rows"] = to_json(measured.rows, unit);
     json["truth"] = truth_json(measured.truth);
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    fmt::print("{}\n", json.dump(1, ' ', false, replace));
+    fmt::print("{}\n", json.dump(1, ' ', true, replace));
 }
 
 void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
@@ -221,7 +221,7 @@ int report_over_time(const AccuracyOptions& options, const GridRequest& request,
         const nlohmann::ordered_json json{{"moment", level2::moment_name(request.moment)},
                                           {"value_unit", "dB"},
                                           {"rows", held_out_json(*rows)}};
-        fmt::print("{}\n", json.dump(1, ' ', false, replace));
+        fmt::print("{}\n", json.dump(1, ' ', true, replace));
         return exit_done;
     }
     fmt::print(

@@ -52,9 +52,9 @@ void print_entry(const CatalogEntry& entry) {
         entry.volume.start_time ? format_utc(*entry.volume.start_time) : std::string{"-"};
     const std::string vcp = entry.volume.vcp ? fmt::format("{}", *entry.volume.vcp) : "-";
     fmt::print("{:<4}  {:<24}  VCP {:>3}  {:>3} sweeps  {:>6} radials  {:<8}  {}{}\n",
-               entry.station.empty() ? "-" : entry.station, start, vcp, entry.volume.sweep_count,
-               entry.volume.radial_count, catalog::file_state_name(entry.state),
-               printable(entry.path.native()),
+               entry.station.empty() ? "-" : printable(entry.station), start, vcp,
+               entry.volume.sweep_count, entry.volume.radial_count,
+               catalog::file_state_name(entry.state), printable(entry.path.native()),
                entry.reason.empty() ? "" : "  (" + printable(entry.reason) + ")");
 }
 

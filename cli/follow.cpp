@@ -147,7 +147,7 @@ int follow(const Following& following, const FollowOptions& options,
 }
 
 void print_json_line(const nlohmann::json& document) {
-    fmt::print("{}\n", document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", document.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
     std::fflush(stdout);
 }
 

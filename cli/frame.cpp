@@ -129,7 +129,7 @@ void report_frame(const FrameOptions& options, const render::Scene& scene,
     json["render_s"] = timing.render_s;
     json["write_s"] = timing.write_s;
     json["total_s"] = timing.total_s;
-    fmt::print("{}\n", json.dump(1, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json.dump(1, ' ', true, Json::error_handler_t::replace));
 }
 
 Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,

@@ -272,7 +272,7 @@ int run_grid(const GridOptions& options, const EffectOptions& effect_options,
         print_note(note);
     if (options.json) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        fmt::print("{}\n", describe(options, made->grid, timings).dump(1, ' ', false, replace));
+        fmt::print("{}\n", describe(options, made->grid, timings).dump(1, ' ', true, replace));
     } else {
         print_facts(options, made->grid, timings);
     }

@@ -210,7 +210,7 @@ int run_info(const InfoOptions& options) {
     }
     if (options.json) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        fmt::print("{}\n", json.dump(1, ' ', false, replace));
+        fmt::print("{}\n", json.dump(1, ' ', true, replace));
     }
     return exit_done;
 }

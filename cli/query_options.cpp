@@ -35,7 +35,7 @@ Result<TimeRange> parse_time_range(const TimeRangeOptions& options) {
 }
 
 void print_json(const nlohmann::json& document) {
-    fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", document.dump(2, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
 int report_nothing_matched() {

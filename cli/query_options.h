@@ -28,7 +28,9 @@ struct TimeRange {
 // bad_argument when one of them is no time, or they are the wrong way round.
 [[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
 
-// The document on stdout, two spaces a level. Bytes that are not UTF-8 become U+FFFD.
+// The document on stdout, two spaces a level. Characters beyond ASCII are written as \uXXXX, which
+// says the same to a program and keeps names from acting on a terminal. Bytes that are not UTF-8
+// become U+FFFD.
 void print_json(const nlohmann::json& document);
 
 // Says so on stderr; gives the exit status.

@@ -123,7 +123,7 @@ int run_site_pairs(const GridOptions& options, const GridRequest& request,
     if (!compared) return report_error(compared.error());
     if (options.json) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        fmt::print("{}\n", site_pairs_json(*compared).dump(1, ' ', false, replace));
+        fmt::print("{}\n", site_pairs_json(*compared).dump(1, ' ', true, replace));
         return exit_done;
     }
     fmt::print("What each site of a pair says otherwise than the other, at {}:\n\n{}",

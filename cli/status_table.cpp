@@ -114,17 +114,24 @@ std::string wait_of(const json& pending) {
     return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);
 }
 
+// Those that failed, where there are any.
+std::string retrying_of(const json& pending) {
+    const auto retrying = count(pending, "retrying");
+    return retrying == 0 ? std::string{} : fmt::format(", {} to be tried again", retrying);
+}
+
 std::string counts_lines(const json& status) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
-        "queue    {} waiting{}, {} running, {} growing; {} of the kernel's events, {}\n",
+        "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's events, {}\n",
         count(pending, "waiting"), wait_of(pending), count(pending, "running"),
-        count(pending, "growing"), counted(count(status, "overflows"), "overflow"),
+        count(pending, "growing"), retrying_of(pending), counted(count(status, "overflows"), "overflow"),
         counted(count(status, "scans"), "scan"));
     lines += fmt::format("files    {} gridded ({} partial), {}, {} with nothing to grid, {}\n",
                          count(status, "ingested"), count(status, "partial"),
                          with_kinds(status, "rejected", "rejected_by"),
-                         count(status, "no_moment") + count(status, "no_position"),
+                         count(status, "no_moment") + count(status, "no_position") +
+                             count(status, "other_station"),
                          with_kinds(status, "failures", "failures_by"));
     const json& latency = at(status, "latency_s");
     lines += fmt::format("close to cache    {} ({})\n", summary(latency),

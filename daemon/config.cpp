@@ -12,6 +12,7 @@
 #include "base/printable.h"
 #include "base/toml_file.h"
 #include "cache/grid_name.h"
+#include "daemon/station_config.h"
 #include "grid/grid_spec.h"
 #include "level2/volume.h"
 #include "pipeline/domain.h"
@@ -157,6 +158,7 @@ void read_ingest(TomlTable ingest, Config& config) {
             std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     }
     config.ingest.grid_threads = config.ingest.decode_threads;
+    config.stations = read_station_rule(ingest);
     if (const auto living = ingest.flag("living")) config.living = *living;
     read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
     read_whole_seconds(ingest, "chunk_timeout_seconds", {1, 86400},
@@ -310,6 +312,7 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     Config config;
     read_paths(root.section("paths"), file, config);
     read_ingest(root.section("ingest"), config);
+    config.added_stations = read_added_stations(root);
     config.ingest.domains = pipeline::read_domains(root);
     read_cache(root.section("cache"), config);
     read_catalog(root.section("catalog"), config);

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/station_rule.h"
+#include "base/station_table.h"
 #include "bunzip/paths.h"
 #include "cache/budget.h"
 #include "daemon/loop_config.h"
@@ -41,6 +43,8 @@ struct Config {
     std::filesystem::path cache = "/var/cache/stormcellar";
 
     pipeline::IngestOptions ingest;
+    StationRule stations;              // of which data are taken in
+    std::vector<AddedStation> added_stations;
     bool living = true;                  // volumes are gridded while they grow
     std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine has
     int workers = 0;                     // 0: one a processor; see worker_count()

@@ -4,25 +4,61 @@
 
 namespace stormcellar::daemon {
 
-bool GrowingFiles::add_new(const std::filesystem::path& path, const FileStamp& stamp,
-                           SteadyTime now) {
-    if (files_.contains(path)) return true;
-    if (files_.size() >= limit_) return false;
+bool GrowingFiles::has_room_for(const std::string& station) {
+    if (files_.size() < limit_) return true;
+    const auto largest =
+        std::max_element(by_station_.begin(), by_station_.end(), [](const auto& a, const auto& b) {
+            return a.second.size() < b.second.size();
+        });
+    if (largest == by_station_.end()) return false;
+    const auto own = by_station_.find(station);
+    const std::size_t own_count = own == by_station_.end() ? 0 : own->second.size();
+    if (largest->second.size() <= own_count + 1) return false;
+    displaced_.push_back(*largest->second.begin());
+    forget(displaced_.back());
+    return true;
+}
+
+void GrowingFiles::add(const std::filesystem::path& path, File file, SteadyTime now) {
     if (files_.empty()) next_poll_ = now + settle;
-    files_[path] = {.looked_at = {}, .last = stamp, .since = now, .changed_at = now};
+    forget(path);
+    by_station_[file.station].insert(path);
+    files_.emplace(path, std::move(file));
+}
+
+GrowingFiles::Files::iterator GrowingFiles::erase(Files::iterator file) {
+    const auto own = by_station_.find(file->second.station);
+    own->second.erase(file->first);
+    if (own->second.empty()) by_station_.erase(own);
+    return files_.erase(file);
+}
+
+void GrowingFiles::forget(const std::filesystem::path& path) {
+    if (const auto known = files_.find(path); known != files_.end()) erase(known);
+}
+
+bool GrowingFiles::add_new(const std::filesystem::path& path, const FileStamp& stamp,
+                           SteadyTime now, const std::string& station) {
+    if (files_.contains(path)) return true;
+    if (!has_room_for(station)) return false;
+    File file{.looked_at = {}, .last = stamp, .since = now, .changed_at = now};
+    file.station = station;
+    add(path, std::move(file), now);
     return true;
 }
 
 bool GrowingFiles::add_incomplete(const std::filesystem::path& path, const FileStamp& stamp,
-                                  SteadyTime now, bool followed) {
-    if (!files_.contains(path) && files_.size() >= limit_) return false;
-    if (files_.empty()) next_poll_ = now + settle;
-    files_[path] = {.looked_at = stamp,
-                    .last = stamp,
-                    .since = now,
-                    .changed_at = now,
-                    .incomplete = true,
-                    .followed = followed};
+                                  SteadyTime now, bool followed, const std::string& station) {
+    if (!files_.contains(path) && !has_room_for(station)) return false;
+    add(path,
+        {.looked_at = stamp,
+         .last = stamp,
+         .since = now,
+         .changed_at = now,
+         .incomplete = true,
+         .followed = followed,
+         .station = station},
+        now);
     return true;
 }
 
@@ -55,7 +91,7 @@ std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& lo
         const bool was_there = file.last != FileStamp{};
         if (found.standing != Standing::regular && (was_there || !file.incomplete)) {
             if (file.incomplete) due.push_back({path, {}, false});
-            entry = files_.erase(entry);
+            entry = erase(entry);
             continue;
         }
         if (found.stamp != file.last) {
@@ -64,7 +100,7 @@ std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& lo
         }
         if (auto decided = decide(path, file, now)) {
             due.push_back(std::move(*decided));
-            entry = files_.erase(entry);
+            entry = erase(entry);
         } else {
             ++entry;
         }

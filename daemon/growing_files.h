@@ -6,7 +6,8 @@
 // has not ended: it is looked at again when it has changed and settled, and finished as it is when
 // it has been quiet (no change of size, time or inode) for `quiet`.
 // Changes are seen by polling the stamps, which works for files that are never closed and on file
-// systems without events. At most `limit` files are kept; beyond it they are left to the next scan.
+// systems without events. At most `limit` files are kept: at the bound a file takes the place of one
+// of the station that has most, where its own has fewer; else it is left to the next scan.
 // Pure bookkeeping: the caller gives the time (a monotonic clock) and the stamps.
 // Thread contract: one thread.
 #pragma once
@@ -17,6 +18,9 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "daemon/file_stamp.h"
@@ -38,13 +42,19 @@ class GrowingFiles {
     GrowingFiles(Duration quiet, std::size_t limit) : quiet_(quiet), limit_(limit) {}
 
     void set_quiet(Duration quiet) { quiet_ = quiet; }
-    // False when there is no room left. A file that is known keeps its times.
-    bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now);
+    // False when there is no room left. A file that is known keeps its times. `station`: empty for
+    // all of which none is known.
+    bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
+                 const std::string& station = {});
     // `stamp` as it was before the file was read; none: it is gone, and is asked for again all the
     // same, as a volume of chunks waits in its name. Replaces what was known of the path.
     bool add_incomplete(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
-                        bool followed = false);
-    void forget(const std::filesystem::path& path) { files_.erase(path); }
+                        bool followed = false, const std::string& station = {});
+    void forget(const std::filesystem::path& path);
+    // Those that had to give their places to others since the last call.
+    [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {
+        return std::exchange(displaced_, {});
+    }
 
     struct Due {
         std::filesystem::path path;
@@ -73,14 +83,21 @@ class GrowingFiles {
         SteadyTime changed_at;  // when `last` was first seen
         bool incomplete = false;
         bool followed = false;
+        std::string station = {};
     };
+    using Files = std::map<std::filesystem::path, File>;
+    bool has_room_for(const std::string& station);
+    void add(const std::filesystem::path& path, File file, SteadyTime now);
+    Files::iterator erase(Files::iterator file);
     [[nodiscard]] std::optional<Due> decide(const std::filesystem::path& path, const File& file,
                                             SteadyTime now) const;
 
     Duration quiet_;
     std::size_t limit_;
     SteadyTime next_poll_{};
-    std::map<std::filesystem::path, File> files_;
+    Files files_;
+    std::map<std::string, std::set<std::filesystem::path>> by_station_;
+    std::vector<std::filesystem::path> displaced_;
 };
 
 }  // namespace stormcellar::daemon

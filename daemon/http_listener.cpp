@@ -5,14 +5,39 @@
 
 #include <fcntl.h>
 #include <microhttpd.h>
+#include <strings.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "daemon/loopback_host.h"
 
 namespace stormcellar::daemon {
 namespace {
 
 // For the request line and all headers, and the headers of the answer.
 constexpr std::size_t request_memory = 8192;
+
+struct Hosts {
+    int port;
+    bool are_ours = true;
+};
+
+// Each Host field is looked at: whoever sends two may mean the other one.
+MHD_Result look_at_host(void* hosts, MHD_ValueKind, const char* name, const char* value) {
+    auto* found = static_cast<Hosts*>(hosts);
+    if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
+        !is_loopback_host(value == nullptr ? "" : value, found->port)) {
+        found->are_ours = false;
+    }
+    return MHD_YES;
+}
+
+bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
+    if (!port) return false;  // whoever may open a Unix socket is no page of the web
+    Hosts hosts{*port};
+    MHD_get_connection_values(connection, MHD_HEADER_KIND, &look_at_host, &hosts);
+    return !hosts.are_ours;
+}
 
 }  // namespace
 
@@ -21,7 +46,9 @@ struct HttpListener::Callbacks {
     static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
                              const char* method, const char* /*version*/, const char* /*data*/,
                              std::size_t* /*data_size*/, void** /*of_request*/) {
-        const Answer answer = static_cast<HttpListener*>(self)->answerer_(method, url);
+        auto* listener = static_cast<HttpListener*>(self);
+        const Answer answer = listener->answerer_(
+            {method, url, names_another_host(connection, listener->socket_.port())});
         if (answer.response == nullptr) return MHD_NO;
         return MHD_queue_response(connection, answer.status, answer.response);
     }
@@ -29,6 +56,7 @@ struct HttpListener::Callbacks {
     static void connection(void* self, MHD_Connection* connection, void** /*of_connection*/,
                            MHD_ConnectionNotificationCode what) {
         auto* listener = static_cast<HttpListener*>(self);
+        ++listener->changes_;
         if (what == MHD_CONNECTION_NOTIFY_CLOSED) {
             listener->open_.erase(connection);
             return;
@@ -69,6 +97,7 @@ HttpListener::~HttpListener() {
 }
 
 std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
+    if (is_behind_) return now;
     std::optional<SteadyTime> next;
     const auto take = [&](SteadyTime time) { next = next ? std::min(*next, time) : time; };
     MHD_UNSIGNED_LONG_LONG wait_ms = 0;
@@ -102,7 +131,14 @@ void HttpListener::turn(SteadyTime now) {
         ::shutdown(open.descriptor, SHUT_RDWR);
         open.is_cut = true;
     }
-    MHD_run(daemon_);
+    // One run takes few new connections, and none while there are as many as may be. Those that end
+    // in a run make room in the next one alone, of which no descriptor tells.
+    is_behind_ = true;
+    for (int round = 0; is_behind_ && round < most_rounds; ++round) {
+        const std::uint64_t before = changes_;
+        MHD_run(daemon_);
+        is_behind_ = changes_ != before;
+    }
 }
 
 }  // namespace stormcellar::daemon

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -22,12 +23,19 @@ namespace stormcellar::daemon {
 
 class HttpListener {
   public:
-    // The answer to GET or HEAD of a path, and its HTTP status.
+    struct Request {
+        const char* method;
+        const char* url;
+        // On a port: a Host field is none of is_loopback_host(). A request without the field names
+        // nobody: HTTP/1.0 allows that, and browsers, against whose pages this is, always send one.
+        bool names_another_host;
+    };
+    // The answer to a request, and its HTTP status.
     struct Answer {
         MHD_Response* response = nullptr;  // stays the giver's; null ends the connection
         unsigned status = 0;
     };
-    using Answerer = std::function<Answer(const char* method, const char* url)>;
+    using Answerer = std::function<Answer(const Request&)>;
     struct Limits {
         std::chrono::milliseconds longest_connection{0};
         unsigned most_connections = 0;
@@ -49,6 +57,7 @@ class HttpListener {
     void turn(SteadyTime now);
 
   private:
+    static constexpr int most_rounds = 64;  // of one turn, so that a flood does not make it endless
     struct Callbacks;
     struct Open {
         int descriptor;
@@ -62,6 +71,8 @@ class HttpListener {
     Limits limits_;
     Answerer answerer_;
     std::map<MHD_Connection*, Open> open_;
+    std::uint64_t changes_ = 0;  // connections that came or went
+    bool is_behind_ = false;     // a turn has ended before all that had come was taken
     MHD_Daemon* daemon_ = nullptr;
     int epoll_ = -1;
 };

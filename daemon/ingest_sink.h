@@ -17,7 +17,8 @@ class IngestSink final : public Sink {
     // Opens state/catalog and the cache for writing, making them where they are missing.
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
-    Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override;
+    Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+                       pipeline::Tries tries) override;
     Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
         return ingestor_.note(path);
     }
@@ -38,12 +39,13 @@ class IngestSink final : public Sink {
     [[nodiscard]] pipeline::SiteWatch& site_watch() { return site_watch_; }
 
   private:
-    IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config);
+    IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
+               std::shared_ptr<StationRule> stations);
 
-    static pipeline::IngestOptions options_of(const Config& config,
-                                              std::shared_ptr<const std::atomic<bool>> pressed);
+    [[nodiscard]] pipeline::IngestOptions options_of(const Config& config) const;
 
     std::filesystem::path drop_;
+    std::shared_ptr<StationRule> stations_;
     std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
     catalog::Catalog catalog_;
     cache::Store store_;

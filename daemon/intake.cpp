@@ -27,14 +27,37 @@ Clock real_clock() {
 
 Intake::Intake(const Config& config, Clock clock)
     : drop_(config.drop),
+      stations_(config.stations),
       clock_(std::move(clock)),
       reread_(config.reread),
       schedule_(config.queue_limit),
-      growing_(config.quiet, most_growing) {}
+      growing_(config.quiet, most_growing) {
+    schedule_.set_workers(config.worker_count());
+}
 
 void Intake::set_times(const Config& config) {
     reread_ = config.reread;
     growing_.set_quiet(config.quiet);
+    schedule_.set_workers(config.worker_count());
+}
+
+std::string Intake::station_of(const std::filesystem::path& path) const {
+    std::string station = pipeline::station_of_path(path);
+    return stations_.knows(station) ? station : std::string{};
+}
+
+void Intake::leave_to_scan(const std::filesystem::path& path) {
+    refused_ = true;
+    seen_.forget(path);
+}
+
+void Intake::note_displaced() {
+    for (const auto& paths : {schedule_.take_displaced(), growing_.take_displaced()}) {
+        for (const std::filesystem::path& path : paths) {
+            followed_.erase(path);
+            leave_to_scan(path);
+        }
+    }
 }
 
 // A followed file has its row since it began.
@@ -45,18 +68,18 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.urgency = urgency;
     job.is_begun = is_followed || pipeline::is_chunk_name(path);
     job.is_registered = is_followed;
-    job.station = pipeline::station_of_path(path);
+    job.station = station_of(path);
     return job;
 }
 
 void Intake::offer(Job job, const FileStamp& stamp) {
     const std::filesystem::path path = job.path;
     if (schedule_.offer(std::move(job), clock_.steady()) == Offered::refused) {
-        refused_ = true;
-        seen_.forget(path);
+        leave_to_scan(path);
     } else {
         seen_.add(path, stamp);
     }
+    note_displaced();
 }
 
 // The order of what is closed stays as it came when the clock on the wall is set back.
@@ -80,10 +103,8 @@ void Intake::file_closed(const std::filesystem::path& path, const FileStamp& sta
 }
 
 void Intake::file_created(const std::filesystem::path& path, const FileStamp& stamp) {
-    if (!growing_.add_new(path, stamp, clock_.steady())) {
-        refused_ = true;
-        seen_.forget(path);
-    }
+    if (!growing_.add_new(path, stamp, clock_.steady(), station_of(path))) leave_to_scan(path);
+    note_displaced();
 }
 
 void Intake::file_found(const std::filesystem::path& path, const FileStamp& stamp) {
@@ -178,25 +199,32 @@ void Intake::poll_growing() {
     }
 }
 
+// Tried often enough, and not even its rejection could be stored: that is the trouble of a database,
+// which is met again with the next scan.
+void Intake::job_failed(const Finished& finished) {
+    const ErrorCode code = finished.taken.error().code;
+    const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);
+    if (was_last) schedule_.finished(finished.job.path);
+    if (was_last || !schedule_.retry(finished.job, finished.ended))
+        leave_to_scan(finished.job.path);
+    // A full disk fails them all: there is no use in decoding the next one only to see that.
+    if (code == ErrorCode::no_space) {
+        schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
+    }
+}
+
 void Intake::job_ended(const Finished& finished) {
     const std::filesystem::path& path = finished.job.path;
-    if (!finished.taken) {
-        schedule_.retry(finished.job, finished.ended);
-        // A full disk fails them all: there is no use in decoding the next one only to see that.
-        if (finished.taken.error().code == ErrorCode::no_space) {
-            schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
-        }
-        return;
-    }
+    schedule_.worked(path, finished.ended - finished.started, finished.ended);
+    if (!finished.taken) return job_failed(finished);
     SteadyTime again{};
     followed_.erase(path);
     switch (finished.taken->ingest.result) {
         case pipeline::IngestResult::incomplete:
             if (!finished.taken->ingest.followed) again = finished.ended + reread_;
             if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
-                                         finished.taken->ingest.followed)) {
-                refused_ = true;
-                seen_.forget(path);
+                                         finished.taken->ingest.followed, station_of(path))) {
+                leave_to_scan(path);
             } else if (finished.taken->ingest.followed) {
                 followed_.insert(path);
             }
@@ -211,6 +239,7 @@ void Intake::job_ended(const Finished& finished) {
             break;
     }
     schedule_.finished(path, again);
+    note_displaced();
 }
 
 // What could not be written will be when the file is taken in.
@@ -269,7 +298,8 @@ SteadyTime::duration Intake::longest_wait() const {
 }
 
 Pending Intake::pending() const {
-    return {schedule_.waiting_count(), schedule_.running_count(), growing_.count()};
+    return {schedule_.waiting_count(), schedule_.running_count(), growing_.count(),
+            schedule_.retrying_count()};
 }
 
 }  // namespace stormcellar::daemon

@@ -36,7 +36,11 @@ class Intake final : public WatchListener {
   public:
     Intake(const Config& config, Clock clock);
 
-    // New times to wait, after a reload.
+    // A file that cannot be taken in is tried so often, over three minutes, unless the system is
+    // short of disk, memory or descriptors: then for as long as that lasts.
+    static constexpr int most_tries = 8;
+
+    // New times to wait and another number of workers, after a reload.
     void set_times(const Config& config);
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -95,12 +99,19 @@ class Intake final : public WatchListener {
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();
+    // The station that a path names, where data of it are taken in; else empty.
+    [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
+    void job_failed(const Finished& finished);
+    // What had to give its place is found again by a scan.
+    void note_displaced();
+    void leave_to_scan(const std::filesystem::path& path);
 
     [[nodiscard]] FileFound look(const std::filesystem::path& path) const {
         return look_at(path, drop_);
     }
 
     std::filesystem::path drop_;
+    StationRule stations_;
     Clock clock_;
     std::chrono::milliseconds reread_;
     Schedule schedule_;

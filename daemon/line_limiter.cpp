@@ -28,13 +28,10 @@ bool LineLimiter::allow(Event event, std::string_view subject, Severity severity
     const Most most = most_of(event);
     std::pair<Event, std::string> key{event, subject};
     auto found = each_.find(key);
-    if (found == each_.end()) {
-        if (each_.size() >= most_subjects) key.second.clear();
+    if (found == each_.end() && each_.size() < most_subjects)
         found = each_.try_emplace(std::move(key), Kind{RateLimit{most.of_one, period}}).first;
-    }
-    Kind& one = found->second;
-    if (!one.limit.allow(now)) {
-        one.gravest = std::max(one.gravest, severity);
+    if (found != each_.end() && !found->second.limit.allow(now)) {
+        found->second.gravest = std::max(found->second.gravest, severity);
         return false;
     }
     Kind& all = all_.try_emplace(event, Kind{RateLimit{most.of_all, period}}).first->second;

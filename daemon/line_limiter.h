@@ -3,7 +3,8 @@
 //
 // A kind is an event of one subject (a station, a loop); beside that all subjects of an event share
 // a limit. What is over is counted, and summed up when the minute is over.
-// Memory is bounded whatever is logged: beyond `most_subjects` they count as one.
+// Memory is bounded whatever is logged: beyond `most_subjects` only the limit of all holds, so that
+// names that files invent take no lines from others' subjects.
 // Thread contract: plain data; one thread, or a lock around it. The caller says what time it is.
 #pragma once
 

@@ -14,8 +14,11 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr int backlog = 16;
+// As many as the kernel allows (net.core.somaxconn). They wait in the kernel and take no
+// descriptor; whoever found the queue full would try again after 1 s, then 3 s.
+constexpr int backlog = SOMAXCONN;
 constexpr mode_t socket_mode = 0660;
+constexpr mode_t permissions = 07777;
 
 tl::unexpected<Error> system_error(const std::string& what, int error_number) {
     ErrorCode code = ErrorCode::io;
@@ -66,9 +69,11 @@ Status make_way(const sockaddr_un& address) {
 
 ListeningSocket::ListeningSocket(ListeningSocket&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
+      port_(other.port_),
       path_(std::exchange(other.path_, {})),
       device_(other.device_),
-      inode_(other.inode_) {}
+      inode_(other.inode_),
+      mode_(other.mode_) {}
 
 ListeningSocket::~ListeningSocket() {
     if (descriptor_ < 0) return;
@@ -95,14 +100,15 @@ Result<ListeningSocket> ListeningSocket::at_path(const std::filesystem::path& pa
     const Result<int> descriptor = new_socket(AF_UNIX, name);
     if (!descriptor) return pass_on(descriptor);
     ListeningSocket socket(*descriptor);
+    // On Linux bind() gives the file that it makes the mode of the socket itself, less the umask.
+    if (::fchmod(*descriptor, socket_mode) != 0) return system_error(name, errno);
     if (const Status bound = bind_to(*descriptor, address, name); !bound) return pass_on(bound);
-    // Until here the umask has made it narrower, never wider.
     struct stat made {};
-    if (::lstat(name.c_str(), &made) != 0 || ::chmod(name.c_str(), socket_mode) != 0)
-        return system_error(name, errno);
+    if (::lstat(name.c_str(), &made) != 0) return system_error(name, errno);
     socket.path_ = path;
     socket.device_ = made.st_dev;
     socket.inode_ = made.st_ino;
+    socket.mode_ = made.st_mode & permissions;
     return socket;
 }
 
@@ -130,6 +136,7 @@ Result<ListeningSocket> ListeningSocket::at_port(Loopback loopback, int port) {
         bound = bind_to(*descriptor, address, what);
     }
     if (!bound) return pass_on(bound);
+    socket.port_ = port;
     return socket;
 }
 

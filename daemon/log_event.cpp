@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, event_count> names = {
     "living",
     "no_moment",
     "no_position",
+    "other_station",
     "incomplete",
     "rejected",
     "unchanged",
@@ -71,6 +72,8 @@ Event event_of(pipeline::IngestResult result) {
             return Event::no_moment;
         case IngestResult::no_position:
             return Event::no_position;
+        case IngestResult::other_station:
+            return Event::other_station;
         case IngestResult::incomplete:
             return Event::incomplete;
         case IngestResult::rejected:

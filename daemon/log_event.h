@@ -27,6 +27,7 @@ enum class Event {
     living,
     no_moment,
     no_position,
+    other_station,
     incomplete,
     rejected,
     unchanged,

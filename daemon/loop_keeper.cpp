@@ -20,6 +20,7 @@ namespace {
 constexpr std::chrono::seconds time_to_end{3};    // before it is killed
 constexpr std::chrono::minutes long_enough{1};    // it ran well
 constexpr std::chrono::seconds longest_rest{60};  // as long as nothing happens
+constexpr double most_frames = 1e9;               // an int holds them
 
 // A scene may be a symbolic link, unlike a raw file.
 FileStamp stamp_of_scene(const std::filesystem::path& scene) {
@@ -189,11 +190,11 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
     ++slot.state.made;
     slot.last_line.clear();  // of what was not made before: it is no reason of an end
     slot.state.last_made = now_utc();
-    slot.state.frames = static_cast<int>(number("frames"));
+    slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");
     log_info({.event = Event::loop_made, .took_s = took_s, .loop = slot.state.name},
              "loop {}: made of {} in {:.1f} s", slot.state.name,
-             counted(static_cast<std::uint64_t>(std::max(0, slot.state.frames)), "frame"), took_s);
+             counted(static_cast<std::uint64_t>(slot.state.frames), "frame"), took_s);
 }
 
 void LoopKeeper::note_line(Slot& slot, const std::string& line) {

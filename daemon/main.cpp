@@ -13,6 +13,7 @@
 #include "base/beneath.h"
 #include "base/memory.h"
 #include "base/printable.h"
+#include "base/station_table.h"
 #include "base/version.h"
 #include "cache/map_guard.h"
 #include "daemon/caretaker.h"
@@ -231,6 +232,7 @@ int run(int argc, char** argv) {
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
+    set_added_stations(config->added_stations);
     if (config->bunzip) bunzip::set_usual_path(*config->bunzip);
     if (arguments->loops_only) return serve_loops(*config, *arguments->config);
     if (config->status.socket.empty())

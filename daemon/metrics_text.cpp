@@ -29,10 +29,11 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     for (const std::string_view state : {"starting", "running", "stopping", "stopped"})
         out.sample(std::uint64_t{facts.state == state ? 1U : 0U}, {{"state", state}});
     out.family("stormcellar_queue_files", Type::gauge,
-               "Files that wait, are being taken in, or still grow.");
+               "Files that wait, are being taken in, still grow, or failed and are tried again.");
     out.sample(std::uint64_t{pending.waiting}, {{"state", "waiting"}});
     out.sample(std::uint64_t{pending.running}, {{"state", "running"}});
     out.sample(std::uint64_t{pending.growing}, {{"state", "growing"}});
+    out.sample(std::uint64_t{pending.retrying}, {{"state", "retrying"}});
     out.family("stormcellar_longest_wait_seconds", Type::gauge,
                "How long the file that has waited for longest has been able to run.");
     out.sample(facts.longest_wait_s);

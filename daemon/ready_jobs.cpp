@@ -16,7 +16,7 @@ void ReadyJobs::give_turn(const std::string& name, Station& station) {
 
 void ReadyJobs::add(const Key& key, void* job) {
     if (key.urgency == Urgency::backlog) {
-        count_ += backlog_.emplace(rank_of(key), job).second ? 1 : 0;
+        count_ += backlog_of(key).emplace(rank_of(key), OldJob{job, key.station}).second ? 1 : 0;
         return;
     }
     Station& station = stations_[key.station];
@@ -31,7 +31,7 @@ void ReadyJobs::replace(const Key& old, const Key& key, void* job) {
 
 void ReadyJobs::remove(const Key& key) {
     if (key.urgency == Urgency::backlog) {
-        count_ -= backlog_.erase(rank_of(key));
+        count_ -= backlog_of(key).erase(rank_of(key));
         return;
     }
     const auto station = stations_.find(key.station);
@@ -42,25 +42,37 @@ void ReadyJobs::remove(const Key& key) {
     stations_.erase(station);
 }
 
-void* ReadyJobs::take_next() {
-    if (count_ == 0) return nullptr;
-    --count_;
-    if (turns_.empty()) {
-        void* job = backlog_.begin()->second;
-        backlog_.erase(backlog_.begin());
+void* ReadyJobs::take_old(Backlog& backlog, const MayBegin& may_begin) {
+    int looked_at = 0;
+    for (auto at = backlog.begin(); at != backlog.end() && looked_at < most_looked_at;
+         ++at, ++looked_at) {
+        if (may_begin && !may_begin(at->second.station)) continue;
+        void* job = at->second.job;
+        backlog.erase(at);
+        --count_;
         return job;
     }
-    const auto station = stations_.find(turns_.begin()->second);
-    turns_.erase(turns_.begin());
-    auto& jobs = station->second.jobs;
-    void* job = jobs.begin()->second;
-    jobs.erase(jobs.begin());
-    if (jobs.empty()) {
-        stations_.erase(station);
-    } else {
-        give_turn(station->first, station->second);
+    return nullptr;
+}
+
+void* ReadyJobs::take_next(const MayBegin& may_begin) {
+    for (auto turn = turns_.begin(); turn != turns_.end(); ++turn) {
+        if (may_begin && !may_begin(turn->second)) continue;
+        const auto station = stations_.find(turn->second);
+        turns_.erase(turn);
+        auto& jobs = station->second.jobs;
+        void* job = jobs.begin()->second;
+        jobs.erase(jobs.begin());
+        --count_;
+        if (jobs.empty()) {
+            stations_.erase(station);
+        } else {
+            give_turn(station->first, station->second);
+        }
+        return job;
     }
-    return job;
+    if (void* job = take_old(backlog_, may_begin)) return job;
+    return take_old(others_backlog_, may_begin);
 }
 
 }  // namespace stormcellar::daemon

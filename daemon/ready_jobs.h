@@ -1,7 +1,7 @@
 // daemon/ready_jobs.h -- which of the jobs that may run is the next.
 //
 // Two classes. LIVE is what changed while we watched, or less than ten minutes ago; BACKLOG is all
-// else, and has its turn when nothing live waits, newest first.
+// else, and has its turn when nothing live waits: that of known stations first, newest first.
 // Live jobs take turns by station, the one that was served longest ago (or has waited longest)
 // first, so that no station can hold up another, however much it sends. Of one station the first is
 // what goes on with volumes that were begun, oldest first (the end of a volume before the next
@@ -12,6 +12,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,8 +36,11 @@ class ReadyJobs {
     // As one step, so that a station whose only job is merged keeps its turn.
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
-    // Null when there is none.
-    void* take_next();
+    // Of the stations of which `may_begin` is true (null: of all); null when there is none. Of the
+    // backlog only so many are looked at as most_looked_at says.
+    using MayBegin = std::function<bool(const std::string& station)>;
+    static constexpr int most_looked_at = 64;
+    void* take_next(const MayBegin& may_begin = {});
     [[nodiscard]] bool empty() const { return count_ == 0; }
     [[nodiscard]] std::size_t count() const { return count_; }
 
@@ -60,7 +64,16 @@ class ReadyJobs {
     std::uint64_t next_turn_ = 0;
     std::unordered_map<std::string, Station> stations_;  // those with live jobs
     std::map<std::uint64_t, std::string> turns_;
-    std::map<Rank, void*> backlog_;
+    struct OldJob {
+        void* job = nullptr;
+        std::string station;
+    };
+    using Backlog = std::map<Rank, OldJob>;
+    [[nodiscard]] Backlog& backlog_of(const Key& key) {
+        return key.station.empty() ? others_backlog_ : backlog_;
+    }
+    void* take_old(Backlog& backlog, const MayBegin& may_begin);
+    Backlog backlog_, others_backlog_;  // of known stations, and of all else
 };
 
 }  // namespace stormcellar::daemon

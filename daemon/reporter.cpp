@@ -2,6 +2,7 @@
 
 #include "base/printable.h"
 #include "base/utc_time.h"
+#include "daemon/intake.h"
 #include "daemon/status.h"
 #include "daemon/status_names.h"
 
@@ -54,10 +55,14 @@ std::string describe_living(const Finished& finished) {
 
 std::string describe(const Finished& finished) {
     if (!finished.taken) {
-        return fmt::format("cannot store {}: {}; trying again in {} s",
-                           printable(finished.job.path.native()),
-                           printable(finished.taken.error().message),
-                           Schedule::retry_delay(finished.job.failures + 1).count());
+        const Error& error = finished.taken.error();
+        const int tries = finished.job.failures + 1;
+        const std::string next =
+            tries < Intake::most_tries || is_shortage(error.code)
+                ? fmt::format("trying again in {} s", Schedule::retry_delay(tries).count())
+                : fmt::format("given up after {} tries until the drop directory is scanned", tries);
+        return fmt::format("cannot store {}: {}; {}", printable(finished.job.path.native()),
+                           printable(error.message), next);
     }
     const IngestOutcome& outcome = finished.taken->ingest;
     if (shows_living(outcome)) return describe_living(finished);
@@ -68,6 +73,8 @@ std::string describe(const Finished& finished) {
             return fmt::format("nothing to grid {}{}", subject(finished), because(outcome));
         case IngestResult::no_position:
             return fmt::format("no position for {}{}", subject(finished), because(outcome));
+        case IngestResult::other_station:
+            return fmt::format("not gridded {}{}", subject(finished), because(outcome));
         case IngestResult::incomplete:
             return fmt::format("waiting for the rest of {}{}", subject(finished), because(outcome));
         case IngestResult::rejected:
@@ -105,10 +112,12 @@ void Reporter::report(const Finished& finished) {
         if (!finished.taken) return Severity::error;
         switch (finished.taken->ingest.result) {
             case IngestResult::gridded:
+                return finished.taken->ingest.no_room ? Severity::warning : Severity::info;
             case IngestResult::no_moment:
                 return Severity::info;
             case IngestResult::rejected:
             case IngestResult::no_position:
+            case IngestResult::other_station:
                 return Severity::warning;
             case IngestResult::incomplete:
             case IngestResult::unchanged:

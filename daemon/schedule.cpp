@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace stormcellar::daemon {
+namespace {
+
+// Where all that is ready waits until others have had their share of the workers.
+constexpr std::chrono::milliseconds look_at_shares{50};
+
+}  // namespace
 
 void Schedule::merge(Job& into, const Job& job) {
     into.finish_partial = into.finish_partial && job.finish_partial;
@@ -33,6 +39,46 @@ void Schedule::enqueue(Entry& entry) {
     }
     waiting_.emplace(entry.place, &entry);
     if (!entry.job.is_registered) unregistered_.emplace(entry.place, &entry);
+    claim(entry);
+    shares_looked_at_ = SteadyTime{};
+}
+
+void Schedule::claim(const Entry& entry) {
+    if (!entry.is_retrying) claims_[entry.job.station].insert(entry.place);
+}
+
+void Schedule::unclaim(const Entry& entry) {
+    const auto own = claims_.find(entry.job.station);
+    if (own == claims_.end()) return;
+    own->second.erase(entry.place);
+    if (own->second.empty()) claims_.erase(own);
+}
+
+void Schedule::drop_waiting(Entry& entry) {
+    if (entry.job.not_before == SteadyTime{}) {
+        ready_.remove(key_of(entry));
+    } else {
+        delayed_.erase({entry.job.not_before, entry.sequence});
+    }
+    run(entry);
+    displaced_.push_back(entry.job.path);
+    entries_.erase(entry.job.path.native());
+}
+
+// Of its own station only what is no news gives way, and only to what is.
+bool Schedule::make_room_for(const Job& job) {
+    const auto largest =
+        std::max_element(claims_.begin(), claims_.end(), [](const auto& a, const auto& b) {
+            return a.second.size() < b.second.size();
+        });
+    if (largest == claims_.end()) return false;
+    const auto own = claims_.find(job.station);
+    const std::size_t own_count = own == claims_.end() ? 0 : own->second.size();
+    Entry& last = *waiting_.at(*largest->second.rbegin());
+    const bool is_news = job.urgency == Urgency::live && last.job.urgency == Urgency::backlog;
+    if (largest->second.size() <= own_count + 1 && !is_news) return false;
+    drop_waiting(last);
+    return true;
 }
 
 // Offered again while it waits.
@@ -40,7 +86,9 @@ void Schedule::wait_again(Entry& entry, const Job& job) {
     const bool was_ready = entry.job.not_before == SteadyTime{};
     const ReadyJobs::Key old = key_of(entry);
     const SteadyTime old_time = entry.job.not_before;
+    unclaim(entry);
     merge(entry.job, job);
+    claim(entry);
     entry.sequence = next_sequence_++;
     const bool is_ready = entry.job.not_before == SteadyTime{};
     if (was_ready && is_ready) {
@@ -52,6 +100,7 @@ void Schedule::wait_again(Entry& entry, const Job& job) {
     }
     if (!is_ready) delayed_[{entry.job.not_before, entry.sequence}] = &entry;
     if (entry.job.is_registered) unregistered_.erase(entry.place);
+    shares_looked_at_ = SteadyTime{};
 }
 
 Offered Schedule::offer(Job job, SteadyTime now) {
@@ -67,7 +116,7 @@ Offered Schedule::offer(Job job, SteadyTime now) {
         }
         return Offered::merged;
     }
-    if (entries_.size() >= limit_) return Offered::refused;
+    if (entries_.size() - retrying_ >= limit_ && !make_room_for(job)) return Offered::refused;
     Entry& entry = entries_[job.path.native()];
     entry.job = std::move(job);
     entry.offered_at = now;
@@ -80,14 +129,18 @@ Offered Schedule::offer(Job job, SteadyTime now) {
 void Schedule::wait_since(Entry& entry, SteadyTime time) {
     const bool was_unregistered = unregistered_.erase(entry.place) > 0;
     waiting_.erase(entry.place);
+    unclaim(entry);
     entry.offered_at = time;
     entry.place = next_place_++;
     waiting_.emplace(entry.place, &entry);
+    claim(entry);
     if (was_unregistered) unregistered_.emplace(entry.place, &entry);
 }
 
 void Schedule::run(Entry& entry) {
     entry.running = true;
+    unclaim(entry);
+    retrying_ -= entry.is_retrying ? 1 : 0;
     waiting_.erase(entry.place);
     unregistered_.erase(entry.place);
 }
@@ -97,14 +150,30 @@ std::optional<Job> Schedule::next(SteadyTime now) {
     while (!delayed_.empty() && delayed_.begin()->first.first <= now) {
         Entry& entry = *delayed_.begin()->second;
         delayed_.erase(delayed_.begin());
+        retrying_ -= entry.is_retrying ? 1 : 0;
+        entry.is_retrying = false;
         if (entry.job.not_before > entry.offered_at) wait_since(entry, entry.job.not_before);
         entry.job.not_before = SteadyTime{};
         ready_.add(key_of(entry), &entry);
     }
-    auto* entry = static_cast<Entry*>(ready_.take_next());
-    if (entry == nullptr) return std::nullopt;
+    auto* entry = static_cast<Entry*>(ready_.take_next(
+        [&](const std::string& station) { return shares_.may_begin(station, now); }));
+    if (entry == nullptr) {
+        shares_looked_at_ = now + look_at_shares;
+        return std::nullopt;
+    }
     run(*entry);
+    entry->has_worker = true;
+    shares_.begun(entry->job.station, now);
     return entry->job;
+}
+
+void Schedule::worked(const std::filesystem::path& path, SteadyTime::duration took,
+                      SteadyTime now) {
+    const auto found = entries_.find(path.native());
+    if (found == entries_.end() || !std::exchange(found->second.has_worker, false)) return;
+    shares_.ended(found->second.job.station, took, now);
+    shares_looked_at_ = SteadyTime{};
 }
 
 std::optional<Job> Schedule::next_unregistered(SteadyTime now) {
@@ -126,6 +195,7 @@ void Schedule::registered(const std::filesystem::path& path) {
     Entry& entry = found->second;
     if (entry.again) merge(entry.job, *std::exchange(entry.again, std::nullopt));
     entry.job.is_registered = true;
+    retrying_ += entry.is_retrying ? 1 : 0;
     enqueue(entry);
 }
 
@@ -144,21 +214,29 @@ void Schedule::finished(const std::filesystem::path& path, SteadyTime again_not_
     enqueue(entry);
 }
 
-void Schedule::retry(Job job, SteadyTime now) {
+bool Schedule::retry(Job job, SteadyTime now) {
     const auto found = entries_.find(job.path.native());
-    if (found == entries_.end()) return;
+    if (found == entries_.end()) return true;
+    if (retrying_ >= retry_limit()) {
+        entries_.erase(found);
+        return false;
+    }
     Entry& entry = found->second;
     entry.job = std::move(job);
     ++entry.job.failures;
     if (entry.again) merge(entry.job, *std::exchange(entry.again, std::nullopt));
     entry.job.not_before = now + retry_delay(entry.job.failures);
+    entry.is_retrying = true;
+    ++retrying_;
     enqueue(entry);
+    return true;
 }
 
 std::optional<SteadyTime> Schedule::next_time() const {
     std::optional<SteadyTime> time;
     if (!ready_.empty()) {
-        time = SteadyTime{};
+        time = shares_looked_at_;
+        if (!delayed_.empty()) time = std::min(*time, delayed_.begin()->first.first);
     } else if (!delayed_.empty()) {
         time = delayed_.begin()->first.first;
     }

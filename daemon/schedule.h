@@ -2,25 +2,32 @@
 //
 // One entry a path: what is offered again while it waits is merged, what is offered again while it
 // runs is looked at once more afterwards. In the order of ready_jobs.h, so that a backlog never
-// delays what has just come, nor one station another. A file that could not be stored waits, longer
-// each time, and is never dropped.
+// delays what has just come, nor one station another (work_shares.h). A file that could not be stored
+// waits, longer each time, beside the queue: it takes no place there from files that come.
 // What has waited for `register_after` is to be written into the catalog without being read
 // (next_unregistered()): however far behind we are, what is there can be asked for.
-// Memory is bounded by `limit` entries: beyond it an offer is refused, and the caller finds the
-// file again by a scan once there is room. Pure bookkeeping: the caller says what time it is.
+// Memory is bounded by `limit` entries, and a quarter as many of those to be tried again. At the
+// bound what comes takes the place of what was offered last of the station that has most, where it
+// has fewer itself; else it is refused. The caller finds what had to go again by a scan, once there
+// is room. Pure bookkeeping: the caller says what time it is.
 // Thread contract: one thread.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "daemon/ready_jobs.h"
+#include "daemon/work_shares.h"
 
 namespace stormcellar::daemon {
 
@@ -32,7 +39,7 @@ struct Job {
     std::optional<SteadyTime> closed_at;  // the last close that was seen; none: found by a scan
     std::int64_t newest_ns = 0;           // since the epoch
     SteadyTime not_before{};
-    int failures = 0;  // how often it could not be stored
+    int failures = 0;  // how often it could not be taken in or stored
     // For its place among the others (ready_jobs.h):
     Urgency urgency = Urgency::backlog;
     bool is_begun = false;
@@ -60,8 +67,16 @@ class Schedule {
     void registered(const std::filesystem::path& path);
     // What was offered again meanwhile waits once more, not to run before `again_not_before`.
     void finished(const std::filesystem::path& path, SteadyTime again_not_before = {});
-    // Puts a running job back, not to run before now + retry_delay(its failures).
-    void retry(Job job, SteadyTime now);
+    // Puts a running job back, not to run before now + retry_delay(its failures). False: too many
+    // wait so already, and it is forgotten.
+    [[nodiscard]] bool retry(Job job, SteadyTime now);
+    // Of a job that next() gave: its worker is free again. Before finished() or retry().
+    void worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now);
+    void set_workers(int workers) { shares_.set_workers(workers); }
+    // Those that had to give their places to others since the last call.
+    [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {
+        return std::exchange(displaced_, {});
+    }
     // No job runs before this time (a full disk concerns them all).
     void hold_until(SteadyTime time) { held_until_ = time; }
 
@@ -71,9 +86,16 @@ class Schedule {
     [[nodiscard]] std::optional<SteadyTime> next_unregistered_time() const;
     // Since when the one waits that has waited for longest, of those that may run.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
-    [[nodiscard]] std::size_t waiting_count() const { return ready_.count() + delayed_.size(); }
-    [[nodiscard]] std::size_t running_count() const { return entries_.size() - waiting_count(); }
+    [[nodiscard]] std::size_t waiting_count() const {
+        return ready_.count() + delayed_.size() - retrying_;
+    }
+    [[nodiscard]] std::size_t running_count() const {
+        return entries_.size() - ready_.count() - delayed_.size();
+    }
+    // Those that failed and wait until they are tried again.
+    [[nodiscard]] std::size_t retrying_count() const { return retrying_; }
     [[nodiscard]] std::size_t limit() const { return limit_; }
+    [[nodiscard]] std::size_t retry_limit() const { return std::max<std::size_t>(4, limit_ / 4); }
 
     // 1 s doubling to 60 s.
     [[nodiscard]] static std::chrono::seconds retry_delay(int failures);
@@ -82,6 +104,8 @@ class Schedule {
     struct Entry {
         Job job;
         bool running = false;
+        bool has_worker = false;   // running, given by next()
+        bool is_retrying = false;  // failed, and waits for its time
         std::optional<Job> again;  // offered while it ran
         std::uint64_t sequence = 0;
         SteadyTime offered_at{}, again_at{};
@@ -94,6 +118,11 @@ class Schedule {
     void wait_again(Entry& entry, const Job& job);
     void run(Entry& entry);
     void wait_since(Entry& entry, SteadyTime time);
+    void claim(const Entry& entry);
+    void unclaim(const Entry& entry);
+    // False where no station has more than `job`'s own.
+    bool make_room_for(const Job& job);
+    void drop_waiting(Entry& entry);
     static void merge(Job& into, const Job& job);
 
     std::size_t limit_;
@@ -104,6 +133,12 @@ class Schedule {
     std::map<DelayedKey, Entry*> delayed_;
     std::map<std::uint64_t, Entry*> waiting_;       // by place: all that wait
     std::map<std::uint64_t, Entry*> unregistered_;  // the same, those alone
+    // Places of those that wait, but for those to be tried again, by station.
+    std::unordered_map<std::string, std::set<std::uint64_t>> claims_;
+    std::size_t retrying_ = 0;
+    WorkShares shares_;
+    SteadyTime shares_looked_at_{};  // nothing that is ready may begin before, unless more comes
+    std::vector<std::filesystem::path> displaced_;
 };
 
 }  // namespace stormcellar::daemon

@@ -32,7 +32,15 @@ bool same_at_the_start(const Config& fresh, const Config& running) {
     return fresh.living == running.living && fresh.bunzip == running.bunzip &&
            fresh.ingest.living.chunk_timeout == running.ingest.living.chunk_timeout &&
            fresh.ingest.living.chunk_grace == running.ingest.living.chunk_grace &&
-           fresh.refill == running.refill && fresh.packing == running.packing;
+           fresh.refill == running.refill && fresh.packing == running.packing &&
+           fresh.stations.same_as(running.stations) &&
+           fresh.added_stations == running.added_stations;
+}
+
+Result<Taken> take(Sink& sink, const Job& job) {
+    const bool is_last = job.failures + 1 >= Intake::most_tries;
+    return sink.take(job.path, job.finish_partial,
+                     is_last ? pipeline::Tries::last : pipeline::Tries::more_follow);
 }
 
 Result<Taken> note(Sink& sink, const Job& job) {
@@ -54,7 +62,7 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       status_(config_.drop, config_.cache),
       status_file_(parts_.file_system, config_.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
-      pool_([this](const Job& job) { return parts_.sink.take(job.path, job.finish_partial); },
+      pool_([this](const Job& job) { return take(parts_.sink, job); },
             "ingest", config_.worker_count(), [this] { wake_up_.set(); }),
       registrar_([this](const Job& job) { return note(parts_.sink, job); }, "register", 1,
                  [this] { wake_up_.set(); }),
@@ -174,8 +182,8 @@ void Service::apply(const Config& fresh) {
     }
     if (!same_at_the_start(fresh, config_)) {
         log_warning({Event::reload_ignored},
-                    "reload: living, bunzip, the chunks' times, refill_hours and compression "
-                    "change at a restart only");
+                    "reload: stations, living, bunzip, the chunks' times, refill_hours and "
+                    "compression change at a restart only");
     }
     if (!same_listening(fresh, config_))
         log_warning({Event::reload_ignored}, "reload: [status] changes at a restart only");

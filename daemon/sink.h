@@ -35,7 +35,9 @@ class Sink {
     virtual ~Sink() = default;
 
     // An error is ours alone (catalog or cache cannot be written): the file is tried again later.
-    virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial) = 0;
+    // After the last try it is rejected, with its reason, where that can be stored.
+    virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+                               pipeline::Tries tries) = 0;
     // For one that has to wait: writes the file into the catalog as it is there, unread
     // (registered), or marks its rows when it is gone (vanished: there is nothing left to do). May
     // run beside take() of other paths.

@@ -30,6 +30,7 @@ namespace stormcellar::daemon {
 
 struct Pending {
     std::size_t waiting = 0, running = 0, growing = 0;
+    std::size_t retrying = 0;  // failed, and wait for their time; not among those waiting
     bool operator==(const Pending&) const = default;
 };
 

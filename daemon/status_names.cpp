@@ -12,6 +12,8 @@ std::string_view name_of(IngestResult result) {
             return "no_moment";
         case IngestResult::no_position:
             return "no_position";
+        case IngestResult::other_station:
+            return "other_station";
         case IngestResult::incomplete:
             return "incomplete";
         case IngestResult::rejected:
@@ -46,6 +48,8 @@ std::string_view name_of(ErrorCode code) {
             return "not_a_file";
         case ErrorCode::io:
             return "io";
+        case ErrorCode::exhausted:
+            return "exhausted";
         case ErrorCode::no_space:
             return "no_space";
         case ErrorCode::over_budget:

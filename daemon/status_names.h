@@ -13,15 +13,16 @@ namespace stormcellar::daemon {
 
 inline constexpr std::array all_results = {
     pipeline::IngestResult::gridded,     pipeline::IngestResult::no_moment,
-    pipeline::IngestResult::no_position, pipeline::IngestResult::incomplete,
-    pipeline::IngestResult::rejected,    pipeline::IngestResult::unchanged,
-    pipeline::IngestResult::vanished,    pipeline::IngestResult::registered,
+    pipeline::IngestResult::no_position, pipeline::IngestResult::other_station,
+    pipeline::IngestResult::incomplete,  pipeline::IngestResult::rejected,
+    pipeline::IngestResult::unchanged,   pipeline::IngestResult::vanished,
+    pipeline::IngestResult::registered,
 };
 inline constexpr std::array all_error_codes = {
     ErrorCode::bad_argument, ErrorCode::not_found,   ErrorCode::empty,       ErrorCode::truncated,
     ErrorCode::corrupt,      ErrorCode::unsupported, ErrorCode::not_level2,  ErrorCode::not_a_file,
-    ErrorCode::io,           ErrorCode::no_space,    ErrorCode::over_budget, ErrorCode::permission,
-    ErrorCode::internal,
+    ErrorCode::io,           ErrorCode::exhausted,   ErrorCode::no_space,    ErrorCode::over_budget,
+    ErrorCode::permission,   ErrorCode::internal,
 };
 
 // A counter for each, found by its value.

@@ -11,7 +11,9 @@
 
 #include <microhttpd.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "base/printable.h"
 #include "daemon/http_listener.h"
@@ -32,11 +34,28 @@ ResponsePointer response_of(std::string_view text, const char* type) {
     if (response) {
         MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONTENT_TYPE, type);
         MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONNECTION, "close");
+        MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
+        MHD_add_response_header(response.get(), MHD_HTTP_HEADER_X_CONTENT_TYPE_OPTIONS, "nosniff");
     }
     return response;
 }
 
 constexpr const char* plain = "text/plain; charset=utf-8";
+
+// The service's umask is for its files and would keep the group from the socket. This thread, which
+// makes nothing else, gets one of its own; where the system refuses that, the umask narrows the
+// socket, and Worker::open() says so.
+void take_own_umask() {
+    if (::unshare(CLONE_FS) == 0) ::umask(0117);
+}
+
+void warn_if_narrow(const std::string& name, mode_t mode) {
+    constexpr mode_t group_may_ask = 0060;
+    if ((mode & group_may_ask) == group_may_ask) return;
+    log_warning({Event::status_unanswered},
+                "the umask keeps the group from asking for the status: {} has mode {:04o}",
+                printable(name), mode);
+}
 
 }  // namespace
 
@@ -64,7 +83,7 @@ class StatusServer::Worker {
         SteadyTime made{};
     };
     void open(Address& address);
-    HttpListener::Answer answer(const char* method, const char* url) noexcept;
+    HttpListener::Answer answer(const HttpListener::Request& request) noexcept;
     HttpListener::Answer page(StatusPage which);
 
     StatusServerOptions options_;
@@ -72,6 +91,8 @@ class StatusServer::Worker {
     std::array<Page, 2> pages_;
     ResponsePointer not_found_ = response_of("GET /metrics or /status.json\n", plain);
     ResponsePointer not_allowed_ = response_of("GET only\n", plain);
+    ResponsePointer not_here_ =
+        response_of("ask for 127.0.0.1, localhost or [::1], with this port or none\n", plain);
     ResponsePointer not_yet_ = response_of("starting\n", plain);
     SteadyTime next_open_{};
     std::vector<Address> addresses_;  // last: what they answer stands above
@@ -100,9 +121,10 @@ void StatusServer::Worker::open(Address& address) {
     Result<ListeningSocket> socket = address.listen();
     Status opened = socket ? Status{} : Status{pass_on(socket)};
     if (socket) {
+        if (!socket->port()) warn_if_narrow(address.name, socket->mode());
         auto listener = HttpListener::open(
             std::move(*socket), {options_.longest_connection, options_.most_connections},
-            [this](const char* method, const char* url) { return answer(method, url); });
+            [this](const HttpListener::Request& request) { return answer(request); });
         if (listener) {
             address.listener = std::move(*listener);
         } else {
@@ -161,12 +183,13 @@ HttpListener::Answer StatusServer::Worker::page(StatusPage which) {
     return {page.response.get(), MHD_HTTP_OK};
 }
 
-HttpListener::Answer StatusServer::Worker::answer(const char* method, const char* url) noexcept {
+HttpListener::Answer StatusServer::Worker::answer(const HttpListener::Request& request) noexcept {
     try {
-        const std::string_view word = method;
+        if (request.names_another_host) return {not_here_.get(), MHD_HTTP_MISDIRECTED_REQUEST};
+        const std::string_view word = request.method;
         if (word != MHD_HTTP_METHOD_GET && word != MHD_HTTP_METHOD_HEAD)
             return {not_allowed_.get(), MHD_HTTP_METHOD_NOT_ALLOWED};
-        const std::string_view path = url;
+        const std::string_view path = request.url;
         if (path == "/metrics") return page(StatusPage::metrics);
         if (path == "/status.json") return page(StatusPage::json);
         return {not_found_.get(), MHD_HTTP_NOT_FOUND};
@@ -193,6 +216,7 @@ void StatusServer::run() {
     ::pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
     // Of this thread alone, on Linux; where it may not, it goes on as it is.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
+    take_own_umask();
     while (!stopping_) {
         {
             const AtWork at_work(pulse_);

@@ -3,8 +3,11 @@
 //
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
-// Everything else is 404, 405 or 400; each answer ends its connection. HTTP itself is
-// libmicrohttpd's business.
+// Everything else is 404, 405 or 400; each answer ends its connection. On a port, a request whose
+// Host is no name of the loopback addresses is 421 (loopback_host.h); on the socket any Host will
+// do. No answer is to be cached, or taken for another type than it says. HTTP itself is
+// libmicrohttpd's business, which answers what is no HTTP (400, 413, 414, 431) with fixed text of
+// its own, without these fields.
 // One thread of its own, at a lower priority. Clients can be as hostile as they like: connections
 // are few and end after 10 seconds whatever they do, sooner where more come, a request has at most
 // a few KiB, and a page is made at most five times a second. What cannot be opened is logged once

@@ -145,7 +145,7 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
         const Status scanned = scan_below(path);
         if (!scanned && scanned.error().code != ErrorCode::not_found) {
             listener_.directory_problem(scanned.error());
-            if (scanned.error().code == ErrorCode::io) listener_.entry_unseen();
+            if (scanned.error().cause() == Cause::system) listener_.entry_unseen();
         }
     }
 }

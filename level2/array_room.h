@@ -28,7 +28,7 @@ inline constexpr std::uint64_t empty_kind_bytes = 320;
 
 [[nodiscard]] std::uint64_t bytes_of(const Vcp& vcp);
 
-// The error where the system gives no memory: io, for the input is not to blame, and may be decoded
+// The error where the system gives no memory: exhausted, for the input is not to blame, and may be decoded
 // when others have given theirs back.
 [[nodiscard]] tl::unexpected<Error> no_memory();
 

@@ -87,8 +87,8 @@ Result<Decoded> decode_chunk_directory(const fs::path& directory, const DecodeOp
             return fail(ErrorCode::bad_argument, "{}: chunk {} is of another volume",
                         directory.string(), to_string(name));
         }
-        if (!added && added.error().code == ErrorCode::io) {  // no memory
-            return fail(ErrorCode::io, "{}: {}", path.string(), added.error().message);
+        if (!added && added.error().code == ErrorCode::exhausted) {
+            return fail(ErrorCode::exhausted, "{}: {}", path.string(), added.error().message);
         }
         // One that is not taken is named by the volume's report.
     }

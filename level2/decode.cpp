@@ -69,7 +69,7 @@ class Decoder {
     void report_gzip_end(const GzipStream& gzip, const LayerOutput& output);
 
     const DecodeOptions& options_;
-    VolumeBuilder builder_{options_.output_limit_bytes};
+    VolumeBuilder builder_{options_.output_limit_bytes, options_.most_array_bytes()};
 };
 
 Status Decoder::flush(LayerOutput& output) {

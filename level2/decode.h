@@ -27,8 +27,13 @@ inline constexpr std::size_t most_packed_bytes = std::size_t{64} << 20;
 
 struct DecodeOptions {
     int threads = 1;
-    // Of the decompressed messages, and again of all that is made of them.
+    // Of the decompressed messages, of which little is held at a time.
     std::uint64_t output_limit_bytes = std::uint64_t{512} << 20;
+    // Of all that is made of them and held; 0: the same.
+    std::uint64_t array_limit_bytes = 0;
+    [[nodiscard]] std::uint64_t most_array_bytes() const {
+        return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
+    }
     // Arrays are made only for these; a cut that is not asked for gives no sweep.
     Selection selection;
     // Takes the station where the file does not say, e.g. from the file name; empty: unknown.

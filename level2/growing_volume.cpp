@@ -37,6 +37,9 @@ class GrowingVolume::Reader {
     bool has_last_radial() const { return volume_.volume_has_ended(); }
     bool is_of_records() const { return kind_ == Kind::records; }
     bool holds_several() const { return !volume_.so_far_holds_one(); }
+    std::uint64_t held_bytes() const {
+        return volume_.held_bytes() + held_.capacity() + room_.taken_bytes();
+    }
     std::size_t droppable_sweeps() const;
     void drop_sweep(std::size_t index) { volume_.drop_sweep(index); }
     void put_back(std::size_t index, Sweep sweep) { volume_.put_back(index, std::move(sweep)); }
@@ -56,10 +59,10 @@ class GrowingVolume::Reader {
     Kind kind_ = Kind::undecided;
     Status failed_;
     std::vector<std::byte> held_;  // what is not yet done with
-    VolumeBuilder volume_{options_.output_limit_bytes};
+    VolumeBuilder volume_{options_.output_limit_bytes, options_.most_array_bytes()};
     LdmStreamFramer framer_;
     bool last_is_negative_ = false;
-    ArrayRoom room_{options_.output_limit_bytes};
+    ArrayRoom room_{options_.most_array_bytes()};
     FragmentBuilder fragment_{room_, rows_of_a_stretch, options_.selection};
     MessageReader reader_{fragment_};
     MessageFeed feed_{reader_};
@@ -247,6 +250,10 @@ bool GrowingVolume::is_of_records() const {
 
 bool GrowingVolume::holds_several() const {
     return reader_->holds_several();
+}
+
+std::uint64_t GrowingVolume::held_bytes() const {
+    return reader_->held_bytes();
 }
 
 std::size_t GrowingVolume::droppable_sweeps() const {

@@ -47,6 +47,10 @@ class GrowingVolume {
     // A further volume has begun in the file.
     [[nodiscard]] bool holds_several() const;
 
+    // What is held now: sweeps that were not dropped, an unfinished record or message, and what has
+    // to be whole before it is read. About right: what the allocator adds is not counted.
+    [[nodiscard]] std::uint64_t held_bytes() const;
+
     // To hold less: sweeps below this index are closed and were handed out, and what take_sweeps()
     // gave last of each is what the volume holds. They may be dropped, each once, and must be put
     // back, bit for bit, before finish().

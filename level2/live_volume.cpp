@@ -32,8 +32,7 @@ bool is_same_volume(const VolumeHeader& a, const VolumeHeader& b) {
 }  // namespace
 
 LiveRoom LiveVolume::room_for(int number) const {
-    const std::uint64_t limit = options_.decode.output_limit_bytes;
-    LiveRoom left{limit, limit};
+    LiveRoom left{options_.decode.output_limit_bytes, options_.decode.most_array_bytes()};
     for (const auto& [other_number, other] : chunks_) {
         if (other_number == number) continue;
         left.output_bytes -= std::min(left.output_bytes, other.output_bytes);
@@ -86,7 +85,7 @@ Result<LiveVolume::Added> LiveVolume::add(int number, ChunkKind kind,
             }
             return kept;
         }
-        if (chunk.error().code != ErrorCode::io && !chunks_.contains(number)) {
+        if (chunk.error().cause() == Cause::data && !chunks_.contains(number)) {
             // Of several the same one is named in any order.
             std::string& reason = refused_[number];
             if (reason.empty() || chunk.error().message < reason) reason = chunk.error().message;
@@ -150,7 +149,7 @@ std::vector<LiveSweep> LiveVolume::changed_sweeps() {
         const std::uint64_t pieces = xxh3_64(std::as_bytes(std::span{sweeps[i].ids}));
         if (!sweeps[i].closed || handed_out_.contains(pieces)) continue;
         handed_out.insert(pieces);
-        Result<Sweep> sweep = join(sweeps[i], options_.decode.output_limit_bytes, options_.depot);
+        Result<Sweep> sweep = join(sweeps[i], options_.decode.most_array_bytes(), options_.depot);
         // Joined they exceed the limit, or cannot be read back: finish() says so.
         if (!sweep || sweep->radials.empty()) continue;
         bytes += bytes_of(*sweep);
@@ -184,7 +183,7 @@ void LiveVolume::name_lost_chunks(VolumeBuilder& builder) const {
 }
 
 Result<Decoded> LiveVolume::join_all() {
-    VolumeBuilder builder{options_.decode.output_limit_bytes};
+    VolumeBuilder builder{options_.decode.output_limit_bytes, options_.decode.most_array_bytes()};
     const DecodeOptions& options = options_.decode;
     PartDecoder decoder{options.output_limit_bytes, options.selection};
     DecodeReport& report = builder.report_data();

@@ -7,6 +7,7 @@
 
 #include "level2/archive_header.h"
 #include "level2/fragment_builder.h"
+#include "level2/live_sweep.h"
 #include "level2/sweep_rows.h"
 #include "level2/volume_checks.h"
 
@@ -228,6 +229,13 @@ Volume VolumeBuilder::facts(const std::string& fallback_station) const {
     return facts;
 }
 
+std::uint64_t VolumeBuilder::held_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const Sweep& sweep : volume_.sweeps)
+        bytes += bytes_of(sweep);
+    return bytes;
+}
+
 std::size_t VolumeBuilder::closed_sweeps() const {
     return volume_.sweeps.size() - (sweep_is_open_ ? 1 : 0);
 }
@@ -262,7 +270,7 @@ Status VolumeBuilder::count_output(std::uint64_t bytes) {
 Status VolumeBuilder::hold(std::uint64_t bytes) {
     if (room_.add(bytes)) return {};
     return fail(ErrorCode::unsupported, "what it holds takes more than the limit of {} bytes",
-                limit_bytes_);
+                array_limit_bytes_);
 }
 
 // False where the arrays exceed their limit.
@@ -294,7 +302,7 @@ Status VolumeBuilder::append(Fragment fragment) {
     note_volume_facts(fragment);
     if (fragment.failure == Fragment::Failure::too_large_arrays || !append_all(fragment)) {
         return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
-                    limit_bytes_);
+                    array_limit_bytes_);
     }
     report().append(std::move(fragment.report));
     return {};

@@ -2,7 +2,7 @@
 //
 // A sweep goes on in the next fragment unless the elevation number or the message type changes, a
 // radial has status 0, 3 or 5, or a 24-byte header lies between.
-// Limits: neither the decompressed bytes nor the arrays come to more than the limit given: append()
+// Limits: neither the decompressed bytes nor the arrays come to more than the limits given: append()
 // gives unsupported then, and the builder is not to be used any more. Nor do the arrays of a sweep
 // come to more than most_sweep_bytes.
 // Thread contract: one thread at a time.
@@ -32,7 +32,11 @@ inline constexpr std::size_t rows_of_a_stretch = 128;  // radials that room is m
 class VolumeBuilder {
   public:
     explicit VolumeBuilder(std::uint64_t limit_bytes)
-        : limit_bytes_(limit_bytes), room_(limit_bytes) {}
+        : VolumeBuilder(limit_bytes, limit_bytes) {}
+    // With another limit of the arrays.
+    VolumeBuilder(std::uint64_t limit_bytes, std::uint64_t array_limit_bytes)
+        : limit_bytes_(limit_bytes), array_limit_bytes_(array_limit_bytes),
+          room_(array_limit_bytes) {}
 
     [[nodiscard]] Status append(Fragment fragment);
     // Takes station, position and pattern, and no radials.
@@ -67,6 +71,8 @@ class VolumeBuilder {
     // in its place before finish().
     void drop_sweep(std::size_t index) { volume_.sweeps.at(index) = {}; }
     void put_back(std::size_t index, Sweep sweep) { volume_.sweeps.at(index) = std::move(sweep); }
+    // What the arrays of the sweeps take that were not dropped.
+    [[nodiscard]] std::uint64_t held_bytes() const;
     // The sweep behind these has had its last radial by its status; more may follow all the same.
     [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }
@@ -103,7 +109,7 @@ class VolumeBuilder {
     [[nodiscard]] bool make_room_for(const Sweep& sweep, const Sweep& from);
     void append_rows(Sweep& sweep, const Sweep& from);
 
-    std::uint64_t limit_bytes_;
+    std::uint64_t limit_bytes_, array_limit_bytes_;
     ArrayRoom room_;
     std::uint64_t output_bytes_ = 0;
     bool cut_ = false;

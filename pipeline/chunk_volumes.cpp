@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 // No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::chrono::minutes longest_failing{2};
+// Beyond it all are forgotten, and read again with their next chunk.
+constexpr std::size_t most_not_again = 4096;
 
 // The pieces of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
@@ -81,14 +83,14 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
     const auto bytes = read_beneath(beneath_, chunk.path, most_chunk_bytes);
     if (!bytes) {
         const ErrorCode code = bytes.error().code;
-        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
+        if (code == ErrorCode::io || is_shortage(code)) return pass_on(bytes);
         return Added::not_ours;
     }
     File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
     const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
     if (!added) {
         const ErrorCode code = added.error().code;
-        if (code == ErrorCode::io) {  // no memory
+        if (is_shortage(code)) {
             return fail(code, "{}: {}", chunk.path.native(), added.error().message);
         }
         if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
@@ -108,13 +110,13 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const auto found = chunks_beside(of, beneath_);
     if (!found) {
         const ErrorCode code = found.error().code;
-        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(found);
+        if (code == ErrorCode::io || is_shortage(code)) return pass_on(found);
         return {};
     }
     Status all;
     for (const ChunkPath& chunk : *found) {
         const auto stamp = stamp_of(chunk.path, beneath_);
-        if (!stamp && stamp.error().code == ErrorCode::io) all = pass_on(stamp);
+        if (!stamp && stamp.error().code != ErrorCode::not_found) all = pass_on(stamp);
         if (!stamp || !stamp->regular) continue;
         if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
     }
@@ -181,64 +183,48 @@ Result<level2::Decoded> ChunkVolume::finish() {
     return decoded;
 }
 
-std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk) {
+std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
+                                                bool more_may_come) {
     const std::scoped_lock lock(mutex_);
-    Followed& followed = volumes_[chunk.key];
-    followed.turn = next_turn_++;
-    if (!followed.volume) {
-        level2::LiveOptions live;
-        live.timeout = options_.chunk_timeout;
-        live.grace = options_.chunk_grace;
-        live.decode.output_limit_bytes = most_unpacked_bytes;
-        live.decode.selection = options_.selection;
-        live.decode.fallback_station = station_of_path(chunk.path);
-        followed.volume = std::make_shared<ChunkVolume>(options_, live);
-    }
-    std::shared_ptr<ChunkVolume> found = followed.volume;
-    give_up_beyond_limits(chunk.key);
-    return found;
+    if (auto known = volumes_.find(chunk.key)) return known;
+    const auto now = std::chrono::steady_clock::now();
+    const bool has_place = !not_again_.contains(chunk.key) && volumes_.has_place(station, now);
+    note_given_up();
+    if (!has_place && more_may_come) return nullptr;
+    level2::LiveOptions live;
+    live.timeout = options_.chunk_timeout;
+    live.grace = options_.chunk_grace;
+    live.decode.output_limit_bytes = most_unpacked_bytes;
+    live.decode.array_limit_bytes = most_array_bytes(options_.selection);
+    live.decode.selection = options_.selection;
+    live.decode.fallback_station = station_of_path(chunk.path);
+    auto made = std::make_shared<ChunkVolume>(options_, live);
+    volumes_.add(chunk.key, made, station, now);
+    return made;
 }
 
 std::shared_ptr<ChunkVolume> ChunkVolumes::find_known(const ChunkPath& chunk) const {
     const std::scoped_lock lock(mutex_);
-    const auto known = volumes_.find(chunk.key);
-    return known == volumes_.end() ? nullptr : known->second.volume;
+    return volumes_.find(chunk.key);
 }
 
-bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume) {
+bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume,
+                        const std::string& station) {
     const std::scoped_lock lock(mutex_);
-    const auto own = volumes_.find(chunk.key);
-    if (own == volumes_.end() || own->second.volume.get() != &volume) return true;
-    own->second.held_bytes = volume.held_bytes();
-    own->second.shelf_bytes = volume.shelf_bytes();
-    const bool has_its_share = own->second.shelf_bytes <= limits_.shelf_bytes_each;
-    if (!has_its_share) give_up(own);
-    give_up_beyond_limits(chunk.key);
-    return has_its_share;
+    // Forgotten meanwhile, as when it is read anew: that is nobody's fault.
+    if (volumes_.find(chunk.key).get() != &volume) return !not_again_.contains(chunk.key);
+    const bool stands =
+        volumes_.grew(chunk.key, &volume, station, volume.held_bytes(), volume.shelf_bytes(),
+                      std::chrono::steady_clock::now());
+    note_given_up();
+    return stands;
 }
 
-void ChunkVolumes::give_up(std::map<std::string, Followed>::iterator volume) {
-    volumes_.erase(volume);
-    ++given_up_;
-}
-
-void ChunkVolumes::give_up_beyond_limits(const std::string& but) {
-    std::uint64_t held = 0;
-    std::uint64_t shelf = 0;
-    for (const auto& [key, followed] : volumes_) {
-        held += followed.held_bytes;
-        shelf += followed.shelf_bytes;
-    }
-    while (volumes_.size() > 1 && (held > limits_.held_bytes || shelf > limits_.shelf_bytes ||
-                                   volumes_.size() > limits_.volumes)) {
-        auto oldest = volumes_.end();
-        for (auto at = volumes_.begin(); at != volumes_.end(); ++at) {
-            if (at->first == but) continue;
-            if (oldest == volumes_.end() || at->second.turn < oldest->second.turn) oldest = at;
-        }
-        held -= oldest->second.held_bytes;
-        shelf -= oldest->second.shelf_bytes;
-        give_up(oldest);
+void ChunkVolumes::note_given_up() {
+    for (const std::string& key : volumes_.take_given_up()) {
+        if (not_again_.size() >= most_not_again) not_again_.clear();
+        not_again_.insert(key);
+        ++given_up_;
     }
 }
 
@@ -250,17 +236,19 @@ std::uint64_t ChunkVolumes::take_given_up() {
 void ChunkVolumes::forget(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
     volumes_.erase(chunk.key);
+    not_again_.erase(chunk.key);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk, const ChunkVolume* volume) {
     const std::scoped_lock lock(mutex_);
-    const auto at = volumes_.find(chunk.key);
-    if (at != volumes_.end() && at->second.volume.get() == volume) volumes_.erase(at);
+    if (volumes_.find(chunk.key).get() != volume) return;
+    volumes_.erase(chunk.key);
+    not_again_.erase(chunk.key);
 }
 
 std::size_t ChunkVolumes::count() const {
     const std::scoped_lock lock(mutex_);
-    return volumes_.size();
+    return volumes_.count();
 }
 
 }  // namespace stormcellar::pipeline

@@ -5,9 +5,8 @@
 // that nothing depends on what was seen before: after a restart, and when a late chunk comes, the
 // volume is put together again from the files.
 // What is decoded lies on the shelf (pipeline/sweep_shelf.h) until it is wanted.
-// Bounded: beyond so many bytes or volumes the volume to which nothing has come for longest is
-// given up, and read again from its files with its next chunk, or when it is next asked for. So is
-// one that takes more than its share, as when its chunks are written again and again.
+// Bounded for each station and in all (pipeline/growing_set.h). A volume that was given up, and one
+// that found no place, is read from its files when nothing more comes of it.
 // Inside the pipeline room only. Thread contract: find() by many threads; a volume by whoever holds
 // its mutex.
 #pragma once
@@ -18,6 +17,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +25,7 @@
 #include "level2/live_volume.h"
 #include "pipeline/chunk_path.h"
 #include "pipeline/file_facts.h"
+#include "pipeline/growing_set.h"
 #include "pipeline/ingest_options.h"
 #include "pipeline/living_file.h"
 
@@ -100,26 +101,22 @@ class ChunkVolume {
     std::optional<level2::LiveVolume::Clock::time_point> fails_since_;
 };
 
-struct ChunkLimits {
-    std::size_t volumes = 320;  // each has a descriptor
-    std::uint64_t held_bytes = std::uint64_t{256} << 20;
-    // On disk, packed: of all, and of each one. The second is as much as any takes whose chunks
-    // come once: 256 MiB unpacked, as pieces and as sweeps.
-    std::uint64_t shelf_bytes = most_put_aside_bytes;
-    std::uint64_t shelf_bytes_each = most_put_aside_bytes / 8;
-};
-
 class ChunkVolumes {
   public:
-    explicit ChunkVolumes(LivingFile::Options options, ChunkLimits limits = {})
-        : options_(std::move(options)), limits_(limits) {}
+    explicit ChunkVolumes(LivingFile::Options options, GrowingLimits limits = {})
+        : options_(std::move(options)), volumes_(limits) {}
 
-    // Made where it is not known.
-    [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk);
+    // Made where it is not known. `station`: whose its path says that it is. Null where more chunks
+    // may come and there is no place for it now, or it was given up before: it is to be asked for
+    // again when it is quiet.
+    [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk,
+                                                    const std::string& station,
+                                                    bool more_may_come = true);
     // Null where it is not.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find_known(const ChunkPath& chunk) const;
     // Counts what it takes now. False: that is more than its share, and it was given up.
-    [[nodiscard]] bool grew(const ChunkPath& chunk, const ChunkVolume& volume);
+    [[nodiscard]] bool grew(const ChunkPath& chunk, const ChunkVolume& volume,
+                            const std::string& station);
     void forget(const ChunkPath& chunk);
     void forget(const ChunkPath& chunk, const ChunkVolume* volume);  // if it is still this one
     [[nodiscard]] std::size_t count() const;
@@ -127,18 +124,13 @@ class ChunkVolumes {
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
-    struct Followed {
-        std::shared_ptr<ChunkVolume> volume;
-        std::uint64_t turn = 0, held_bytes = 0, shelf_bytes = 0;
-    };
-    void give_up_beyond_limits(const std::string& but);
-    void give_up(std::map<std::string, Followed>::iterator volume);
+    void note_given_up();
 
     LivingFile::Options options_;
-    ChunkLimits limits_;
     mutable std::mutex mutex_;  // guards what follows
-    std::uint64_t next_turn_ = 0, given_up_ = 0;
-    std::map<std::string, Followed> volumes_;
+    GrowingSet<std::string, ChunkVolume> volumes_;
+    std::set<std::string> not_again_;  // those that were given up, until they are quiet
+    std::uint64_t given_up_ = 0;
 };
 
 }  // namespace stormcellar::pipeline

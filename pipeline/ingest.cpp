@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -22,6 +23,13 @@ using catalog::FileFacts;
 using catalog::FileState;
 using Clock = std::chrono::steady_clock;
 
+// Nearly all of a volume of chunks lies on the shelf.
+constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
+
+// The largest volume known has 12 MB, uncompressed 75. Larger files are read one at a time, so that
+// several together do not take the memory.
+constexpr std::uint64_t large_file_bytes = std::uint64_t{32} << 20;
+
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
                        [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
@@ -39,6 +47,12 @@ std::vector<level2::Moment> moments_of(const IngestOptions& options) {
 std::string without_path(const std::string& message, const fs::path& path) {
     const std::string start = path.native() + ": ";
     return message.starts_with(start) ? message.substr(start.size()) : message;
+}
+
+// The row and the log say whose data stand among those of no known station.
+std::string of_other_station(const std::string& station, const std::string& reason) {
+    const std::string text = fmt::format("of {}, of which no data are taken in", station);
+    return reason.empty() ? text : text + "; " + reason;
 }
 
 // A chunk has it in the names of its directories, if at all.
@@ -64,11 +78,14 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
         .chunk_timeout = options.living.chunk_timeout,
         .chunk_grace = options.living.chunk_grace,
     };
-    const std::uint64_t most = options.living.put_aside_bytes;
-    chunks.emplace(follow, ChunkLimits{.shelf_bytes = most, .shelf_bytes_each = most / 8});
+    GrowingLimits limits;
+    limits.shelf_bytes = options.living.put_aside_bytes;
+    limits.station_shelf_bytes = limits.shelf_bytes / 8;
     if (store != nullptr && options.living.make && !options.living.scratch.empty()) {
-        living.emplace(follow, LivingLimits{.shelf_bytes = most});
+        living.emplace(follow, limits);
     }
+    limits.held_bytes = most_held_chunk_bytes;
+    chunks.emplace(follow, limits);
 }
 
 Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
@@ -81,19 +98,46 @@ MosaicKeeper& Ingestor::mosaics() {
     return impl_->mosaics;
 }
 
+std::string Ingestor::Impl::taken_station(const std::string& station, Admit admit) const {
+    if (station.empty() || !options.stations) return station;
+    const bool is_taken = admit == Admit::yes ? options.stations->admits(station)
+                                              : options.stations->knows(station);
+    return is_taken ? station : std::string{};
+}
+
+Status Ingestor::Impl::record(FileFacts facts) {
+    facts.station = taken_station(facts.station);
+    if (const auto registered = catalog.register_file(facts); !registered) {
+        return pass_on(registered);
+    }
+    return {};
+}
+
 Result<IngestOutcome> Ingestor::Impl::reject(const FileFacts& facts, Error why,
                                              IngestOutcome outcome) {
     FileFacts rejected = facts;
     rejected.state = FileState::rejected;
     rejected.reason = std::move(why.message);
-    if (const auto registered = catalog.register_file(rejected); !registered) {
-        return pass_on(registered);
-    }
+    if (Status stored = record(rejected); !stored) return pass_on(stored);
     outcome.result = IngestResult::rejected;
     outcome.rejected_with = why.code;
-    outcome.station = facts.station;
+    outcome.station = taken_station(facts.station);
     outcome.reason = rejected.reason;
     return outcome;
+}
+
+// With a stamp that settles nothing: after a restart the cause may be gone.
+Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error& why) {
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_name(path);
+    if (const auto stamp = stamp_of(path, options.beneath)) facts.size_bytes = stamp->size_bytes;
+    facts.modified_ns = catalog::never_read_ns;
+    if (living) living->forget(path);
+    auto rejected = reject(
+        facts, {why.code, "given up: " + without_path(why.message, path)}, IngestOutcome{});
+    // What failed, and not what failed while that was stored.
+    return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
 
 // It may not even be looked at: its directory has no permission. Tried again when it is offered.
@@ -121,7 +165,7 @@ Status Ingestor::Impl::keep_mosaics(const FileFacts& facts, const level2::Volume
     const auto kept = mosaics.take_in(source, share_of(options.grid_threads));
     outcome.mosaic_s += seconds_since(start);
     if (!kept) {
-        if (!is_of_the_data(kept.error())) return pass_on(kept);
+        if (kept.error().cause() != Cause::data) return pass_on(kept);
         outcome.reason = "in no mosaic: " + kept.error().message;
         return {};
     }
@@ -137,8 +181,17 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
                                                const std::vector<level2::Volume>& volumes,
                                                const Reading& reading, IngestOutcome outcome) {
     outcome.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
+    std::string other;
     for (const level2::Volume& volume : volumes) {
         if (store == nullptr) continue;
+        if (!volume.station.empty() && taken_station(volume.station).empty()) {
+            other = volume.station;
+            continue;
+        }
+        if (!volume.start_time()) {
+            return reject(facts, {ErrorCode::corrupt, "cannot be gridded: no time in it is plausible"},
+                          outcome);
+        }
         if (!options.own_grids) {
             (void)SiteGrids::has_place(volume, outcome);
         } else if (has_moment(volume, options.moment)) {
@@ -148,7 +201,7 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
             const Status gridded =
                 site_grids->keep(volume, source, share_of(options.grid_threads), outcome);
             if (!gridded) {
-                if (!is_of_the_data(gridded.error())) return pass_on(gridded);
+                if (gridded.error().cause() != Cause::data) return pass_on(gridded);
                 const Error& why = gridded.error();
                 return reject(facts, {why.code, "cannot be gridded: " + why.message}, outcome);
             }
@@ -160,9 +213,9 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
     const bool some_partial = !options.own_grids && !outcome.partials.empty();
     if (!outcome.grids.empty() || some_partial || outcome.not_kept > 0)
         outcome.result = IngestResult::gridded;
-    if (const auto registered = catalog.register_file(facts); !registered) {
-        return pass_on(registered);
-    }
+    if (outcome.result == IngestResult::no_moment && !other.empty())
+        outcome.result = IngestResult::other_station;
+    if (Status stored = record(facts); !stored) return pass_on(stored);
     return outcome;
 }
 
@@ -179,17 +232,19 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         facts.volumes.push_back(facts_of(volume));
         outcome.newest_radial = std::max(outcome.newest_radial, facts.volumes.back().end_time);
     }
+    for (const level2::Volume& volume : volumes)
+        (void)taken_station(volume.station, Admit::yes);
     if (!volumes.empty()) {
         facts.station = volumes.front().station;
         outcome.volume_time = volumes.front().start_time();
     }
-    outcome.station = facts.station;
+    outcome.station = taken_station(facts.station);
+    if (!facts.station.empty() && outcome.station.empty())
+        facts.reason = of_other_station(facts.station, facts.reason);
     outcome.reason = facts.reason;
 
     facts.state = FileState::seen;
-    if (const auto registered = catalog.register_file(facts); !registered) {
-        return pass_on(registered);
-    }
+    if (Status stored = record(facts); !stored) return pass_on(stored);
     const bool ended = !volumes.empty() && level2::has_ended(volumes.back());
     if (!ended && !finish_partial) {
         outcome.result = IngestResult::incomplete;
@@ -212,42 +267,46 @@ Finish Ingestor::Impl::finish_of(bool finish_partial) const {
     return options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
 }
 
-Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial) {
+Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial, Tries tries) {
     const Running running(impl_->running);
+    auto outcome = impl_->ingest(path, finish_partial);
+    if (outcome || tries == Tries::more_follow || is_shortage(outcome.error().code)) return outcome;
+    return impl_->give_up(path, outcome.error());
+}
+
+Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_partial) {
     IngestOutcome outcome;
-    const auto before = stamp_of(path, impl_->options.beneath);
+    const auto before = stamp_of(path, options.beneath);
     if (!before) {
         const ErrorCode code = before.error().code;
-        if (code == ErrorCode::permission) return impl_->reject_unread(path, before.error());
+        if (code == ErrorCode::permission) return reject_unread(path, before.error());
         if (code != ErrorCode::not_found) return pass_on(before);
-        if (Status marked = impl_->mark_gone(path); !marked) return pass_on(marked);
+        if (Status marked = mark_gone(path); !marked) return pass_on(marked);
         outcome.result = IngestResult::vanished;
-        const auto gone = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
+        const auto gone = chunks ? ChunkPath::of(path) : std::nullopt;
         if (!gone) return outcome;
-        auto taken = impl_->take_gone_chunk(*gone, impl_->finish_of(finish_partial), outcome);
+        auto taken = take_gone_chunk(*gone, finish_of(finish_partial), outcome);
         return taken ? std::move(*taken) : outcome;
     }
-    const auto settled = impl_->catalog.is_settled(path, before->size_bytes, before->modified_ns);
+    const auto settled = catalog.is_settled(path, before->size_bytes, before->modified_ns);
     if (!settled) return pass_on(settled);
     if (*settled) {
         outcome.result = IngestResult::unchanged;
         return outcome;
     }
-    if (before->size_bytes > impl_->options.most_file_bytes) {
-        if (impl_->living) impl_->living->forget(path);
-        return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
+    if (before->size_bytes > options.most_file_bytes) {
+        if (living) living->forget(path);
+        return read_and_take_in(path, *before, finish_partial, std::move(outcome));
     }
-    const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt;
+    const auto chunk = chunks ? ChunkPath::of(path) : std::nullopt;
     if (chunk) {
-        const Finish finish = impl_->finish_of(finish_partial);
-        if (auto taken = impl_->take_chunk(*chunk, *before, finish, outcome)) {
-            return std::move(*taken);
-        }
+        const Finish finish = finish_of(finish_partial);
+        if (auto taken = take_chunk(*chunk, *before, finish, outcome)) return std::move(*taken);
     }
-    if (auto followed = impl_->follow(path, *before, finish_partial, outcome)) {
+    if (auto followed = follow(path, *before, finish_partial, outcome)) {
         return std::move(*followed);
     }
-    return impl_->read_and_take_in(path, *before, finish_partial, std::move(outcome));
+    return read_and_take_in(path, *before, finish_partial, std::move(outcome));
 }
 
 Result<IngestResult> Ingestor::note(const fs::path& path) {
@@ -263,7 +322,7 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     if (*known) return IngestResult::registered;
     FileFacts facts;
     facts.path = path;
-    facts.station = station_of_path(path);
+    facts.station = impl_->taken_station(station_of_path(path));
     facts.size_bytes = stamp->size_bytes;
     facts.modified_ns = stamp->modified_ns;
     facts.state = FileState::seen;
@@ -303,6 +362,12 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                  before.size_bytes, options.most_file_bytes)},
             outcome);
     }
+    std::unique_lock alone(large_file, std::defer_lock);
+    if (before.size_bytes > large_file_bytes && !alone.try_lock()) {
+        outcome.result = IngestResult::incomplete;
+        outcome.reason = "waits until another large file has been read";
+        return outcome;
+    }
     const auto read_start = Clock::now();
     const auto bytes = read_beneath(options.beneath, path, options.most_file_bytes);
     outcome.read_s = seconds_since(read_start);
@@ -310,7 +375,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     if (!bytes && after) {
         const ErrorCode code = bytes.error().code;
         // Ours for now, as when descriptors run out: the file is not to blame.
-        if (code == ErrorCode::io || code == ErrorCode::no_space) return pass_on(bytes);
+        if (code == ErrorCode::io || is_shortage(code)) return pass_on(bytes);
         if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
         return reject(facts, {code, without_path(bytes.error().message, path)}, outcome);
     }
@@ -325,12 +390,14 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     level2::DecodeOptions decode_options;
     decode_options.threads = share_of(options.decode_threads);
     decode_options.output_limit_bytes = options.most_output_bytes;
+    decode_options.selection = {moments_of(options), {}};
+    decode_options.array_limit_bytes = most_array_bytes(decode_options.selection);
     decode_options.fallback_station = facts.station;
     auto decoded = level2::decode(*bytes, decode_options);
     outcome.decode_s = seconds_since(decode_start);
     if (!decoded) {
         const ErrorCode code = decoded.error().code;
-        if (code == ErrorCode::io) return pass_on(decoded);  // no memory
+        if (is_shortage(code)) return pass_on(decoded);
         if (!finish_partial && (code == ErrorCode::empty || code == ErrorCode::truncated)) {
             outcome.result = IngestResult::incomplete;  // there may be more to come
             outcome.reason = decoded.error().message;

@@ -4,8 +4,10 @@
 // recorded as rejected with its reason; that is a result, not an error.
 // A grid in the cache is replaced by one of a whole volume or of a newer file, never by one of a
 // part of it or of an older file. A volume that the cache's budgets would not keep is not gridded.
-// Errors are not of the data: the catalog or the cache cannot be written, the system gives no
-// memory or descriptors. Trying again later may help.
+// Errors are never of the data: the catalog or the cache cannot be written, the system gives no
+// memory or descriptors. Trying again later may help. With the last try whatever is no shortage of
+// the system (is_shortage()) is recorded as a rejection with its reason; where not even that can be
+// stored, the error comes out all the same.
 // Thread contract: an Ingestor may be used by many threads at once, for different files.
 #pragma once
 
@@ -22,6 +24,9 @@ namespace stormcellar::pipeline {
 
 class MosaicKeeper;
 
+// Whether a file that cannot be taken in is tried again after this.
+enum class Tries { more_follow, last };
+
 class Ingestor {
   public:
     Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options);
@@ -32,7 +37,8 @@ class Ingestor {
     Ingestor& operator=(const Ingestor&) = delete;
 
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
-    Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
+    Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial,
+                                 Tries tries = Tries::more_follow);
     // Writes a file into the catalog as seen, unread, unless it stands there (registered), or marks
     // its rows when it is gone (vanished; registered where a volume of chunks waits in its name).
     Result<IngestResult> note(const std::filesystem::path& path);

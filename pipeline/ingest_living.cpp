@@ -41,6 +41,16 @@ FileFacts facts_of(const ChunkVolume& volume, const ChunkPath& chunk, const File
     return facts;
 }
 
+// Of a chunk that was not read.
+FileFacts facts_unread(const fs::path& path, const FileStamp& stamp) {
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_path(path);
+    facts.size_bytes = stamp.size_bytes;
+    facts.modified_ns = stamp.modified_ns;
+    return facts;
+}
+
 }  // namespace
 
 Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news,
@@ -64,7 +74,7 @@ Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news
                                        living_note, volume->sweeps.size() - standing, standing));
     const Status shown =
         site_grids->keep_living(*volume, source, share_of(options.grid_threads), outcome);
-    if (!shown && !is_of_the_data(shown.error())) return pass_on(shown);
+    if (!shown && shown.error().cause() != Cause::data) return pass_on(shown);
     return true;
 }
 
@@ -86,9 +96,7 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     volume_facts.radial_count = static_cast<int>(living_file.radials());
     volume_facts.end_time = living_file.newest();
     facts.volumes.push_back(volume_facts);
-    if (const auto registered = catalog.register_file(facts); !registered) {
-        return pass_on(registered);
-    }
+    if (Status stored = record(facts); !stored) return pass_on(stored);
     outcome.station = facts.station;
     outcome.volume_time = volume_facts.start_time;
     outcome.newest_radial = volume_facts.end_time;
@@ -96,6 +104,18 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
                                    facts.modified_ns, outcome);
     if (!shown) return pass_on(shown);
     if (*shown) living_file.set_shown();
+    return outcome;
+}
+
+// Its row says that it is there, and no more.
+Result<IngestOutcome> Ingestor::Impl::wait_unread(FileFacts facts, IngestOutcome outcome) {
+    outcome.result = IngestResult::incomplete;
+    facts.station = taken_station(facts.station);
+    facts.state = FileState::seen;
+    const auto known = catalog.is_known(facts.path);
+    if (!known) return pass_on(known);
+    if (*known) return outcome;
+    if (Status noted = catalog.note_file(facts); !noted) return pass_on(noted);
     return outcome;
 }
 
@@ -110,19 +130,31 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     facts.station = station_of_file_name(path);
     facts.size_bytes = before.size_bytes;
     facts.modified_ns = before.modified_ns;
-    if (!file && !finish_partial && LivingFile::is_growing(path, options.beneath)) {
-        file = living->begin(path, facts.station);
+    std::string station = taken_station(facts.station);
+    if (!file && !finish_partial) {
+        const auto growing = LivingFile::growing(path, options.beneath);
+        if (!growing) return std::nullopt;
+        const std::string& claimed = growing->station.empty() ? facts.station : growing->station;
+        station = taken_station(claimed);
+        if (claimed.empty() || !station.empty())
+            file = living->begin(path, facts.station, station);
+        // What is not followed is read when it has ended or has been quiet, and not before: again
+        // and again it would be read in vain.
+        if (!file) return wait_unread(std::move(facts), std::move(outcome));
     }
     if (!file) return std::nullopt;
+    if (!file->kept().facts.station.empty()) station = taken_station(file->kept().facts.station);
     const auto start = Clock::now();
-    const bool has_ended = file->read_to(before.size_bytes) && file->has_ended();
+    const auto may_read_on = [&] { return living->grew(path, *file, station); };
+    const bool has_ended = file->read_to(before.size_bytes, may_read_on) && file->has_ended();
     outcome.decode_s = seconds_since(start);
-    if (!file->is_whole()) {
+    outcome.given_up = living->take_given_up();
+    if (!file->is_whole() || !living->grew(path, *file, station)) {
+        const bool is_given_up = living->find(path) == nullptr;
+        if (is_given_up && !finish_partial) return wait_unread(std::move(facts), std::move(outcome));
         living->forget(path);
         return std::nullopt;
     }
-    living->grew(path, *file);
-    outcome.given_up = living->take_given_up();
     if (!has_ended && !finish_partial) return show_file(facts, *file, std::move(outcome));
     living->forget(path);
     facts.content_hash = file->content_hash();
@@ -130,7 +162,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     outcome.decode_s = seconds_since(start);
     if (!decoded) return std::nullopt;
     auto taken = take_in(std::move(facts), std::move(*decoded), finish_partial, outcome);
-    if (taken) living->keep_last(file->take_kept());
+    if (taken && !taken->station.empty()) living->keep_last(file->take_kept());
     return taken;
 }
 
@@ -139,7 +171,11 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
                                                                 Finish finish,
                                                                 IngestOutcome outcome) {
     if (!before.regular) return std::nullopt;
-    std::shared_ptr<ChunkVolume> volume = chunks->find(chunk);
+    const std::string path_station = taken_station(station_of_path(chunk.path));
+    const bool more_may_come = finish == Finish::when_it_ends;
+    std::shared_ptr<ChunkVolume> volume = chunks->find(chunk, path_station, more_may_come);
+    outcome.given_up = chunks->take_given_up();
+    if (!volume) return wait_unread(facts_unread(chunk.path, before), std::move(outcome));
     std::unique_lock lock(volume->mutex);
     while (volume->is_finished) {  // by another worker, while we waited for it
         const auto settled = catalog.is_settled(chunk.path, before.size_bytes, before.modified_ns);
@@ -150,7 +186,8 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         }
         lock.unlock();
         chunks->forget(chunk, volume.get());
-        volume = chunks->find(chunk);
+        volume = chunks->find(chunk, path_station, more_may_come);
+        if (!volume) return wait_unread(facts_unread(chunk.path, before), std::move(outcome));
         lock = std::unique_lock(volume->mutex);
     }
     const auto start = Clock::now();
@@ -167,7 +204,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         return outcome;
     }
     const FileFacts facts = facts_of(*volume, chunk, before);
-    outcome.station = facts.station;
+    outcome.station = taken_station(facts.station);
     if (volume->is_whole() || finish == Finish::as_it_is ||
         (finish == Finish::when_quiet && volume->is_due())) {
         // A volume that could not be stored is put together again. Until then it is found, and
@@ -183,11 +220,9 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
 // Its volume goes on growing.
 Result<IngestOutcome> Ingestor::Impl::show_chunk(const ChunkPath& chunk, const FileFacts& facts,
                                                  ChunkVolume& volume, IngestOutcome outcome) {
-    if (const auto registered = catalog.register_file(facts); !registered) {
-        return pass_on(registered);
-    }
-    volume.is_finished = !chunks->grew(chunk, volume);
-    outcome.given_up = chunks->take_given_up();
+    if (Status stored = record(facts); !stored) return pass_on(stored);
+    volume.is_finished = !chunks->grew(chunk, volume, taken_station(facts.station));
+    outcome.given_up += chunks->take_given_up();
     if (volume.news().any && volume.kept() != nullptr) {
         const auto shown =
             show_living(*volume.kept(), volume.news(), volume.first_file().filename().string(),
@@ -222,7 +257,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_gone_chunk(const Chunk
     const std::scoped_lock lock(volume->mutex);
     if (volume->is_finished || !volume->is_waiter(chunk.path)) return std::nullopt;
     const std::string station = facts_of(*volume, chunk, {}).station;
-    outcome.station = station;
+    outcome.station = taken_station(station);
     outcome.reason = "the file that waited for its volume was deleted";
     if (finish == Finish::when_it_ends || (finish == Finish::when_quiet && !volume->is_due())) {
         outcome.result = IngestResult::incomplete;
@@ -268,23 +303,23 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     outcome.decode_s += seconds_since(start);
     // What was put aside cannot be read back, or there is no memory for it: the files are not to
     // blame, and are read again.
-    if (!decoded && decoded.error().code == ErrorCode::io) return pass_on(decoded);
+    if (!decoded && decoded.error().cause() == Cause::system) return pass_on(decoded);
     if (!decoded) {
         for (FileFacts& other : others) {
             other.state = FileState::rejected;
             other.reason = decoded.error().message;
         }
-        if (Status settled = catalog.register_files(station, others); !settled) {
+        if (Status settled = catalog.register_files(taken_station(station), others); !settled) {
             return pass_on(settled);
         }
         return reject(facts, decoded.error(), outcome);
     }
     auto taken = take_in(std::move(facts), std::move(*decoded), true, std::move(outcome));
     if (!taken) return taken;
-    if (Status settled = catalog.register_files(station, others); !settled) {
+    if (Status settled = catalog.register_files(taken_station(station), others); !settled) {
         return pass_on(settled);
     }
-    if (living) living->keep_last(volume.take_kept());
+    if (living && !taken->station.empty()) living->keep_last(volume.take_kept());
     return taken;
 }
 

@@ -7,8 +7,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "base/station_rule.h"
+#include "level2/selection.h"
 #include "level2/volume.h"
 #include "pipeline/domain.h"
 #include "pipeline/frames_when.h"
@@ -22,6 +25,14 @@ inline constexpr std::uint64_t most_put_aside_bytes = std::uint64_t{4} << 30;
 
 // What a file, or the chunks of a volume, may unpack to: three times a large volume.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
+
+// What the arrays of a volume may take of which these moments are asked for: twice what any known
+// volume takes, whose largest moment has 14 MiB.
+[[nodiscard]] inline std::uint64_t most_array_bytes(const level2::Selection& selection) {
+    const std::uint64_t moments =
+        selection.moments.empty() ? std::size(level2::all_moments) : selection.moments.size();
+    return (32 + 28 * moments) << 20;
+}
 
 // Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until
 // theirs has come.
@@ -42,6 +53,9 @@ struct LivingGrids {
 };
 
 struct IngestOptions {
+    // Of which stations data are taken in; null: of every one that has a name. Data of all others
+    // are cataloged among those of no known station, and neither followed nor gridded.
+    std::shared_ptr<StationRule> stations;
     level2::Moment moment = level2::Moment::ref;
     double spacing_m = 1000;
     int nx = 460, ny = 460;

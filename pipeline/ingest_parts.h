@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,10 +64,21 @@ struct Ingestor::Impl {
     std::optional<LivingFiles> living;
     std::optional<ChunkVolumes> chunks;
     std::atomic<int> running{0};
+    std::mutex large_file;  // held by whoever reads one
 
+    Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
+    // A file that was tried often enough. `why`: of the last try.
+    Result<IngestOutcome> give_up(const std::filesystem::path& path, const Error& why);
+    // The station itself where its data are taken in, else empty. `admit`: the data are whole, so
+    // a new name may be admitted by the rule.
+    enum class Admit : bool { no, yes };
+    [[nodiscard]] std::string taken_station(const std::string& station,
+                                            Admit admit = Admit::no) const;
     Result<IngestOutcome> read_and_take_in(const std::filesystem::path& path,
                                            const FileStamp& before, bool finish_partial,
                                            IngestOutcome outcome);
+    // Into the catalog, among those of no known station where the file's is not taken in.
+    Status record(catalog::FileFacts facts);
     Status mark_gone(const std::filesystem::path& path);
     Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
     Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why);
@@ -77,6 +89,8 @@ struct Ingestor::Impl {
                                    const Reading& reading, IngestOutcome outcome);
     Status keep_mosaics(const catalog::FileFacts& facts, const level2::Volume& volume,
                         const Reading& reading, IngestOutcome& outcome);
+    // Of a file that grows and is not followed: it is looked at again when it ends or is quiet.
+    Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
     // None: the file is to be read as a whole.
     std::optional<Result<IngestOutcome>> follow(const std::filesystem::path& path,
                                                 const FileStamp& before, bool finish_partial,

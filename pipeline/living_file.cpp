@@ -66,6 +66,21 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
     return static_cast<std::int32_t>(value);
 }
 
+// Whether the chain of LDM records ends with the file, or is none: whoever reads such a file whole
+// finds more.
+bool has_all_records(const OpenFile& file, std::uint64_t size) {
+    std::uint64_t at = level2::archive_header_bytes;
+    for (std::uint64_t record = 0; record < most_records; ++record) {
+        std::array<std::byte, 4> word{};
+        if (at + 4 > size || file.read(at, word) < 4) return false;
+        const std::int64_t length = control_word(word);
+        at += 4 + static_cast<std::uint64_t>(std::abs(length));
+        if (at > size) return false;
+        if (length == 0 || (length < 0 && at == size)) return true;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool KeptVolume::is_lowest(double elevation_deg) const {
@@ -75,30 +90,23 @@ bool KeptVolume::is_lowest(double elevation_deg) const {
     });
 }
 
-bool LivingFile::is_growing(const fs::path& path, const fs::path& beneath) {
+std::optional<LivingFile::Growing> LivingFile::growing(const fs::path& path,
+                                                       const fs::path& beneath) {
     const OpenFile file(path, beneath);
-    if (!file.is_open()) return false;
+    if (!file.is_open()) return std::nullopt;
     const auto facts = file.facts();
-    if (!facts) return false;
+    if (!facts) return std::nullopt;
     std::array<std::byte, 64> start{};
     const std::size_t known = file.read(0, start);
     const std::span<const std::byte> head = std::span{start}.first(known);
-    if (!level2::read_archive_header(head)) return false;
+    const auto header = level2::read_archive_header(head);
+    if (!header) return std::nullopt;
+    Growing growing{header->icao};
     // Nothing but the header yet: no more than a promise, but of a file that grows.
-    if (known <= level2::archive_header_bytes + 16) return true;
-    if (level2::content_at_start(head) != level2::Content::ldm) return false;
-    const auto size = static_cast<std::uint64_t>(facts->st_size);
-    std::uint64_t at = level2::archive_header_bytes;
-    for (std::uint64_t record = 0; record < most_records; ++record) {
-        std::array<std::byte, 4> word{};
-        if (at + 4 > size || file.read(at, word) < 4) return true;
-        const std::int64_t length = control_word(word);
-        at += 4 + static_cast<std::uint64_t>(std::abs(length));
-        if (at > size) return true;
-        if (length < 0 && at == size) return false;
-        if (length == 0) return false;  // no chain of records: whoever reads it whole finds more
-    }
-    return false;
+    if (known <= level2::archive_header_bytes + 16) return growing;
+    if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
+    if (has_all_records(file, static_cast<std::uint64_t>(facts->st_size))) return std::nullopt;
+    return growing;
 }
 
 LivingFile::LivingFile(fs::path path, const Options& options)
@@ -107,6 +115,7 @@ LivingFile::LivingFile(fs::path path, const Options& options)
       moment_(options.moment),
       growing_(level2::DecodeOptions{.threads = 1,
                                      .output_limit_bytes = most_unpacked_bytes,
+                                     .array_limit_bytes = most_array_bytes(options.selection),
                                      .selection = options.selection,
                                      .fallback_station = options.fallback_station}),
       kept_(std::make_unique<KeptVolume>()) {}
@@ -121,13 +130,13 @@ Result<std::unique_ptr<LivingFile>> LivingFile::begin(const fs::path& path,
     return file;
 }
 
-Status LivingFile::read_to(std::uint64_t size_bytes) {
-    Status read = read_on(size_bytes);
+Status LivingFile::read_to(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
+    Status read = read_on(size_bytes, may_read_on);
     is_whole_ = is_whole_ && read.has_value();
     return read;
 }
 
-Status LivingFile::read_on(std::uint64_t size_bytes) {
+Status LivingFile::read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
     const OpenFile file(path_, beneath_);
     if (!file.is_open()) return tl::unexpected<Error>(file.failure());
     const auto facts = file.facts();
@@ -142,6 +151,10 @@ Status LivingFile::read_on(std::uint64_t size_bytes) {
         const std::size_t got = file.read(read_bytes_, std::span{buffer}.first(wanted));
         if (got == 0) return fail(ErrorCode::io, "{}: became shorter", path_.native());
         if (Status taken = take(std::span{buffer}.first(got)); !taken) return taken;
+        if (may_read_on && !may_read_on()) {
+            return fail(ErrorCode::over_budget, "{}: holds more than its share of the memory",
+                        path_.native());
+        }
     }
     kept_->facts = growing_.facts();
     return {};
@@ -171,7 +184,6 @@ Status LivingFile::shelve_new_sweeps() {
         if (level2::is_plausible(live.sweep.radials.back().time)) {
             newest_ = std::max(newest_.value_or(UtcTime{}), live.sweep.radials.back().time);
         }
-        held_bytes_ = level2::bytes_of(live.sweep);  // the next one will be about as large
         if (has_moment) {
             news_.any = true;
             news_.low = news_.low || kept_->is_lowest(live.sweep.mean_elevation_deg());

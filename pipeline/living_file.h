@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -57,15 +58,21 @@ class LivingFile {
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
     };
 
-    // Whether to follow the file: LDM records, of which the last is not there yet. Reads the
-    // lengths of its records.
-    [[nodiscard]] static bool is_growing(const std::filesystem::path& path,
-                                         const std::filesystem::path& beneath = {});
+    // The start of a file that grows.
+    struct Growing {
+        std::string station;  // of its header; empty where that names none
+    };
+    // Whether the file grows: LDM records, of which the last is not there yet. Reads the lengths
+    // of its records. None: it does not, or cannot be read.
+    [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
+                                                        const std::filesystem::path& beneath = {});
     static Result<std::unique_ptr<LivingFile>> begin(const std::filesystem::path& path,
                                                      const Options& options);
 
-    // Reads and decodes up to this size. not_found when the file is gone.
-    [[nodiscard]] Status read_to(std::uint64_t size_bytes);
+    // Reads and decodes up to this size. not_found when the file is gone. `may_read_on` is asked
+    // after each stretch, and ends the reading where it says no: that is over_budget.
+    [[nodiscard]] Status read_to(std::uint64_t size_bytes,
+                                 const std::function<bool()>& may_read_on = {});
     // No read has failed.
     [[nodiscard]] bool is_whole() const { return is_whole_; }
     // Its last radial has come.
@@ -80,7 +87,7 @@ class LivingFile {
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
     // On the shelf, and in memory, about.
     [[nodiscard]] std::uint64_t shelf_bytes() const { return kept_->shelf->bytes(); }
-    [[nodiscard]] std::uint64_t held_bytes() const { return held_bytes_; }
+    [[nodiscard]] std::uint64_t held_bytes() const { return growing_.held_bytes(); }
 
     [[nodiscard]] Result<level2::Decoded> finish();
     // After finish(), for the next volume of the site.
@@ -88,7 +95,7 @@ class LivingFile {
 
   private:
     LivingFile(std::filesystem::path path, const Options& options);
-    Status read_on(std::uint64_t size_bytes);
+    Status read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on);
     Status take(std::span<const std::byte> bytes);
     Status shelve_new_sweeps();
     Status is_as_followed() const;
@@ -99,7 +106,7 @@ class LivingFile {
     std::unique_ptr<KeptVolume> kept_;
     std::size_t dropped_ = 0;  // sweeps below are on the shelf alone
     Xxh3Stream hash_;
-    std::uint64_t inode_ = 0, read_bytes_ = 0, held_bytes_ = 0;
+    std::uint64_t inode_ = 0, read_bytes_ = 0;
     std::size_t radials_ = 0;
     std::map<std::size_t, std::size_t> radials_of_;
     std::optional<UtcTime> newest_;

@@ -4,72 +4,69 @@
 #include <utility>
 
 namespace stormcellar::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Beyond it all are forgotten, and may be followed once more.
+constexpr std::size_t most_not_again = 4096;
+
+}  // namespace
 
 std::shared_ptr<LivingFile> LivingFiles::find(const std::filesystem::path& path) {
     const std::scoped_lock lock(mutex_);
-    const auto at = files_.find(path);
-    return at == files_.end() ? nullptr : at->second.file;
+    return files_.find(path);
 }
 
 std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path,
-                                               const std::string& fallback_station) {
+                                               const std::string& fallback_station,
+                                               const std::string& station) {
+    {
+        const std::scoped_lock lock(mutex_);
+        const bool has_place = !not_again_.contains(path) && files_.has_place(station, Clock::now());
+        note_given_up();
+        if (!has_place) return nullptr;
+    }
     LivingFile::Options options = options_;
     options.fallback_station = fallback_station;
     auto begun = LivingFile::begin(path, options);
     if (!begun) return nullptr;
     std::shared_ptr<LivingFile> file = std::move(*begun);
     const std::scoped_lock lock(mutex_);
-    files_.insert_or_assign(path, Followed{file, next_turn_++, 0, 0});
-    give_up_beyond_limits(path);
+    files_.add(path, file, station, Clock::now());
     return file;
 }
 
-void LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file) {
+bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file,
+                       const std::string& station) {
     const std::scoped_lock lock(mutex_);
-    const auto at = files_.find(path);
-    if (at == files_.end()) return;
-    at->second.turn = next_turn_++;
-    at->second.held_bytes = file.held_bytes();
-    at->second.shelf_bytes = file.shelf_bytes();
-    give_up_beyond_limits(path);
+    const bool stands = files_.grew(path, &file, station, file.held_bytes(), file.shelf_bytes(),
+                                    Clock::now());
+    note_given_up();
+    drop_last_beyond_limits();
+    return stands;
+}
+
+void LivingFiles::note_given_up() {
+    for (const std::filesystem::path& path : files_.take_given_up()) {
+        if (not_again_.size() >= most_not_again) not_again_.clear();
+        not_again_.insert(path);
+        ++given_up_;
+    }
 }
 
 void LivingFiles::drop_last_beyond_limits() {
-    std::uint64_t shelf = 0;
-    for (const auto& [path, followed] : files_)
-        shelf += followed.shelf_bytes;
+    std::uint64_t shelf = files_.shelf_bytes();
     for (const auto& [station, volume] : last_)
         shelf += volume->shelf->bytes();
     // As many sites as there are files: names come from outside.
-    while (!last_.empty() && (last_.size() > limits_.files || shelf > limits_.shelf_bytes)) {
+    while (!last_.empty() && (last_.size() > limits_.count || shelf > limits_.shelf_bytes)) {
         const auto oldest =
             std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
                 return a.second->facts.start_time() < b.second->facts.start_time();
             });
         shelf -= oldest->second->shelf->bytes();
         last_.erase(oldest);
-    }
-}
-
-void LivingFiles::give_up_beyond_limits(const std::filesystem::path& but) {
-    drop_last_beyond_limits();
-    std::uint64_t held = 0;
-    std::uint64_t shelf = 0;
-    for (const auto& [path, followed] : files_) {
-        held += followed.held_bytes;
-        shelf += followed.shelf_bytes;
-    }
-    while (files_.size() > 1 && (files_.size() > limits_.files || held > limits_.held_bytes ||
-                                 shelf > limits_.shelf_bytes)) {
-        auto oldest = files_.end();
-        for (auto at = files_.begin(); at != files_.end(); ++at) {
-            if (at->first == but) continue;
-            if (oldest == files_.end() || at->second.turn < oldest->second.turn) oldest = at;
-        }
-        held -= oldest->second.held_bytes;
-        shelf -= oldest->second.shelf_bytes;
-        files_.erase(oldest);
-        ++given_up_;
     }
 }
 
@@ -81,6 +78,7 @@ std::uint64_t LivingFiles::take_given_up() {
 void LivingFiles::forget(const std::filesystem::path& path) {
     const std::scoped_lock lock(mutex_);
     files_.erase(path);
+    not_again_.erase(path);
 }
 
 void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {
@@ -100,7 +98,12 @@ std::shared_ptr<const KeptVolume> LivingFiles::last_of(const std::string& statio
 
 std::size_t LivingFiles::count() const {
     const std::scoped_lock lock(mutex_);
-    return files_.size();
+    return files_.count();
+}
+
+std::uint64_t LivingFiles::held_bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return files_.held_bytes();
 }
 
 }  // namespace stormcellar::pipeline

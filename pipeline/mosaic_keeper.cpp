@@ -9,6 +9,7 @@
 #include "grid/effects.h"
 #include "pipeline/keep_rule.h"
 #include "pipeline/open_partials.h"
+#include "pipeline/site_grids.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -65,6 +66,13 @@ Span span_changed_by(const cache::GridDescription& changed,
     return span;
 }
 
+// Whether another try may succeed: the system refused something. Else the volume or the budgets make
+// no grid of it.
+bool may_pass(const Error& error) {
+    return error.cause() != Cause::data && error.code != ErrorCode::over_budget &&
+           error.code != ErrorCode::bad_argument && error.code != ErrorCode::not_found;
+}
+
 bool is_damage(const Error& error) {
     return error.code == ErrorCode::corrupt || error.code == ErrorCode::truncated ||
            error.code == ErrorCode::io;
@@ -104,17 +112,25 @@ MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domain
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
+// What goes wrong with one domain keeps nothing from the others.
 Result<Kept> MosaicKeeper::take_in(const VolumeSource& source, int threads) {
     Kept kept;
+    Status all;
     if (is_idle()) return kept;
     for (const Domain& domain : domains_) {
         if (!domain.takes(source.site.icao)) continue;
         for (const level2::Moment moment : domain.moments) {
             if (!has_moment(source.volume, moment)) continue;
             const Status done = keep(domain, moment, source, threads, kept);
-            if (!done) return pass_on(done);
+            if (done) continue;
+            if (may_pass(done.error())) {
+                all = done;
+            } else {
+                kept.problems.push_back(fmt::format("{}: {}", domain.name, done.error().message));
+            }
         }
     }
+    if (!all) return pass_on(all);
     return kept;
 }
 
@@ -127,7 +143,7 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
                           int threads, Kept& kept) {
     auto made = make_partial(source.volume, source.site, domain.spec,
                              partial_options(domain, moment, source.site, threads), geometries_);
-    if (!made) return pass_on(made);
+    if (!made) return of_gridding(made.error());
     if (!*made) return {};
     cache::GridDescription& description = (*made)->description;
     description.provenance.source_files = {source.file};
@@ -139,10 +155,10 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     const std::scoped_lock lock(frames_of(domain.name, moment));
     const std::string name = site_domain(domain.name, source.site.icao);
     const auto path = store_->path_of(name, moment, description.time);
-    if (!path) return pass_on(path);
+    if (!path) return of_gridding(path.error());
     if (reason_to_keep(*path, description)) return {};
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
-    if (!committed) return pass_on(committed);
+    if (!committed) return of_storing(committed.error());
     if (committed->empty()) return {};  // older than what the budgets keep
     remove_other_times(*store_, name, moment, source.volume, source.file);
     kept.partials.push_back(*committed);

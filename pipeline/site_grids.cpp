@@ -18,14 +18,26 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-bool is_of_the_data(const Error& error) {
-    return error.code == ErrorCode::bad_argument || error.code == ErrorCode::corrupt ||
-           error.code == ErrorCode::unsupported;
+tl::unexpected<Error> of_gridding(Error error) {
+    if (is_shortage(error.code) || error.code == ErrorCode::io)
+        return tl::unexpected<Error>(std::move(error));
+    return tl::unexpected<Error>(caused_by(Cause::data, std::move(error)));
 }
 
 void note_not_kept(IngestOutcome& outcome) {
     ++outcome.not_kept;
     outcome.reason = "older than what the cache keeps";
+}
+
+tl::unexpected<Error> of_storing(Error error) {
+    if (!error.known_cause && error.cause() == Cause::data) error.known_cause = Cause::system;
+    return tl::unexpected<Error>(std::move(error));
+}
+
+void note_no_room(IngestOutcome& outcome, const Error& why) {
+    ++outcome.not_kept;
+    outcome.no_room = true;
+    outcome.reason = "not gridded: " + why.message;
 }
 
 bool SiteGrids::has_place(const level2::Volume& volume, IngestOutcome& outcome) {
@@ -46,12 +58,12 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, const Grid
     spec.ny = options_.ny;
     if (!options_.levels_m.empty()) spec.levels_m = options_.levels_m;
     const auto geometry = geometries_.get(site, spec);
-    if (!geometry) return pass_on(geometry);
+    if (!geometry) return of_gridding(geometry.error());
     Made made;
     made.gridder.moment = options_.moment;
     made.gridder.threads = threads;
     auto gridded = grid::make_grid(volume, site, **geometry, made.gridder);
-    if (!gridded) return pass_on(gridded);
+    if (!gridded) return of_gridding(gridded.error());
     made.grid = std::move(*gridded);
     grid::Provenance& provenance = made.grid.provenance;
     provenance.predicted_error =
@@ -71,7 +83,7 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, boo
     grid::Grid& grid = made.grid;
     const std::string& domain = grid.sites.front().icao;
     auto path = store_.path_of(domain, grid.moment, grid.time);
-    if (!path) return path;
+    if (!path) return of_gridding(path.error());
     const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(options_.moment),
                                               made.gridder.threads);
     if (!is_living) {
@@ -105,7 +117,11 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     const auto commit_start = Clock::now();
     auto path = commit(*made, volume, false, outcome);
     outcome.commit_s += seconds_since(commit_start);
-    if (!path) return pass_on(path);
+    if (!path && path.error().code == ErrorCode::over_budget) {
+        note_no_room(outcome, path.error());
+        return {};
+    }
+    if (!path) return of_storing(path.error());
     if (path->empty()) {
         note_not_kept(outcome);
     } else {
@@ -129,7 +145,9 @@ Status SiteGrids::keep_living(const level2::Volume& volume, const GridSource& so
     const auto commit_start = Clock::now();
     auto path = commit(*made, volume, true, outcome);
     outcome.commit_s += seconds_since(commit_start);
-    if (!path) return pass_on(path);
+    // The whole volume says so when it has come.
+    if (!path && path.error().code == ErrorCode::over_budget) return {};
+    if (!path) return of_storing(path.error());
     if (!path->empty()) outcome.living.push_back(std::move(*path));
     return {};
 }

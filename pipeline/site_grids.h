@@ -62,8 +62,14 @@ class SiteGrids {
     std::array<std::mutex, 16> commits_;
 };
 
-// Whether another try cannot help: the fault lies in what the file says.
-[[nodiscard]] bool is_of_the_data(const Error& error);
+// An error of gridding a volume that was decoded: whatever it is called, it lies in what the file
+// says, unless the system refused something.
+[[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
+// An error of writing into the cache: whatever it is called, it does not lie in what was decoded.
+[[nodiscard]] tl::unexpected<Error> of_storing(Error error);
+// The cache's budgets leave no room for a grid, and somebody would have to change them: the file is
+// not tried again until a restart looks for missing grids.
+void note_no_room(IngestOutcome& outcome, const Error& why);
 void note_not_kept(IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

@@ -15,6 +15,7 @@
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
+#include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -269,6 +270,17 @@ TEST(AskSocket, WhoIsNoDaemonIsSeen) {
     const std::vector<char> too_long(20'000'000, 'x');
     EXPECT_EQ(code_of_answer({too_long.begin(), too_long.end()}), ErrorCode::corrupt);
     EXPECT_EQ(ask_socket("/" + std::string(200, 'x')).error().code, ErrorCode::io);
+}
+
+// 2026-11-25: --json wrote names as they are, and a terminal obeyed U+009B and U+202E in them.
+TEST(Status, JsonIsAsciiAndSaysTheSame) {
+    const testing::TemporaryDirectory directory;
+    const std::string name = "a\u009B31m\u202E\u2028\u00E9";
+    write_file(directory / "status.json", json{{"state", name}}.dump());
+    const auto ran = status({"--state", directory.path(), "--json"});
+    for (const char byte : ran.out)
+        EXPECT_TRUE(byte == '\n' || (byte >= ' ' && byte <= '~')) << ran.out;
+    EXPECT_EQ(json::parse(ran.out)["state"], name);
 }
 
 }  // namespace

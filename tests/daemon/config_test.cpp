@@ -57,6 +57,8 @@ TEST_F(ConfigFile, ShippedFileHoldsEveryDefault) {
     EXPECT_EQ(shipped->log_level, bare->log_level);
     EXPECT_EQ(shipped->status, bare->status);
     EXPECT_EQ(bare->status, StatusConfig{});
+    EXPECT_TRUE(shipped->stations.same_as(bare->stations));
+    EXPECT_EQ(shipped->added_stations, bare->added_stations);
     EXPECT_EQ(shipped->budgets, bare->budgets);
     EXPECT_EQ(bare->budgets, default_budgets());
     EXPECT_EQ(shipped->ingest.moment, bare->ingest.moment);
@@ -104,6 +106,53 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->poll, std::chrono::seconds{2});
     EXPECT_EQ(config->queue_limit, 99U);
     EXPECT_EQ(config->log_level, "debug");
+}
+
+TEST_F(ConfigFile, StationsAreKnownOrAnyOrAList) {
+    EXPECT_TRUE(load(paths)->stations.same_as(StationRule{}));
+    const auto rule_of = [&](const std::string& value) {
+        return load(std::string(paths) + "[ingest]\nstations = " + value + "\n")->stations;
+    };
+    EXPECT_TRUE(rule_of("\"known\"").same_as(StationRule{}));
+    EXPECT_TRUE(rule_of("\"any\"").same_as(StationRule::any()));
+    EXPECT_TRUE(rule_of("[\"KTLX\", \"XABC\"]").same_as(StationRule::listed({"KTLX", "XABC"})));
+    const auto complaint_of = [&](const std::string& value) {
+        return complaint(std::string(paths) + "[ingest]\nstations = " + value + "\n");
+    };
+    EXPECT_EQ(complaint_of("\"all\""),
+              "s.toml:6: [ingest] stations: \"all\" is neither known nor any, nor a list of "
+              "stations");
+    EXPECT_EQ(complaint_of("[]"),
+              "s.toml:6: [ingest] stations: must name a station, or be left out");
+    EXPECT_EQ(complaint_of("[\"ktlx\"]"),
+              "s.toml:6: [ingest] stations: \"ktlx\" is no station: four capital letters or "
+              "digits, as in \"KTLX\"");
+}
+
+TEST_F(ConfigFile, StationsAreAddedToTheTable) {
+    const Result<Config> config =
+        load(std::string(paths) +
+             "[[station]]\nicao = \"XABC\"\nname = \"Research\"\nlatitude_deg = 35.5\n"
+             "longitude_deg = -97\nantenna_altitude_m = 400\n");
+    ASSERT_TRUE(config) << config.error().message;
+    EXPECT_EQ(config->added_stations,
+              (std::vector<AddedStation>{{"XABC", "Research", 35.5, -97, 400}}));
+    const std::string place = "latitude_deg = 1\nlongitude_deg = 2\nantenna_altitude_m = 3\n";
+    const auto complaint_of = [&](const std::string& text) {
+        return complaint(std::string(paths) + "[[station]]\n" + text);
+    };
+    EXPECT_EQ(complaint_of("icao = \"KTLX\"\n" + place),
+              "s.toml:6: [[station]] icao: KTLX stands in the station table already");
+    EXPECT_EQ(complaint_of("icao = \"x\"\n" + place),
+              "s.toml:6: [[station]] icao: \"x\" is no station: four capital letters or digits, "
+              "as in \"KTLX\"");
+    EXPECT_EQ(complaint_of(place), "s.toml:5: [[station]] icao: the station must be named");
+    EXPECT_EQ(complaint_of("icao = \"XABC\"\nlatitude_deg = 91\nlongitude_deg = 2\n"
+                           "antenna_altitude_m = 3\n")
+                  .substr(0, 36),
+              "s.toml:7: [[station]] latitude_deg: ");
+    EXPECT_EQ(complaint_of("icao = \"XABC\"\n"),
+              "s.toml:5: [[station]] latitude_deg: is needed");
 }
 
 TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {

@@ -20,7 +20,8 @@ class FakeSink final : public Sink {
 
     explicit FakeSink(Answer answer) : answer_(std::move(answer)) {}
 
-    Result<Taken> take(const std::filesystem::path& path, bool finish_partial) override {
+    Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+                       pipeline::Tries /*tries*/) override {
         Taken taken;
         taken.stamp = look_at(path).stamp;
         Result<pipeline::IngestOutcome> outcome = answer_(path, finish_partial);

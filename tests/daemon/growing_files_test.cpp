@@ -45,6 +45,21 @@ TEST_F(Growing, AnIncompleteFileIsFinishedWhenItWasQuietLongEnough) {
     EXPECT_EQ(files_.count(), 0U);
 }
 
+TEST_F(Growing, AtTheBoundTheStationThatHasMostGivesWay) {
+    EXPECT_TRUE(files_.add_new("x1", small, t0));
+    EXPECT_TRUE(files_.add_new("x2", small, t0));
+    EXPECT_TRUE(files_.add_incomplete("x3", small, t0));
+    EXPECT_FALSE(files_.add_new("x4", small, t0)) << "of no station, as these";
+    EXPECT_TRUE(files_.add_new("a", small, t0, "KTLX"));
+    EXPECT_TRUE(files_.contains("a"));
+    EXPECT_EQ(files_.take_displaced(), (std::vector<std::filesystem::path>{"x1"}));
+    EXPECT_FALSE(files_.add_new("b", small, t0, "KTLX")) << "it would have as many";
+    EXPECT_EQ(files_.count(), 3U);
+    files_.forget("x2");
+    EXPECT_TRUE(files_.add_new("b", small, t0, "KTLX"));
+    EXPECT_TRUE(files_.take_displaced().empty());
+}
+
 TEST_F(Growing, AFollowedFileIsGivenTenTimesAsLong) {
     disk_["a"] = small;
     files_.add_incomplete("a", small, t0, true);

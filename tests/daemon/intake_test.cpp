@@ -228,10 +228,45 @@ TEST_F(IntakeTest, AFileThatFailsStaysAndWaits) {
     intake_.file_closed(at("a"), make("a"));
     ASSERT_EQ(next(), "a");
     end("a", fail(ErrorCode::io, "cache: no"));
-    EXPECT_EQ(intake_.pending().waiting, 1U);
+    EXPECT_EQ(intake_.pending().retrying, 1U);
+    EXPECT_EQ(intake_.pending().waiting, 0U) << "it keeps nothing from being idle";
     EXPECT_EQ(next(), "");
     now_ += seconds{1};
     EXPECT_EQ(next(), "a");
+}
+
+TEST_F(IntakeTest, AFileThatFailsTooOftenIsLeftToTheScan) {
+    intake_.file_closed(at("a"), make("a"));
+    for (int tries = 1; tries <= Intake::most_tries; ++tries) {
+        const auto job = intake_.next_job();
+        ASSERT_TRUE(job) << tries;
+        EXPECT_EQ(job->failures, tries - 1);
+        Finished failed{.job = *job,
+                        .taken = fail(ErrorCode::permission, "its database: no"),
+                        .started = now_,
+                        .ended = now_};
+        EXPECT_FALSE(intake_.needs_scan());
+        intake_.job_ended(failed);
+        now_ += seconds{60};
+    }
+    EXPECT_EQ(intake_.pending(), Pending{});
+    EXPECT_TRUE(intake_.needs_scan()) << "which offers it once more";
+    intake_.file_found(at("a"), make("a"));
+    EXPECT_EQ(next(), "a");
+}
+
+TEST_F(IntakeTest, AShortageOfTheSystemIsNoFaultOfTheFile) {
+    intake_.file_closed(at("a"), make("a"));
+    for (int tries = 0; tries < 3 * Intake::most_tries; ++tries) {
+        const auto job = intake_.next_job();
+        ASSERT_TRUE(job) << tries;
+        intake_.job_ended({.job = *job,
+                           .taken = fail(ErrorCode::exhausted, "no descriptors"),
+                           .started = now_,
+                           .ended = now_});
+        now_ += seconds{60};
+    }
+    EXPECT_EQ(intake_.pending().retrying, 1U);
 }
 
 TEST_F(IntakeTest, AFullDiskHoldsEveryFile) {

@@ -114,7 +114,7 @@ TEST(Schedule, AFailedJobWaitsLongerEachTimeAndIsNeverDropped) {
     for (int i = 0; i < 9; ++i) {
         std::optional<Job> next = schedule.next(now);
         ASSERT_TRUE(next);
-        schedule.retry(*next, now);
+        (void)schedule.retry(*next, now);
         const SteadyTime then = *schedule.next_time();
         EXPECT_FALSE(schedule.next(then - milliseconds{1}));
         waits.push_back(std::chrono::duration_cast<seconds>(then - now).count());
@@ -128,12 +128,92 @@ TEST(Schedule, AChangeWhileAJobFailsDoesNotEndTheWait) {
     schedule.offer(job("a"));
     const auto running = schedule.next(t0);
     schedule.offer(job("a"));
-    schedule.retry(*running, t0);
-    EXPECT_EQ(schedule.waiting_count(), 1U);
+    EXPECT_TRUE(schedule.retry(*running, t0));
+    EXPECT_EQ(schedule.waiting_count(), 0U);
+    EXPECT_EQ(schedule.retrying_count(), 1U);
     EXPECT_FALSE(schedule.next(t0));
     const auto again = schedule.next(t0 + seconds{1});
     ASSERT_TRUE(again);
     EXPECT_EQ(again->failures, 1);
+}
+
+Job job_of(const std::string& path, const std::string& station,
+           Urgency urgency = Urgency::live) {
+    Job made = job(path);
+    made.station = station;
+    made.urgency = urgency;
+    return made;
+}
+
+// 2026-11-25: files that could not be taken in filled the queue, and what came was refused.
+TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
+    Schedule schedule(4);
+    for (int i = 0; i < 4; ++i) {
+        schedule.offer(job("bad" + std::to_string(i)));
+        const auto running = schedule.next(t0);
+        ASSERT_TRUE(running);
+        EXPECT_TRUE(schedule.retry(*running, t0));
+    }
+    EXPECT_EQ(schedule.retrying_count(), 4U);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(schedule.offer(job("good" + std::to_string(i))), Offered::queued);
+    EXPECT_EQ(schedule.offer(job("more")), Offered::refused);
+    EXPECT_EQ(schedule.waiting_count(), 4U);
+    // No more wait so than the bound: what fails now is forgotten.
+    const auto running = schedule.next(t0);
+    EXPECT_FALSE(schedule.retry(*running, t0));
+    EXPECT_EQ(schedule.running_count(), 0U);
+    // When their time has come they are jobs as all others.
+    for (int i = 0; i < 7; ++i)
+        EXPECT_TRUE(schedule.next(t0 + seconds{1})) << i;
+    EXPECT_EQ(schedule.retrying_count(), 0U);
+    EXPECT_FALSE(schedule.next(t0 + seconds{99}));
+}
+
+TEST(Schedule, AtTheBoundTheStationThatHasMostGivesWay) {
+    Schedule schedule(6);
+    for (int i = 0; i < 5; ++i)
+        schedule.offer(job_of("flood" + std::to_string(i), ""));
+    EXPECT_EQ(schedule.offer(job_of("tlx0", "KTLX")), Offered::queued);
+    EXPECT_EQ(schedule.offer(job_of("tlx1", "KTLX")), Offered::queued);
+    EXPECT_EQ(schedule.offer(job_of("tlx2", "KTLX")), Offered::queued);
+    EXPECT_EQ(schedule.offer(job_of("tlx3", "KTLX")), Offered::refused) << "it has as many";
+    EXPECT_EQ(schedule.offer(job_of("flood9", "")), Offered::refused);
+    EXPECT_EQ(schedule.offer(job_of("okx", "KOKX")), Offered::queued);
+    using Paths = std::vector<std::filesystem::path>;
+    EXPECT_EQ(schedule.take_displaced(), (Paths{"flood4", "flood3", "tlx2"}));
+    EXPECT_TRUE(schedule.take_displaced().empty());
+    EXPECT_EQ(schedule.waiting_count(), 6U);
+}
+
+TEST(Schedule, NewsOfAStationGoesBeforeItsOwnBacklog) {
+    Schedule schedule(3);
+    for (int i = 0; i < 3; ++i)
+        schedule.offer(job_of("old" + std::to_string(i), "KTLX", Urgency::backlog));
+    EXPECT_EQ(schedule.offer(job_of("old9", "KTLX", Urgency::backlog)), Offered::refused);
+    EXPECT_EQ(schedule.offer(job_of("new", "KTLX")), Offered::queued);
+    EXPECT_EQ(next_path(schedule, t0), "new");
+}
+
+TEST(Schedule, FilesThatTakeLongLeaveAWorkerToOthers) {
+    Schedule schedule(10);
+    schedule.set_workers(2);
+    schedule.offer(job_of("a", ""));
+    ASSERT_EQ(next_path(schedule, t0), "a");
+    schedule.worked("a", seconds{8}, t0 + seconds{8});
+    schedule.finished("a");
+    const auto now = t0 + seconds{8};
+    for (const char* path : {"b", "c"})
+        schedule.offer(job_of(path, ""));
+    EXPECT_EQ(next_path(schedule, now), "b");
+    EXPECT_EQ(next_path(schedule, now), "") << "the last worker is not for it";
+    EXPECT_GT(*schedule.next_time(), now) << "nobody is to ask again and again";
+    schedule.offer(job_of("tlx", "KTLX"), now);
+    EXPECT_LE(*schedule.next_time(), now);
+    EXPECT_EQ(next_path(schedule, now), "tlx");
+    schedule.worked("b", milliseconds{1}, now);
+    schedule.finished("b");
+    EXPECT_EQ(next_path(schedule, now), "c");
 }
 
 TEST(Schedule, AHoldConcernsEveryJob) {
@@ -227,7 +307,7 @@ TEST(Schedule, ARetryWaitsSinceItsTime) {
     Schedule schedule(10);
     schedule.offer(job("a", 1), t0);
     schedule.offer(job("b", 0), t0 + seconds{50});
-    schedule.retry(*schedule.next(t0), t0 + seconds{60});
+    (void)schedule.retry(*schedule.next(t0), t0 + seconds{60});
     ASSERT_EQ(next_path(schedule, t0 + seconds{70}), "a");
     schedule.registered("a");
     EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{50});

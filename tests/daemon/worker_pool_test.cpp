@@ -22,7 +22,9 @@ Job job(const std::string& path) {
 }
 
 WorkerPool::Work work_of(Sink& sink) {
-    return [&sink](const Job& given) { return sink.take(given.path, given.finish_partial); };
+    return [&sink](const Job& given) {
+        return sink.take(given.path, given.finish_partial, pipeline::Tries::more_follow);
+    };
 }
 
 // Waits until so many jobs have ended.
@@ -82,7 +84,7 @@ TEST(WorkerPool, WantOfMemoryIsTheSystems) {
     const std::vector<Finished> ended = collect(pool, 1);
     ASSERT_EQ(ended.size(), 1U);
     ASSERT_FALSE(ended[0].taken);
-    EXPECT_EQ(ended[0].taken.error().code, ErrorCode::io);
+    EXPECT_EQ(ended[0].taken.error().code, ErrorCode::exhausted);
 }
 
 TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {

@@ -97,12 +97,12 @@ TEST_F(Hostile, APathThatLeadsOutIsNotThere) {
 TEST_F(Hostile, AGrowingFileBehindALinkIsNotFollowed) {
     const auto bytes = wire::join({wire::archive_header(), {}});
     put(outside() / "KTLX_a", bytes);
-    EXPECT_TRUE(LivingFile::is_growing(outside() / "KTLX_a"));
-    EXPECT_FALSE(LivingFile::is_growing(outside() / "KTLX_a", drop()));
+    EXPECT_TRUE(LivingFile::growing(outside() / "KTLX_a"));
+    EXPECT_FALSE(LivingFile::growing(outside() / "KTLX_a", drop()));
     fs::create_symlink(outside() / "KTLX_a", drop() / "KTLX_a");
-    EXPECT_FALSE(LivingFile::is_growing(drop() / "KTLX_a", drop()));
+    EXPECT_FALSE(LivingFile::growing(drop() / "KTLX_a", drop()));
     fs::create_directory_symlink(outside(), drop() / "day");
-    EXPECT_FALSE(LivingFile::is_growing(drop() / "day/KTLX_a", drop()));
+    EXPECT_FALSE(LivingFile::growing(drop() / "day/KTLX_a", drop()));
 }
 
 // Two sweeps, a record each; the first does not end the volume.

@@ -184,21 +184,20 @@ TEST_F(Living, AVolumeThatStopsIsWhatItIsWhenReadWhole) {
     EXPECT_EQ(*read_file(house_.grids("KLOT")[0].path), *read_file(whole.grids("KLOT")[0].path));
 }
 
-TEST_F(Living, BeyondTheLimitTheOldestIsGivenUp) {
+TEST_F(Living, WhereNoPlaceIsLeftANewcomerIsNotFollowed) {
     LivingFiles files(LivingFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
-                      LivingLimits{.files = 2});
-    const auto a = files.begin("/drop/a", "KTLX");
-    const auto b = files.begin("/drop/b", "KTLX");
+                      GrowingLimits{.count = 3, .station_count = 2});
+    const auto a = files.begin("/drop/a", "KTLX", "KTLX");
+    const auto b = files.begin("/drop/b", "KTLX", "KTLX");
     ASSERT_TRUE(a && b);
-    files.grew("/drop/a", *a);
-    const auto c = files.begin("/drop/c", "KTLX");
-    EXPECT_EQ(files.count(), 2U);
+    EXPECT_FALSE(files.begin("/drop/c", "KTLX", "KTLX")) << "the station has its two";
+    EXPECT_TRUE(files.begin("/drop/d", "KOKX", "KOKX"));
+    EXPECT_FALSE(files.begin("/drop/e", "KBGM", "KBGM")) << "all have their three";
     EXPECT_EQ(files.find("/drop/a"), a);
-    EXPECT_EQ(files.find("/drop/b"), nullptr);
-    EXPECT_EQ(files.take_given_up(), 1U);
-    EXPECT_EQ(files.find("/drop/c"), c);
+    EXPECT_EQ(files.take_given_up(), 0U) << "what is alive stays";
     files.forget("/drop/a");
     EXPECT_EQ(files.find("/drop/a"), nullptr);
+    EXPECT_TRUE(files.begin("/drop/e", "KBGM", "KBGM"));
 }
 
 TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
@@ -215,7 +214,7 @@ TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
     const auto a = last_of("KAAA", 5);
     const std::uint64_t of_one = a->shelf->bytes();
     LivingFiles files(LivingFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
-                      LivingLimits{.shelf_bytes = 2 * of_one});
+                      GrowingLimits{.shelf_bytes = 2 * of_one});
     files.keep_last(a);
     files.keep_last(last_of("KBBB", 1));
     EXPECT_TRUE(files.last_of("KAAA") && files.last_of("KBBB"));
@@ -229,15 +228,15 @@ TEST_F(Living, GrowthIsToldByTheRecords) {
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";
     append_to(path, std::span{bytes}.first(24));
-    EXPECT_TRUE(LivingFile::is_growing(path));
+    EXPECT_TRUE(LivingFile::growing(path));
     append_to(path, std::span{bytes}.subspan(24, 1'000'000));
-    EXPECT_TRUE(LivingFile::is_growing(path));
+    EXPECT_TRUE(LivingFile::growing(path));
     append_to(path, std::span{bytes}.subspan(1'000'024));
-    EXPECT_FALSE(LivingFile::is_growing(path));  // whole: its last record says so
+    EXPECT_FALSE(LivingFile::growing(path));  // whole: its last record says so
     EXPECT_FALSE(
-        LivingFile::is_growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
-    EXPECT_FALSE(LivingFile::is_growing(directory_.path()));
-    EXPECT_FALSE(LivingFile::is_growing(directory_ / "nothing"));
+        LivingFile::growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
+    EXPECT_FALSE(LivingFile::growing(directory_.path()));
+    EXPECT_FALSE(LivingFile::growing(directory_ / "nothing"));
 }
 
 TEST_F(Living, SweepsComeBackFromTheShelfBitForBit) {

@@ -18,7 +18,7 @@ Result<IngestOutcome> ingest_with(House& house, const fs::path& path, std::int64
         const WithMemoryFor memory(allocations);
         return house.ingestor->ingest(path, false);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::io, "thrown");
+        return fail(ErrorCode::exhausted, "thrown");
     }
 }
 
@@ -33,7 +33,7 @@ int ingest_with_ever_more_memory(House& house, const fs::path& path) {
             EXPECT_TRUE(outcome->reason.empty()) << outcome->reason;
             return failed;
         }
-        EXPECT_EQ(outcome.error().code, ErrorCode::io) << outcome.error().message;
+        EXPECT_EQ(outcome.error().code, ErrorCode::exhausted) << outcome.error().message;
         ++failed;
         if (failed > 200) {
             ADD_FAILURE() << path << ": " << outcome.error().message;
@@ -115,14 +115,14 @@ TEST(NoMemory, IsNotTheDatas) {
         }
         if (decoded || !WithMemoryFor::was_refused()) continue;
         ++failed;
-        EXPECT_EQ(decoded.error().code, ErrorCode::io) << decoded.error().message;
+        EXPECT_EQ(decoded.error().code, ErrorCode::exhausted) << decoded.error().message;
         level2::LiveVolume volume;
         {
             const WithMemoryFor memory(allocations);
             const auto added =
                 volume.add(1, level2::ChunkKind::start, std::span{bytes}.first(first), {});
             if (!added) {
-                EXPECT_EQ(added.error().code, ErrorCode::io);
+                EXPECT_EQ(added.error().code, ErrorCode::exhausted);
             }
         }
         ASSERT_TRUE(volume.add(1, level2::ChunkKind::start, std::span{bytes}.first(first), {}));

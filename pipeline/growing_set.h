@@ -1,0 +1,199 @@
+// pipeline/growing_set.h -- what grows and is followed, bounded for each station and in all.
+//
+// Each thing that is followed holds a descriptor, memory, and room on disk, whatever its file
+// claims. So what it holds is counted at every stretch that is read, and where a bound is exceeded
+// some of the things are given up:
+//   a station's own bound   among its own
+//   the bound of all        of those that no known station claims first, then of any
+// Of memory and disk the largest and least alive gives way: what it holds, times a weight that
+// grows by one for each minute in which nothing came of it. Of the number of things the least alive
+// of the station that has most.
+// A newcomer finds no place where only things stand that are alive (something came of them within
+// `most_idle`): to give these up for it, and it for the next one, would be to read all again and
+// again.
+// Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stormcellar::pipeline {
+
+struct GrowingLimits {
+    std::size_t count = 320;  // each has a descriptor
+    std::uint64_t held_bytes = std::uint64_t{256} << 20;
+    std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
+    // Of one station, and of all together that no known station claims. A site's volume holds some
+    // 3 MB of one moment, and two of its volumes may grow at once.
+    std::size_t station_count = 16;
+    std::uint64_t station_held_bytes = std::uint64_t{24} << 20;
+    std::uint64_t station_shelf_bytes = std::uint64_t{512} << 20;
+};
+
+template <class Key, class Object>
+class GrowingSet {
+  public:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds most_idle{60};
+
+    explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
+
+    [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const {
+        const auto at = things_.find(key);
+        return at == things_.end() ? nullptr : at->second.object;
+    }
+
+    // False where there is no place for it. One that is added all the same is given up when it next
+    // grows.
+    [[nodiscard]] bool has_place(const std::string& station, Clock::time_point now) {
+        while (count_of(station) >= limits_.station_count) {
+            if (!give_up_idle(&station, now)) return false;
+        }
+        while (things_.size() >= limits_.count) {
+            if (!give_up_idle(nullptr, now)) return false;
+        }
+        return true;
+    }
+
+    void add(const Key& key, std::shared_ptr<Object> object, const std::string& station,
+             Clock::time_point now) {
+        things_.insert_or_assign(key, Thing{std::move(object), station, now, 0, 0});
+    }
+
+    // Counts what it holds now. False: it was given up, or another stands in its place.
+    [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
+                            std::uint64_t held_bytes, std::uint64_t shelf_bytes,
+                            Clock::time_point now) {
+        const auto at = things_.find(key);
+        if (at == things_.end() || at->second.object.get() != object) return false;
+        Thing& thing = at->second;
+        thing.station = station;
+        thing.grew_at = now;
+        thing.held_bytes = held_bytes;
+        thing.shelf_bytes = shelf_bytes;
+        if (things_.size() > limits_.count || count_of(station) > limits_.station_count) {
+            give_up(at);
+        } else {
+            keep_within(station, now);
+        }
+        return find(key).get() == object;
+    }
+
+    void erase(const Key& key) { things_.erase(key); }
+    [[nodiscard]] std::size_t count() const { return things_.size(); }
+    [[nodiscard]] std::uint64_t held_bytes() const { return held_by(nullptr).held; }
+    [[nodiscard]] std::uint64_t shelf_bytes() const { return held_by(nullptr).shelf; }
+    // Those that were given up since the last call.
+    [[nodiscard]] std::vector<Key> take_given_up() { return std::exchange(given_up_, {}); }
+
+  private:
+    struct Thing {
+        std::shared_ptr<Object> object;
+        std::string station;  // empty: of none that is known
+        Clock::time_point grew_at;
+        std::uint64_t held_bytes = 0, shelf_bytes = 0;
+    };
+    using Things = std::map<Key, Thing>;
+    using Place = typename Things::iterator;
+    struct Sum {
+        std::uint64_t held = 0, shelf = 0;
+    };
+
+    // Null: of all.
+    [[nodiscard]] Sum held_by(const std::string* station) const {
+        Sum sum;
+        for (const auto& [key, thing] : things_) {
+            if (station != nullptr && thing.station != *station) continue;
+            sum.held += thing.held_bytes;
+            sum.shelf += thing.shelf_bytes;
+        }
+        return sum;
+    }
+    [[nodiscard]] std::size_t count_of(const std::string& station) const {
+        std::size_t count = 0;
+        for (const auto& [key, thing] : things_)
+            count += thing.station == station ? 1 : 0;
+        return count;
+    }
+
+    void give_up(Place place) {
+        given_up_.push_back(place->first);
+        things_.erase(place);
+    }
+
+    // The least alive of the station (null: of the one that has most), where nothing came of it for
+    // long enough.
+    bool give_up_idle(const std::string* station, Clock::time_point now) {
+        std::map<std::string, std::size_t> counts;
+        if (station == nullptr) {
+            for (const auto& [key, thing] : things_)
+                ++counts[thing.station];
+        }
+        const auto count = [&](const Thing& thing) {
+            return station == nullptr ? counts.at(thing.station) : std::size_t{0};
+        };
+        Place chosen = things_.end();
+        for (Place at = things_.begin(); at != things_.end(); ++at) {
+            const Thing& thing = at->second;
+            if (station != nullptr && thing.station != *station) continue;
+            if (now - thing.grew_at < most_idle) continue;
+            if (chosen == things_.end() || count(thing) > count(chosen->second) ||
+                (count(thing) == count(chosen->second) &&
+                 thing.grew_at < chosen->second.grew_at)) {
+                chosen = at;
+            }
+        }
+        if (chosen == things_.end()) return false;
+        give_up(chosen);
+        return true;
+    }
+
+    enum class What { memory, disk };
+    // False where nothing holds any of it.
+    bool give_up_largest(const std::string* station, What what, Clock::time_point now) {
+        Place chosen = things_.end();
+        double most = 0;
+        bool chosen_is_known = true;
+        for (Place at = things_.begin(); at != things_.end(); ++at) {
+            const Thing& thing = at->second;
+            if (station != nullptr && thing.station != *station) continue;
+            const auto bytes =
+                static_cast<double>(what == What::memory ? thing.held_bytes : thing.shelf_bytes);
+            const double idle_min = std::chrono::duration<double>(now - thing.grew_at).count() / 60;
+            const double weight = bytes * (1 + idle_min);
+            const bool is_known = !thing.station.empty();
+            if (weight <= 0 || (is_known && !chosen_is_known)) continue;
+            if (weight > most || (chosen_is_known && !is_known)) {
+                chosen = at;
+                most = weight;
+                chosen_is_known = is_known;
+            }
+        }
+        if (chosen == things_.end()) return false;
+        give_up(chosen);
+        return true;
+    }
+
+    void keep_within(const std::string& station, Clock::time_point now) {
+        while (held_by(&station).held > limits_.station_held_bytes)
+            if (!give_up_largest(&station, What::memory, now)) break;
+        while (held_by(&station).shelf > limits_.station_shelf_bytes)
+            if (!give_up_largest(&station, What::disk, now)) break;
+        while (held_by(nullptr).held > limits_.held_bytes)
+            if (!give_up_largest(nullptr, What::memory, now)) break;
+        while (held_by(nullptr).shelf > limits_.shelf_bytes)
+            if (!give_up_largest(nullptr, What::disk, now)) break;
+    }
+
+    GrowingLimits limits_;
+    Things things_;
+    std::vector<Key> given_up_;
+};
+
+}  // namespace stormcellar::pipeline

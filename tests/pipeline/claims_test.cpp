@@ -1,0 +1,257 @@
+// What a file may claim by what it says of itself: whose it is, when, and how much it holds.
+#include <algorithm>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "cache/store.h"
+#include "pipeline/ingest.h"
+#include "pipeline/living_files.h"
+#include "tests/level2/wire.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+namespace wire = level2::wire;
+using catalog::FileState;
+
+// Every mention of the wire's own station becomes the other.
+wire::Bytes said_by(wire::Bytes messages, std::string_view station) {
+    constexpr std::string_view usual = "KTLX";
+    const auto as_byte = [](char c) { return static_cast<std::byte>(c); };
+    for (std::size_t i = 0; i + usual.size() <= messages.size(); ++i) {
+        const auto at = messages.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::equal(usual.begin(), usual.end(), at,
+                       [&](char c, std::byte b) { return as_byte(c) == b; })) {
+            std::transform(station.begin(), station.end(), at, as_byte);
+        }
+    }
+    return messages;
+}
+
+wire::Bytes volume_of(std::string_view station, unsigned sweeps = 2) {
+    const wire::Bytes messages = said_by(wire::radial_messages(sweeps, 360), station);
+    return wire::join(
+        {wire::archive_header("AR2V0006.116", station), wire::ldm_record(messages, true)});
+}
+
+class Claims : public ::testing::Test {
+  protected:
+    Claims() { fs::create_directories(drop()); }
+    [[nodiscard]] fs::path drop() const { return directory_ / "drop"; }
+    fs::path put(const std::string& name, const wire::Bytes& bytes) {
+        fs::create_directories((drop() / name).parent_path());
+        std::ofstream(drop() / name, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+        return drop() / name;
+    }
+    Ingestor& with(std::shared_ptr<StationRule> stations) {
+        IngestOptions options;
+        options.stations = std::move(stations);
+        options.spacing_m = 4000;
+        options.nx = options.ny = 115;
+        options.beneath = drop();
+        options.living.scratch = directory_.path();
+        ingestor_.emplace(catalog_, store_, options);
+        return *ingestor_;
+    }
+    std::vector<catalog::CatalogEntry> rows(const std::string& station) {
+        const auto entries = catalog_.list(station, {std::nullopt, std::nullopt, true});
+        return entries ? *entries : std::vector<catalog::CatalogEntry>{};
+    }
+
+    testing::TemporaryDirectory directory_;
+    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    std::optional<Ingestor> ingestor_;
+};
+
+TEST_F(Claims, AFileOfAnotherStationIsCatalogedAndNotGridded) {
+    Ingestor& ingestor = with(std::make_shared<StationRule>());
+    const auto outcome = ingestor.ingest(put("KTLX20220317_010000", volume_of("XAAA")), false);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result, IngestResult::other_station);
+    EXPECT_EQ(outcome->station, "");
+    EXPECT_EQ(store_.domains()->size(), 0U);
+    const auto entries = rows("");
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_EQ(entries[0].state, FileState::partial);
+    EXPECT_EQ(entries[0].volume.sweep_count, 2);
+    EXPECT_TRUE(entries[0].reason.starts_with("of XAAA, of which no data are taken in"))
+        << entries[0].reason;
+    EXPECT_FALSE(fs::exists(directory_ / "catalog/XAAA.sqlite"));
+    EXPECT_EQ(ingestor.ingest(drop() / "KTLX20220317_010000", false)->result,
+              IngestResult::unchanged);
+}
+
+TEST_F(Claims, AListLeavesOutWhatTheTableKnows) {
+    Ingestor& ingestor = with(std::make_shared<StationRule>(StationRule::listed({"XAAA"})));
+    EXPECT_EQ(ingestor.ingest(put("KTLX_a", volume_of("KTLX")), false)->result,
+              IngestResult::other_station);
+    EXPECT_EQ(ingestor.ingest(put("any", volume_of("XAAA")), false)->result, IngestResult::gridded);
+    EXPECT_FALSE(fs::exists(directory_ / "catalog/KTLX.sqlite"));
+    EXPECT_EQ(rows("XAAA").size(), 1U);
+}
+
+TEST_F(Claims, AnyTakesSoManyFurtherStations) {
+    Ingestor& ingestor = with(std::make_shared<StationRule>(StationRule::any(2)));
+    EXPECT_EQ(ingestor.ingest(put("a", volume_of("XAAA")), false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(put("b", volume_of("XBBB")), false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(put("c", volume_of("XCCC")), false)->result,
+              IngestResult::other_station);
+    EXPECT_EQ(ingestor.ingest(put("d", volume_of("KTLX")), false)->result, IngestResult::gridded);
+    EXPECT_EQ(store_.domains(), (std::vector<std::string>{"KTLX", "XAAA", "XBBB"}));
+}
+
+// It would be read again and again as it grows, for nothing.
+TEST_F(Claims, AGrowingFileOfAnotherStationIsReadWhenItIsQuiet) {
+    Ingestor& ingestor = with(std::make_shared<StationRule>());
+    wire::Bytes bytes =
+        wire::join({wire::archive_header("AR2V0006.116", "XAAA"),
+                    wire::ldm_record(said_by(wire::radial_messages(2, 360), "XAAA"), false)});
+    const fs::path path = put("KTLX_a", bytes);
+    const auto outcome = ingestor.ingest(path, false);
+    ASSERT_TRUE(outcome);
+    EXPECT_EQ(outcome->result, IngestResult::incomplete);
+    EXPECT_FALSE(outcome->followed);
+    EXPECT_EQ(outcome->decode_s, 0);
+    EXPECT_EQ(ingestor.ingest(path, true)->result, IngestResult::other_station);
+}
+
+// 2026-11-25: a volume without any time was gridded at 1970-01-01.
+TEST_F(Claims, AVolumeWithoutATimeIsNotGridded) {
+    Ingestor& ingestor = with(nullptr);
+    wire::Bytes header = wire::archive_header();
+    wire::overwrite_u32(header, 12, 0);
+    wire::Bytes messages = wire::radial_messages(2, 360);
+    const wire::Bytes today = wire::Writer{}.u16(wire::day).bytes;
+    for (std::size_t i = 0; i + 2 <= messages.size(); ++i) {
+        if (std::equal(today.begin(), today.end(),
+                       messages.begin() + static_cast<std::ptrdiff_t>(i)))
+            wire::overwrite_u16(messages, i, 0);
+    }
+    const auto outcome = ingestor.ingest(
+        put("KTLX_zero", wire::join({header, wire::ldm_record(messages, true)})), true);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result, IngestResult::rejected) << outcome->reason;
+    EXPECT_EQ(store_.domains()->size(), 0U);
+}
+
+// What fails for us is tried again, and rejected in the end with its reason.
+TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
+    Ingestor& ingestor = with(nullptr);
+    std::ofstream(directory_ / "cache/KTLX") << "something else stands where its grids should";
+    const fs::path path = put("KTLX_a", volume_of("KTLX"));
+    const auto failed = ingestor.ingest(path, false);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().cause(), Cause::system);
+    EXPECT_EQ(rows("KTLX").at(0).state, FileState::seen);
+    const auto last = ingestor.ingest(path, false, Tries::last);
+    ASSERT_TRUE(last) << last.error().message;
+    EXPECT_EQ(last->result, IngestResult::rejected);
+    EXPECT_TRUE(last->reason.starts_with("given up: ")) << last->reason;
+    EXPECT_EQ(rows("KTLX").at(0).state, FileState::rejected);
+    // When it is offered once more, as after a restart, it is tried again.
+    fs::remove(directory_ / "cache/KTLX");
+    EXPECT_EQ(ingestor.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(rows("KTLX").size(), 1U);
+}
+
+// 25 MB of gates of one sweep that never ends, in some kilobytes.
+wire::Bytes endless_sweep(std::string_view station, std::size_t radials) {
+    wire::Bytes messages;
+    for (std::size_t i = 0; i < radials; ++i) {
+        wire::Ray ray;
+        ray.azimuth_number = static_cast<unsigned>(i % 999 + 1);
+        ray.azimuth_deg = static_cast<float>(i % 720) / 2;
+        ray.status = i == 0 ? 3 : 1;
+        ray.gates = 20'000;
+        const wire::Bytes message = wire::message_31(ray);
+        messages.insert(messages.end(), message.begin(), message.end());
+    }
+    return wire::join({wire::archive_header("AR2V0006.116", station),
+                       wire::ldm_record(said_by(std::move(messages), station), false)});
+}
+
+class LivingMemory : public Claims {
+  protected:
+    std::shared_ptr<LivingFile> read(LivingFiles& files, const fs::path& path,
+                                     const std::string& station) {
+        const auto file = files.begin(path, station, station);
+        if (!file) return nullptr;
+        (void)file->read_to(fs::file_size(path), [&] { return files.grew(path, *file, station); });
+        return file;
+    }
+    LivingFile::Options options_{{}, level2::Moment::ref, {}, directory_.path()};
+};
+
+// 2026-11-25: an open sweep counted as nothing, and a hundred such files took 5 GiB.
+TEST_F(LivingMemory, AnOpenSweepCounts) {
+    LivingFiles files(options_, GrowingLimits{.station_held_bytes = std::uint64_t{64} << 20});
+    const fs::path path = put("KTLX_a", endless_sweep("KTLX", 1250));
+    const auto file = read(files, path, "KTLX");
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->is_whole());
+    EXPECT_GT(file->held_bytes(), 24'000'000U);
+    EXPECT_LT(file->held_bytes(), 40'000'000U);
+    EXPECT_EQ(files.held_bytes(), file->held_bytes());
+}
+
+TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
+    LivingFiles files(options_);
+    wire::Bytes bytes = wire::archive_header();
+    wire::Bytes record = wire::Writer{}.u32(9'000'000).text("BZh91AY&SY").bytes;
+    record.resize(4'000'000, std::byte{7});
+    bytes.insert(bytes.end(), record.begin(), record.end());
+    const auto file = read(files, put("KTLX_a", bytes), "KTLX");
+    ASSERT_TRUE(file);
+    EXPECT_GE(file->held_bytes(), 4'000'000U);
+}
+
+TEST_F(LivingMemory, BeyondItsStationsBoundAFileIsGivenUpAndNotFollowedAgain) {
+    LivingFiles files(options_, GrowingLimits{.station_held_bytes = 30'000'000});
+    const fs::path a = put("KTLX_a", endless_sweep("KTLX", 1250));
+    const fs::path b = put("KTLX_b", endless_sweep("KTLX", 100));
+    ASSERT_TRUE(read(files, a, "KTLX")->is_whole());
+    EXPECT_TRUE(read(files, b, "KTLX")->is_whole());
+    EXPECT_EQ(files.count(), 2U);
+    const fs::path c = put("KTLX_c", endless_sweep("KTLX", 1000));
+    (void)read(files, c, "KTLX");
+    EXPECT_LE(files.held_bytes(), 30'000'000U);
+    EXPECT_FALSE(files.find(a)) << "the largest";
+    EXPECT_TRUE(files.find(b));
+    EXPECT_TRUE(files.find(c));
+    EXPECT_EQ(files.take_given_up(), 1U);
+    EXPECT_FALSE(files.begin(a, "KTLX", "KTLX"));
+    files.forget(a);
+    EXPECT_TRUE(files.begin(a, "KTLX", "KTLX")) << "another file of this name";
+}
+
+TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
+    LivingFiles files(options_, GrowingLimits{.held_bytes = 40'000'000,
+                                              .station_held_bytes = std::uint64_t{64} << 20});
+    const fs::path a = put("KTLX_a", endless_sweep("KTLX", 1000));
+    const fs::path b = put("b", endless_sweep("XAAA", 500));
+    const fs::path c = put("KOKX_c", endless_sweep("KOKX", 700));
+    ASSERT_TRUE(read(files, a, "KTLX")->is_whole());
+    ASSERT_TRUE(read(files, b, "")->is_whole());
+    ASSERT_TRUE(read(files, c, "KOKX")->is_whole());
+    EXPECT_FALSE(files.find(b)) << "smaller, and nobody's";
+    EXPECT_TRUE(files.find(a) && files.find(c));
+}
+
+// The whole file has a bound of its own, far above that of any volume.
+TEST_F(LivingMemory, AVolumeWithoutEndIsRefusedWhenItIsReadWhole) {
+    Ingestor& ingestor = with(nullptr);
+    wire::Bytes bytes = endless_sweep("KTLX", 3000);
+    const auto outcome = ingestor.ingest(put("KTLX_a", bytes), true);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result, IngestResult::rejected) << outcome->reason;
+}
+
+}  // namespace
+}  // namespace stormcellar::pipeline
