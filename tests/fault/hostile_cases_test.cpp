@@ -316,6 +316,12 @@ class ProtectedNewest : public HostileCases {
     static More with(const std::string& ingest) {
         return {.ingest = ingest, .cache = "bytes = \"20 MB\"\n"};
     }
+    void expect_standing(const std::vector<UtcTime>& history) {
+        const auto stand = std::count_if(history.begin(), history.end(), [&](UtcTime time) {
+            return has_whole_grid(daemon_.cache(), "KTLX", time);
+        });
+        EXPECT_EQ(stand, static_cast<std::ptrdiff_t>(history.size())) << "grids of real history";
+    }
     // Grids of some 300 kB each.
     void put_invented_sites(std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -346,14 +352,12 @@ TEST_F(ProtectedNewest, GridsOfInventedSitesPushOutNoRealHistory) {
     const auto invented = invented_among(domains_in(daemon_.cache()));
     std::printf("%zu invented sites have grids\n", invented.size());
     EXPECT_LE(invented.size(), 64U);
-    for (const UtcTime time : history)
-        EXPECT_TRUE(has_whole_grid(daemon_.cache(), "KTLX", time)) << format_utc(time);
+    expect_standing(history);
     for (const char* station : {"KTLX", "KFWS", "KINX"})
         expect_gridded(station, put_good(station, 0, 1200));
     EXPECT_EQ(lines_with("no room for"), 0U);
     EXPECT_LE(disk_bytes_below(daemon_.cache()), 20'000'000U);
-    for (const UtcTime time : history)
-        EXPECT_TRUE(has_whole_grid(daemon_.cache(), "KTLX", time)) << format_utc(time);
+    expect_standing(history);
     stop();
 }
 
@@ -513,25 +517,53 @@ TEST_F(HostileCases, AVolumeOfDateZeroHasNoGridOf1970) {
     stop();
 }
 
-// Admitted by the rule or not: what no configuration names is in no mosaic.
 TEST_F(HostileCases, AnInventedStationInsideAMosaicDoesNotEnterIt) {
-    const std::string mosaic =
-        "[[domain]]\nname = \"plains\"\ncenter = [35, -97]\nspacing_km = 10\n"
-        "extent_km = [300, 300]\nlevels_km = [1, 3]\n";
-    for (const char* rule : {"", "stations = \"any\"\n"}) {
-        start({.ingest = rule, .rest = mosaic});
-        Claims claims = claims_of("KTLX", now_utc());
-        claims.station = "XAAA";
-        claims.is_varied = true;
-        put("XAAA" + format_compact(now_utc()), volume_bytes(claims));
-        expect_gridded("KTLX", put_good("KTLX", *rule == 0 ? 0 : 60));
-        ASSERT_TRUE(rests(10 * slow_down)) << log_end();
-        EXPECT_TRUE(comes_true(prompt_s, [&] {
-            return domains_in(daemon_.cache()).contains("plains.KTLX");
-        })) << log_end();
-        EXPECT_FALSE(domains_in(daemon_.cache()).contains("plains.XAAA")) << rule;
-        stop();
+    start({.rest = "[[domain]]\nname = \"plains\"\ncenter = [35, -97]\nspacing_km = 10\n"
+                   "extent_km = [300, 300]\nlevels_km = [1, 3]\n"});
+    Claims claims = claims_of("KTLX", now_utc());
+    claims.station = "XAAA";
+    claims.is_varied = true;
+    put("XAAA" + format_compact(now_utc()), volume_bytes(claims));
+    expect_gridded("KTLX", put_good("KTLX"));
+    EXPECT_TRUE(rests(10 * slow_down)) << log_end();
+    EXPECT_TRUE(domains_in(daemon_.cache()).contains("plains.KTLX")) << log_end();
+    EXPECT_FALSE(domains_in(daemon_.cache()).contains("plains.XAAA"));
+    EXPECT_FALSE(domains_in(daemon_.cache()).contains("XAAA"));
+    stop();
+}
+
+// A file that names no station at first, or another one, and grows into one of nobody.
+TEST_F(HostileCases, AnInventedStationHasNoLivingGridEither) {
+    start();
+    Claims claims = claims_of("KTLX", now_utc());
+    claims.station = "XAAA";
+    claims.sweeps = 3;
+    claims.is_varied = true;
+    Claims nameless = claims;
+    nameless.station = "    ";
+    const Bytes sweep = wire::ldm_record(sweep_messages(claims, 0));
+    const auto append = [&](const std::string& name, const Bytes& bytes) {
+        daemon::append_to_file(daemon_.drop() / name,
+                               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    };
+    append("nameless", file_header(nameless));
+    append("KTLX_other", Bytes{});
+    fs::create_directories(daemon_.drop() / "KTLX/7");
+    const std::string chunk = "KTLX/7/20241003-010000-00";
+    append(chunk + "1-S", wire::join({file_header(nameless), sweep}));
+    std::this_thread::sleep_for(milliseconds{500});
+    append("nameless", sweep);
+    append("KTLX_other", wire::join({file_header(claims), sweep}));
+    append(chunk + "2-I", wire::ldm_record(sweep_messages(claims, 1)));
+    for (const char* name : {"nameless", "KTLX_other"}) {
+        std::this_thread::sleep_for(milliseconds{500});
+        append(name, wire::ldm_record(sweep_messages(claims, 1)));
     }
+    expect_gridded("KTLX", put_good("KTLX"));
+    EXPECT_TRUE(rests(15 * slow_down)) << log_end();
+    EXPECT_EQ(invented_among(domains_in(daemon_.cache())), std::set<std::string>{});
+    EXPECT_EQ(invented_among(databases_in(daemon_.catalog())), std::set<std::string>{});
+    stop();
 }
 
 }  // namespace

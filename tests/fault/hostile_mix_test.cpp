@@ -141,6 +141,14 @@ class HostileMixTest : public ::testing::Test {
                 .c_str());
         std::fflush(stdout);
     }
+    static void print_slow(const std::vector<RealVolume>& volumes) {
+        for (const RealVolume& volume : volumes) {
+            if (volume.latency_s && *volume.latency_s <= most_p95_s) continue;
+            std::printf("%s came in %zu files and was gridded after %.2f s\n",
+                        volume.files.back().filename().c_str(), volume.files.size(),
+                        volume.latency_s.value_or(-1));
+        }
+    }
     static double in_mib(std::uint64_t bytes) {
         return static_cast<double>(bytes) / static_cast<double>(mib);
     }
@@ -219,6 +227,7 @@ TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
     mix.remove_all();
     const double ready_s = start_until_ready(daemon_, configuration());
     const Latencies real = latencies_of(volumes);
+    print_slow(volumes);
     print_row(mix, real, peak_mib, peaks, ready_s);
     EXPECT_GE(real.volumes, 32U);
     EXPECT_EQ(real.gridded, real.volumes);
