@@ -1,0 +1,82 @@
+// tests/fault/hostile_feed.h -- the real stations beside an attack, and how soon they are gridded.
+//
+// Sixteen stations of the table, each with one simulated volume after the other, all beside each
+// other: five sweeps, the lowest of 720 radials, the others of 360. They come as LDM writes them:
+// a record is appended and the file closed, again and again; every fourth station comes as one
+// file a chunk. A volume's latency is from the close of its last piece to the moment at which the
+// grid of the whole volume stands in the cache, as a reader of the cache sees it.
+// Thread contract: begin() and finish() from one thread; two threads work between them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "base/utc_time.h"
+#include "level2/volume.h"
+#include "synth/replay_writer.h"
+
+namespace stormcellar::fault {
+
+[[nodiscard]] std::span<const std::string_view> real_stations();
+
+struct RealVolume {
+    std::string station;
+    UtcTime time;
+    std::vector<std::filesystem::path> files;  // of chunks all
+    std::chrono::steady_clock::time_point closed;
+    std::optional<double> latency_s;  // none: no whole grid was seen
+};
+
+class RealFeed {
+  public:
+    // `period_s`: from one volume of a station to its next.
+    RealFeed(std::filesystem::path drop, std::filesystem::path cache, double period_s);
+    RealFeed(const RealFeed&) = delete;
+    RealFeed& operator=(const RealFeed&) = delete;
+    ~RealFeed();
+
+    void begin();
+    // Begins no more volumes, finishes those that have begun, and waits at most so long for their
+    // grids. Gives all that were written.
+    std::vector<RealVolume> finish(double most_wait_s);
+    [[nodiscard]] std::size_t begun() const { return begun_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Station {
+        level2::Volume pattern;
+        bool comes_as_chunks = false;
+        int number = 0;  // of its volumes
+        Clock::time_point next_piece;
+        RealVolume volume;
+        std::vector<std::vector<std::byte>> pieces;
+        std::size_t next = 0;
+    };
+    void write();
+    void begin_volume(Station& station);
+    void write_piece(Station& station);
+    void watch();
+    void look_at_waiting(std::vector<std::int64_t>& seen_ns);
+
+    std::filesystem::path drop_, cache_;
+    double period_s_;
+    std::vector<Station> stations_;
+    synth::PieceWriter writer_{0};
+    std::atomic<std::size_t> begun_ = 0;
+    std::atomic<bool> ending_ = false, is_watched_ = false;
+    std::mutex mutex_;  // guards closed_
+    std::vector<RealVolume> closed_;
+    std::thread writing_, watching_;
+};
+
+}  // namespace stormcellar::fault
