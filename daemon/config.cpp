@@ -190,7 +190,22 @@ void read_storage(TomlTable& table, Config& config) {
     }
 }
 
+void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
+    std::uint64_t given = 0;
+    if (table.is_text("bytes")) {
+        const auto size = parse_byte_size(*table.text("bytes"));
+        if (!size) return table.complain("bytes", size.error().message);
+        given = *size;
+    } else if (const auto number = table.number("bytes", {0, 1e15})) {
+        given = static_cast<std::uint64_t>(*number);
+    } else {
+        return;
+    }
+    bytes = given == 0 ? std::nullopt : std::optional{given};
+}
+
 void read_catalog(TomlTable catalog, Config& config) {
+    read_bytes(catalog, config.catalog_bytes);
     if (const auto days = catalog.number("gone_days", {0, 36500}))
         config.gone_kept = milliseconds_of(*days * 86400);
 }
@@ -227,20 +242,6 @@ void read_status(TomlTable status, const std::filesystem::path& file, Config& co
     if (const auto port = status.whole_number("http_port", {0, 65'535})) {
         config.status.http_port = *port;
     }
-}
-
-void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
-    std::uint64_t given = 0;
-    if (table.is_text("bytes")) {
-        const auto size = parse_byte_size(*table.text("bytes"));
-        if (!size) return table.complain("bytes", size.error().message);
-        given = *size;
-    } else if (const auto number = table.number("bytes", {0, 1e15})) {
-        given = static_cast<std::uint64_t>(*number);
-    } else {
-        return;
-    }
-    bytes = given == 0 ? std::nullopt : std::optional{given};
 }
 
 void read_budget(TomlTable& table, cache::Budget& budget) {

@@ -21,6 +21,9 @@
 
 namespace stormcellar::daemon {
 
+// What the rows of all databases may take.
+inline constexpr std::uint64_t default_catalog_bytes = 16'000'000'000;
+
 // The file system at most 95 % full; no limit of bytes or age.
 [[nodiscard]] cache::Budgets default_budgets();
 
@@ -43,7 +46,7 @@ struct Config {
     std::filesystem::path cache = "/var/cache/stormcellar";
 
     pipeline::IngestOptions ingest;
-    StationRule stations;              // of which data are taken in
+    StationRule stations;  // of which data are taken in
     std::vector<AddedStation> added_stations;
     bool living = true;                  // volumes are gridded while they grow
     std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine has
@@ -57,6 +60,7 @@ struct Config {
     cache::Packing packing = cache::Packing::none;
     std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
     std::chrono::milliseconds gone_kept{0};  // rows of files that are gone; 0: for ever
+    std::optional<std::uint64_t> catalog_bytes = default_catalog_bytes;  // none: no limit
     std::string log_level = "info";
     StatusConfig status;
     std::vector<LoopConfig> loops;

@@ -6,10 +6,9 @@ namespace stormcellar::daemon {
 
 bool GrowingFiles::has_room_for(const std::string& station) {
     if (files_.size() < limit_) return true;
-    const auto largest =
-        std::max_element(by_station_.begin(), by_station_.end(), [](const auto& a, const auto& b) {
-            return a.second.size() < b.second.size();
-        });
+    const auto largest = std::max_element(
+        by_station_.begin(), by_station_.end(),
+        [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
     if (largest == by_station_.end()) return false;
     const auto own = by_station_.find(station);
     const std::size_t own_count = own == by_station_.end() ? 0 : own->second.size();

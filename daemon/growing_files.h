@@ -6,10 +6,10 @@
 // has not ended: it is looked at again when it has changed and settled, and finished as it is when
 // it has been quiet (no change of size, time or inode) for `quiet`.
 // Changes are seen by polling the stamps, which works for files that are never closed and on file
-// systems without events. At most `limit` files are kept: at the bound a file takes the place of one
-// of the station that has most, where its own has fewer; else it is left to the next scan.
-// Pure bookkeeping: the caller gives the time (a monotonic clock) and the stamps.
-// Thread contract: one thread.
+// systems without events. At most `limit` files are kept: at the bound a file takes the place of
+// one of the station that has most, where its own has fewer; else it is left to the next scan. Pure
+// bookkeeping: the caller gives the time (a monotonic clock) and the stamps. Thread contract: one
+// thread.
 #pragma once
 
 #include <chrono>

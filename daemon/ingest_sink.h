@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "daemon/config.h"
+#include "daemon/descriptor_plan.h"
 #include "daemon/sink.h"
 #include "pipeline/mend_cache.h"
 #include "pipeline/site_watch.h"
@@ -29,6 +30,8 @@ class IngestSink final : public Sink {
     Result<int> forget_gone(UtcTime before, const OnStep& step) override {
         return catalog_.forget_gone(before, step);
     }
+    Result<std::int64_t> roll_rows(const OnStep& step) override;
+    [[nodiscard]] CatalogState catalog_state() override;
     CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& step) override;
     [[nodiscard]] Status can_store() override;
     std::vector<std::string> take_repairs() override;
@@ -41,12 +44,14 @@ class IngestSink final : public Sink {
 
   private:
     IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
-               std::shared_ptr<StationRule> stations);
+               std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors);
 
     [[nodiscard]] pipeline::IngestOptions options_of(const Config& config) const;
 
     std::filesystem::path drop_;
     std::shared_ptr<StationRule> stations_;
+    std::size_t growing_;  // descriptors for volumes that grow (descriptor_plan.h)
+    catalog::LeftAlone left_alone_;
     std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
     catalog::Catalog catalog_;
     cache::Store store_;

@@ -199,8 +199,8 @@ void Intake::poll_growing() {
     }
 }
 
-// Tried often enough, and not even its rejection could be stored: that is the trouble of a database,
-// which is met again with the next scan.
+// Tried often enough, and not even its rejection could be stored: that is the trouble of a
+// database, which is met again with the next scan.
 void Intake::job_failed(const Finished& finished) {
     const ErrorCode code = finished.taken.error().code;
     const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);

@@ -11,8 +11,8 @@
 namespace stormcellar::daemon {
 
 // Whether `host`, the value of a Host field, is 127.0.0.1, localhost (in any case) or [::1], with
-// nothing behind it or ":" and a port. Any port: at the other end of a tunnel it is another one, and
-// no page can give the names of loopback addresses to itself.
+// nothing behind it or ":" and a port. Any port: at the other end of a tunnel it is another one,
+// and no page can give the names of loopback addresses to itself.
 [[nodiscard]] bool is_loopback_host(std::string_view host) noexcept;
 
 }  // namespace stormcellar::daemon

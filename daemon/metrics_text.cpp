@@ -34,6 +34,9 @@ void write_process(MetricsWriter& out, const StatusFacts& facts, const Pending& 
     out.sample(std::uint64_t{pending.running}, {{"state", "running"}});
     out.sample(std::uint64_t{pending.growing}, {{"state", "growing"}});
     out.sample(std::uint64_t{pending.retrying}, {{"state", "retrying"}});
+    out.family("stormcellar_databases_in_trouble", Type::gauge,
+               "Databases of stations that cannot be used now.");
+    out.sample(std::uint64_t{facts.catalog.troubles.size()});
     out.family("stormcellar_longest_wait_seconds", Type::gauge,
                "How long the file that has waited for longest has been able to run.");
     out.sample(facts.longest_wait_s);

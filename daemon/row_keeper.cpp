@@ -21,6 +21,7 @@ void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_kept) {
         try {
             const AtWork at_work(pulse_);
             mark_missing();
+            roll_rows();
             if (deletes) delete_gone(gone_kept);
         } catch (const std::exception& error) {  // no memory
             log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
@@ -47,6 +48,18 @@ void RowKeeper::mark_missing() {
     } else if (*marked > 0) {
         log_info({Event::files_gone}, "{} went while nobody watched",
                  counted(static_cast<std::uint64_t>(*marked), "file"));
+    }
+}
+
+void RowKeeper::roll_rows() {
+    const Result<std::int64_t> rolled = sink_.roll_rows([this] { pulse_.beat(); });
+    if (!rolled) {
+        log_warning({Event::files_gone_failed}, "cannot delete rows of files that went: {}",
+                    printable(rolled.error().message));
+    } else if (*rolled > 0) {
+        log_info({Event::rows_deleted},
+                 "the rows of {} that went were deleted: the catalog takes no more room",
+                 counted(static_cast<std::uint64_t>(*rolled), "file"));
     }
 }
 

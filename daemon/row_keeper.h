@@ -1,9 +1,9 @@
 // daemon/row_keeper.h -- has the catalog's rows follow the files that go.
 //
 // After a scan, in a thread of its own, as it looks at every file of the catalog: what is not there
-// is marked as gone. Once an hour rows that have been gone for long are deleted, where the
-// configuration says so. Both take a tenth of the time at most, however often there are scans.
-// Thread contract: one thread.
+// is marked as gone, and where rows take more room than they may the oldest of these go. Once an
+// hour rows that have been gone for long are deleted, where the configuration says so. Both take a
+// tenth of the time at most, however often there are scans. Thread contract: one thread.
 #pragma once
 
 #include <chrono>
@@ -29,6 +29,7 @@ class RowKeeper {
 
   private:
     void mark_missing();
+    void roll_rows();
     void delete_gone(std::chrono::milliseconds gone_kept);
 
     Sink& sink_;

@@ -67,10 +67,9 @@ void Schedule::drop_waiting(Entry& entry) {
 
 // Of its own station only what is no news gives way, and only to what is.
 bool Schedule::make_room_for(const Job& job) {
-    const auto largest =
-        std::max_element(claims_.begin(), claims_.end(), [](const auto& a, const auto& b) {
-            return a.second.size() < b.second.size();
-        });
+    const auto largest = std::max_element(
+        claims_.begin(), claims_.end(),
+        [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
     if (largest == claims_.end()) return false;
     const auto own = claims_.find(job.station);
     const std::size_t own_count = own == claims_.end() ? 0 : own->second.size();

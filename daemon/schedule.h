@@ -2,8 +2,8 @@
 //
 // One entry a path: what is offered again while it waits is merged, what is offered again while it
 // runs is looked at once more afterwards. In the order of ready_jobs.h, so that a backlog never
-// delays what has just come, nor one station another (work_shares.h). A file that could not be stored
-// waits, longer each time, beside the queue: it takes no place there from files that come.
+// delays what has just come, nor one station another (work_shares.h). A file that could not be
+// stored waits, longer each time, beside the queue: it takes no place there from files that come.
 // What has waited for `register_after` is to be written into the catalog without being read
 // (next_unregistered()): however far behind we are, what is there can be asked for.
 // Memory is bounded by `limit` entries, and a quarter as many of those to be tried again. At the

@@ -65,8 +65,8 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
       status_(config_.drop, config_.cache),
       status_file_(parts_.file_system, config_.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
-      pool_([this](const Job& job) { return take(parts_.sink, job); },
-            "ingest", config_.worker_count(), [this] { wake_up_.set(); }),
+      pool_([this](const Job& job) { return take(parts_.sink, job); }, "ingest",
+            config_.worker_count(), [this] { wake_up_.set(); }),
       registrar_([this](const Job& job) { return note(parts_.sink, job); }, "register", 1,
                  [this] { wake_up_.set(); }),
       row_keeper_(parts_.sink),
@@ -305,6 +305,7 @@ void Service::keep_house() {
     keep_state(now);
     status_.count_unseen(intake_.take_unseen());
     report_repairs();
+    report_catalog(now);
     report_backlog(now);
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())

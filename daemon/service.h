@@ -95,6 +95,7 @@ class Service {
     void report_backlog(SteadyTime now);
     void keep_house();
     void report_repairs();
+    void report_catalog(SteadyTime now);
     void report_sites();
     void look_at_others_loops(SteadyTime now);
     void keep_state(SteadyTime now);
@@ -127,6 +128,7 @@ class Service {
     bool state_lost_ = false;  // and it stands in the log
     bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
+    SteadyTime next_catalog_look_{};
     SteadyTime next_loops_look_{};
     bool loops_kept_twice_ = false;  // and it stands in the log
     WorkerPool pool_;                // last: its threads, and the next one's, use what stands above

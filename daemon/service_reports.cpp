@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "base/counted.h"
 #include "base/printable.h"
 #include "daemon/log.h"
@@ -14,7 +16,7 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1},
-    between_loops_looks{5}, behind_after{20};
+    between_loops_looks{5}, between_catalog_looks{1}, behind_after{20};
 
 }  // namespace
 
@@ -86,6 +88,45 @@ void Service::report_repairs() {
     for (const std::string& line : repairs)
         log_error({Event::database_mended}, "{}", printable(line));
     if (!repairs.empty()) intake_.forget_seen();
+}
+
+// A database that cannot be used is named once when that begins, and once when it is over.
+void Service::report_catalog(SteadyTime now) {
+    if (now < next_catalog_look_) return;
+    next_catalog_look_ = now + between_catalog_looks;
+    CatalogState state = parts_.sink.catalog_state();
+    const CatalogState& known = status_.facts().catalog;
+    if (state == known) return;
+    const auto named = [](const std::string& station) {
+        return station.empty() ? std::string{"the files of no known station"} : station;
+    };
+    const auto stands_in = [](const CatalogState& there, const std::string& station) {
+        return std::any_of(there.troubles.begin(), there.troubles.end(),
+                           [&](const auto& trouble) { return trouble.first == station; });
+    };
+    for (const auto& [station, reason] : state.troubles) {
+        if (stands_in(known, station)) continue;
+        log_error({.event = Event::database_trouble, .station = station},
+                  "the database of {} cannot be used: {}; its files wait, all others go on",
+                  named(station), printable(reason));
+    }
+    for (const auto& [station, reason] : known.troubles) {
+        if (stands_in(state, station)) continue;
+        log_info({.event = Event::database_back, .station = station},
+                 "the database of {} can be used again", named(station));
+    }
+    if (state.left_alone != known.left_alone && state.left_alone > 0) {
+        log_warning(
+            {Event::databases_left_alone},
+            "{} of stations of which no data are taken in ({}{}): left alone, and files of "
+            "these stations are cataloged among those of no known station; a [[station]] or "
+            "[ingest] stations takes them in, `stormcellar catalog check --clear-unknown` "
+            "removes them",
+            counted(state.left_alone, "database"), fmt::join(state.some_left_alone, ", "),
+            state.left_alone > state.some_left_alone.size() ? ", ..." : "");
+    }
+    status_.set_catalog(std::move(state));
+    status_file_.changed();
 }
 
 void Service::sites_compared(pipeline::PairReport report) {

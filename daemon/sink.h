@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -19,6 +20,19 @@ namespace stormcellar::daemon {
 struct Taken {
     FileStamp stamp;  // of the file before it was read
     pipeline::IngestOutcome ingest;
+};
+
+// How the catalog stands.
+struct CatalogState {
+    // Databases that cannot be used now, and why; the station is empty for that of files without.
+    std::vector<std::pair<std::string, std::string>> troubles;
+    std::string rule;                  // "known", "any" or "listed"
+    std::vector<std::string> further;  // stations that `any` admitted
+    std::size_t most_further = 0;
+    // Databases of stations that are not known, and the first names of them.
+    std::size_t left_alone = 0;
+    std::vector<std::string> some_left_alone;
+    bool operator==(const CatalogState&) const = default;
 };
 
 // What a roll of the cache did, and what it holds now; no usage where the cache keeps no budget.
@@ -54,6 +68,11 @@ class Sink {
     // Deletes what is known of files that are gone and were last registered before that time; gives
     // how many. May run beside take().
     virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
+    // Deletes rows of files that are gone where they take more than they may; gives how many. May
+    // run beside take().
+    virtual Result<std::int64_t> roll_rows(const OnStep& /*step*/) { return 0; }
+    // How the catalog stands now. May be called beside the others.
+    [[nodiscard]] virtual CatalogState catalog_state() { return {}; }
     // Keeps the cache within these budgets from now on. May run beside take(); one at a time.
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};

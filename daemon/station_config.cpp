@@ -45,9 +45,22 @@ StationRule read_station_rule(TomlTable& ingest) {
     const auto name = ingest.text("stations");
     if (!name || *name == "known") return {};
     if (*name == "any") return StationRule::any();
-    ingest.complain("stations", fmt::format("\"{}\" is neither known nor any, nor a list of stations",
-                                            printable(*name)));
+    ingest.complain(
+        "stations",
+        fmt::format("\"{}\" is neither known nor any, nor a list of stations", printable(*name)));
     return {};
+}
+
+std::string_view name_of(StationRule::Kind kind) {
+    switch (kind) {
+        case StationRule::Kind::known:
+            return "known";
+        case StationRule::Kind::any:
+            return "any";
+        case StationRule::Kind::listed:
+            return "listed";
+    }
+    return "known";
 }
 
 std::vector<AddedStation> read_added_stations(TomlTable& root) {

@@ -20,6 +20,7 @@
 #include "cache/store.h"
 #include "daemon/loop_config.h"
 #include "daemon/rejected_paths.h"
+#include "daemon/sink.h"
 #include "daemon/station_book.h"
 #include "daemon/status_names.h"
 #include "daemon/timings.h"
@@ -65,6 +66,7 @@ struct StatusFacts {
     std::uint64_t living_left_out = 0;  // living grids, for want of time
     std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
     std::optional<cache::StoreUsage> usage;
+    CatalogState catalog;
     std::vector<LoopState> loops;
     std::vector<LoopState> others_loops;  // that another process keeps (others_loops.h)
     Timings close_to_cache{4096};
@@ -96,6 +98,7 @@ class StatusBook {
     void add(pipeline::PairReport report);
     void set_loops(std::vector<LoopState> loops) { facts_.loops = std::move(loops); }
     void set_others_loops(std::vector<LoopState> loops) { facts_.others_loops = std::move(loops); }
+    void set_catalog(CatalogState state) { facts_.catalog = std::move(state); }
     void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
     // For chunks that are put together (station_book.h), and stations known before the start.
     [[nodiscard]] StationBook& stations() { return facts_.stations; }

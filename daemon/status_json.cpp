@@ -29,6 +29,18 @@ Json json_of(const std::optional<cache::StoreUsage>& usage) {
             {"not_kept", usage->not_kept}};
 }
 
+Json json_of(const CatalogState& state) {
+    Json troubles = Json::array();
+    for (const auto& [station, reason] : state.troubles)
+        troubles.push_back({{"station", printable(station)}, {"reason", printable(reason)}});
+    return {{"stations", state.rule},
+            {"further", state.further},
+            {"most_further", state.most_further},
+            {"left_alone", state.left_alone},
+            {"some_left_alone", state.some_left_alone},
+            {"troubles", troubles}};
+}
+
 Json json_of(const grid::Estimate& estimate) {
     if (!estimate.untold.empty()) return {{"untold", estimate.untold}};
     return {{"value", estimate.value}, {"standard_error", estimate.standard_error}};
@@ -213,7 +225,8 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"growing_given_up", facts.given_up},
             {"scans", facts.scans},
             {"directories", facts.directories},
-            {"rolling", json_of(facts.usage)}};
+            {"rolling", json_of(facts.usage)},
+            {"catalog", json_of(facts.catalog)}};
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ inline constexpr std::array all_results = {
     pipeline::IngestResult::registered,
 };
 inline constexpr std::array all_error_codes = {
-    ErrorCode::bad_argument, ErrorCode::not_found,   ErrorCode::empty,       ErrorCode::truncated,
-    ErrorCode::corrupt,      ErrorCode::unsupported, ErrorCode::not_level2,  ErrorCode::not_a_file,
-    ErrorCode::io,           ErrorCode::exhausted,   ErrorCode::no_space,    ErrorCode::over_budget,
+    ErrorCode::bad_argument, ErrorCode::not_found,   ErrorCode::empty,      ErrorCode::truncated,
+    ErrorCode::corrupt,      ErrorCode::unsupported, ErrorCode::not_level2, ErrorCode::not_a_file,
+    ErrorCode::io,           ErrorCode::exhausted,   ErrorCode::no_space,   ErrorCode::over_budget,
     ErrorCode::permission,   ErrorCode::internal,
 };
 

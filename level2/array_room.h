@@ -28,8 +28,8 @@ inline constexpr std::uint64_t empty_kind_bytes = 320;
 
 [[nodiscard]] std::uint64_t bytes_of(const Vcp& vcp);
 
-// The error where the system gives no memory: exhausted, for the input is not to blame, and may be decoded
-// when others have given theirs back.
+// The error where the system gives no memory: exhausted, for the input is not to blame, and may be
+// decoded when others have given theirs back.
 [[nodiscard]] tl::unexpected<Error> no_memory();
 
 class ArrayRoom {

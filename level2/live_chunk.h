@@ -50,8 +50,8 @@ void put_aside(LiveChunk& chunk, SweepDepot& depot);
 [[nodiscard]] Status bring_back(LiveChunk& chunk, const SweepDepot* depot);
 
 // Without kind and serial. Errors: empty; not_level2; corrupt or truncated where nothing is whole,
-// neither a header nor a message; unsupported beyond the room; exhausted where the system gives no memory,
-// or std::bad_alloc is thrown.
+// neither a header nor a message; unsupported beyond the room; exhausted where the system gives no
+// memory, or std::bad_alloc is thrown.
 [[nodiscard]] Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes,
                                                 const DecodeOptions& options, LiveRoom room);
 

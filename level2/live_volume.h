@@ -61,9 +61,8 @@ class LiveVolume {
     };
     // Errors: not_level2, empty, corrupt or truncated for a chunk that holds nothing whole;
     // unsupported beyond the limits. The volume stays as it was; finish() names the chunk unless a
-    // good one of its number comes. exhausted: the system gives no memory; nothing is known of the chunk,
-    // which is to be added again.
-    // `now`: when the chunk came; the latest of all counts.
+    // good one of its number comes. exhausted: the system gives no memory; nothing is known of the
+    // chunk, which is to be added again. `now`: when the chunk came; the latest of all counts.
     [[nodiscard]] Result<Added> add(int number, ChunkKind kind, std::span<const std::byte> bytes,
                                     Clock::time_point now);
 

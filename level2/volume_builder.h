@@ -2,10 +2,9 @@
 //
 // A sweep goes on in the next fragment unless the elevation number or the message type changes, a
 // radial has status 0, 3 or 5, or a 24-byte header lies between.
-// Limits: neither the decompressed bytes nor the arrays come to more than the limits given: append()
-// gives unsupported then, and the builder is not to be used any more. Nor do the arrays of a sweep
-// come to more than most_sweep_bytes.
-// Thread contract: one thread at a time.
+// Limits: neither the decompressed bytes nor the arrays come to more than the limits given:
+// append() gives unsupported then, and the builder is not to be used any more. Nor do the arrays of
+// a sweep come to more than most_sweep_bytes. Thread contract: one thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -31,11 +30,11 @@ inline constexpr std::size_t rows_of_a_stretch = 128;  // radials that room is m
 
 class VolumeBuilder {
   public:
-    explicit VolumeBuilder(std::uint64_t limit_bytes)
-        : VolumeBuilder(limit_bytes, limit_bytes) {}
+    explicit VolumeBuilder(std::uint64_t limit_bytes) : VolumeBuilder(limit_bytes, limit_bytes) {}
     // With another limit of the arrays.
     VolumeBuilder(std::uint64_t limit_bytes, std::uint64_t array_limit_bytes)
-        : limit_bytes_(limit_bytes), array_limit_bytes_(array_limit_bytes),
+        : limit_bytes_(limit_bytes),
+          array_limit_bytes_(array_limit_bytes),
           room_(array_limit_bytes) {}
 
     [[nodiscard]] Status append(Fragment fragment);

@@ -144,8 +144,7 @@ class GrowingSet {
             if (station != nullptr && thing.station != *station) continue;
             if (now - thing.grew_at < most_idle) continue;
             if (chosen == things_.end() || count(thing) > count(chosen->second) ||
-                (count(thing) == count(chosen->second) &&
-                 thing.grew_at < chosen->second.grew_at)) {
+                (count(thing) == count(chosen->second) && thing.grew_at < chosen->second.grew_at)) {
                 chosen = at;
             }
         }

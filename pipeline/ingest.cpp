@@ -80,6 +80,7 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
     };
     GrowingLimits limits;
     limits.shelf_bytes = options.living.put_aside_bytes;
+    limits.count = options.living.count;
     limits.station_shelf_bytes = limits.shelf_bytes / 8;
     if (store != nullptr && options.living.make && !options.living.scratch.empty()) {
         living.emplace(follow, limits);
@@ -100,8 +101,8 @@ MosaicKeeper& Ingestor::mosaics() {
 
 std::string Ingestor::Impl::taken_station(const std::string& station, Admit admit) const {
     if (station.empty() || !options.stations) return station;
-    const bool is_taken = admit == Admit::yes ? options.stations->admits(station)
-                                              : options.stations->knows(station);
+    const bool is_taken =
+        admit == Admit::yes ? options.stations->admits(station) : options.stations->knows(station);
     return is_taken ? station : std::string{};
 }
 
@@ -134,8 +135,8 @@ Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error&
     if (const auto stamp = stamp_of(path, options.beneath)) facts.size_bytes = stamp->size_bytes;
     facts.modified_ns = catalog::never_read_ns;
     if (living) living->forget(path);
-    auto rejected = reject(
-        facts, {why.code, "given up: " + without_path(why.message, path)}, IngestOutcome{});
+    auto rejected =
+        reject(facts, {why.code, "given up: " + without_path(why.message, path)}, IngestOutcome{});
     // What failed, and not what failed while that was stored.
     return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
@@ -189,7 +190,8 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
             continue;
         }
         if (!volume.start_time()) {
-            return reject(facts, {ErrorCode::corrupt, "cannot be gridded: no time in it is plausible"},
+            return reject(facts,
+                          {ErrorCode::corrupt, "cannot be gridded: no time in it is plausible"},
                           outcome);
         }
         if (!options.own_grids) {

@@ -136,8 +136,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
         if (!growing) return std::nullopt;
         const std::string& claimed = growing->station.empty() ? facts.station : growing->station;
         station = taken_station(claimed);
-        if (claimed.empty() || !station.empty())
-            file = living->begin(path, facts.station, station);
+        if (claimed.empty() || !station.empty()) file = living->begin(path, facts.station, station);
         // What is not followed is read when it has ended or has been quiet, and not before: again
         // and again it would be read in vain.
         if (!file) return wait_unread(std::move(facts), std::move(outcome));
@@ -151,7 +150,8 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     outcome.given_up = living->take_given_up();
     if (!file->is_whole() || !living->grew(path, *file, station)) {
         const bool is_given_up = living->find(path) == nullptr;
-        if (is_given_up && !finish_partial) return wait_unread(std::move(facts), std::move(outcome));
+        if (is_given_up && !finish_partial)
+            return wait_unread(std::move(facts), std::move(outcome));
         living->forget(path);
         return std::nullopt;
     }

@@ -51,6 +51,8 @@ struct LivingGrids {
     // See above. Beyond it what has not grown for longest is given up, and read again from its
     // files.
     std::uint64_t put_aside_bytes = most_put_aside_bytes;
+    // So many files, volumes of chunks, and sites' last volumes, each with a descriptor.
+    std::size_t count = 320;
 };
 
 struct IngestOptions {

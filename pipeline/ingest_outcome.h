@@ -19,10 +19,10 @@ enum class IngestResult {
     no_moment,    // registered; holds no sweep of the moment, so there is nothing to grid
     no_position,  // registered; neither the file nor the table says where the radar stands
     other_station,  // registered; of no station that is taken in, so nothing is gridded
-    incomplete,   // not settled: the volume has not ended and finish_partial is false, or the file
-                  // changed while it was read; ask again when it was closed or quiet
-    rejected,     // registered as rejected: no volume, or none that can be gridded
-    unchanged,    // settled before; nothing was done
+    incomplete,  // not settled: the volume has not ended and finish_partial is false, or the file
+                 // changed while it was read; ask again when it was closed or quiet
+    rejected,    // registered as rejected: no volume, or none that can be gridded
+    unchanged,   // settled before; nothing was done
     vanished,    // the file is gone; its rows, if any, are marked so. One in whose name a volume of
                  // chunks waits is incomplete instead, and to be asked for again all the same
     registered,  // registered; the Ingestor has no cache
@@ -49,7 +49,7 @@ struct IngestOutcome {
     // Of a volume of chunks, incomplete: the one that was to be asked again until this one came.
     std::filesystem::path instead_of;
     bool no_room = false;  // gridded: of some volume, but the cache's budgets left no room for it
-    int not_kept = 0;  // volumes that the cache's budgets do not keep: nothing was made of them
+    int not_kept = 0;      // volumes that the cache's budgets do not keep: nothing was made of them
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
 

@@ -23,7 +23,8 @@ std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path
                                                const std::string& station) {
     {
         const std::scoped_lock lock(mutex_);
-        const bool has_place = !not_again_.contains(path) && files_.has_place(station, Clock::now());
+        const bool has_place =
+            !not_again_.contains(path) && files_.has_place(station, Clock::now());
         note_given_up();
         if (!has_place) return nullptr;
     }
@@ -40,8 +41,8 @@ std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path
 bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file,
                        const std::string& station) {
     const std::scoped_lock lock(mutex_);
-    const bool stands = files_.grew(path, &file, station, file.held_bytes(), file.shelf_bytes(),
-                                    Clock::now());
+    const bool stands =
+        files_.grew(path, &file, station, file.held_bytes(), file.shelf_bytes(), Clock::now());
     note_given_up();
     drop_last_beyond_limits();
     return stands;

@@ -66,8 +66,8 @@ Span span_changed_by(const cache::GridDescription& changed,
     return span;
 }
 
-// Whether another try may succeed: the system refused something. Else the volume or the budgets make
-// no grid of it.
+// Whether another try may succeed: the system refused something. Else the volume or the budgets
+// make no grid of it.
 bool may_pass(const Error& error) {
     return error.cause() != Cause::data && error.code != ErrorCode::over_budget &&
            error.code != ErrorCode::bad_argument && error.code != ErrorCode::not_found;

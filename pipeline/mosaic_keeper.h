@@ -80,8 +80,8 @@ class MosaicKeeper {
     MosaicKeeper(const cache::Store* store, std::vector<Domain> domains,
                  FramesWhen frames = FramesWhen::volume_comes);
 
-    // Does nothing for volumes that no domain takes. `threads` work on it. Errors: what may pass, as
-    // when the system refuses a write; all other domains have the volume then all the same.
+    // Does nothing for volumes that no domain takes. `threads` work on it. Errors: what may pass,
+    // as when the system refuses a write; all other domains have the volume then all the same.
     Result<Kept> take_in(const VolumeSource& source, int threads);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }

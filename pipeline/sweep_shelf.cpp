@@ -123,12 +123,11 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
 }
 
 tl::unexpected<Error> system_failure(const char* what, int number) {
-    const ErrorCode code = number == ENOSPC || number == EDQUOT ? ErrorCode::no_space
-                           : number == EACCES || number == EPERM || number == EROFS
-                               ? ErrorCode::permission
-                           : number == EMFILE || number == ENFILE || number == ENOMEM
-                               ? ErrorCode::exhausted
-                               : ErrorCode::io;
+    const ErrorCode code =
+        number == ENOSPC || number == EDQUOT                       ? ErrorCode::no_space
+        : number == EACCES || number == EPERM || number == EROFS   ? ErrorCode::permission
+        : number == EMFILE || number == ENFILE || number == ENOMEM ? ErrorCode::exhausted
+                                                                   : ErrorCode::io;
     return fail(code, "{} of a growing volume: {}", what, std::system_category().message(number));
 }
 

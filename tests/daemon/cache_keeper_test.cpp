@@ -15,8 +15,9 @@ using std::chrono::seconds;
 
 class RollingSink final : public Sink {
   public:
-    Result<Taken> take(const std::filesystem::path&, bool,
-                       pipeline::Tries /*tries*/) override { return Taken{}; }
+    Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {
+        return Taken{};
+    }
     Result<int> mark_missing(const OnStep& /*step*/) override { return 0; }
     CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& /*step*/) override {
         while (hold)

@@ -151,8 +151,7 @@ TEST_F(ConfigFile, StationsAreAddedToTheTable) {
                            "antenna_altitude_m = 3\n")
                   .substr(0, 34),
               "s.toml:7: [station] latitude_deg: ");
-    EXPECT_EQ(complaint_of("icao = \"XABC\"\n"),
-              "s.toml:5: [station] latitude_deg: is needed");
+    EXPECT_EQ(complaint_of("icao = \"XABC\"\n"), "s.toml:5: [station] latitude_deg: is needed");
 }
 
 TEST_F(ConfigFile, BudgetsOfTheCacheAndOfItsDomains) {

@@ -20,8 +20,9 @@ using std::chrono::seconds;
 
 class RowSink final : public Sink {
   public:
-    Result<Taken> take(const std::filesystem::path&, bool,
-                       pipeline::Tries /*tries*/) override { return Taken{}; }
+    Result<Taken> take(const std::filesystem::path&, bool, pipeline::Tries /*tries*/) override {
+        return Taken{};
+    }
     Result<int> mark_missing(const OnStep& /*step*/) override {
         while (hold)
             std::this_thread::sleep_for(milliseconds{1});

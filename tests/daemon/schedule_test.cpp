@@ -137,8 +137,7 @@ TEST(Schedule, AChangeWhileAJobFailsDoesNotEndTheWait) {
     EXPECT_EQ(again->failures, 1);
 }
 
-Job job_of(const std::string& path, const std::string& station,
-           Urgency urgency = Urgency::live) {
+Job job_of(const std::string& path, const std::string& station, Urgency urgency = Urgency::live) {
     Job made = job(path);
     made.station = station;
     made.urgency = urgency;

@@ -85,9 +85,11 @@ TEST(StatusBook, CountsEachEnd) {
     EXPECT_EQ(status["scans"], 1);
     EXPECT_EQ(status["unseen"], 2);
     EXPECT_EQ(status["directories"], 3);
-    EXPECT_EQ(
-        status["pending"],
-        nlohmann::json({{"waiting", 4}, {"running", 2}, {"growing", 1}, {"retrying", 0}, {"longest_wait_s", 7.5}}));
+    EXPECT_EQ(status["pending"], nlohmann::json({{"waiting", 4},
+                                                 {"running", 2},
+                                                 {"growing", 1},
+                                                 {"retrying", 0},
+                                                 {"longest_wait_s", 7.5}}));
     EXPECT_EQ(status["living_left_out"], 1);
     EXPECT_EQ(status["growing_given_up"], 3);
     EXPECT_EQ(status["latency_s"]["count"], 3);

@@ -185,8 +185,8 @@ class LivingMemory : public Claims {
                                      const std::string& station) {
         const auto file = files.begin(path, station, station);
         if (!file) return nullptr;
-        const Status done = file->read_to(
-            fs::file_size(path), [&] { return files.grew(path, *file, station); });
+        const Status done =
+            file->read_to(fs::file_size(path), [&] { return files.grew(path, *file, station); });
         EXPECT_TRUE(done || done.error().code == ErrorCode::over_budget) << done.error().message;
         return file;
     }
