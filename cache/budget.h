@@ -26,7 +26,7 @@
 //              where the newest grid of a known group would otherwise find no room.
 //   pinned     grids never go.
 // The space of a budget is its bytes, or what its percent is of the file system, or the smaller of
-// the two. A budget of neither has no space: nothing lapses, and the others have no share.
+// the two. Where a budget has neither, no protection lapses and the others' share has no limit.
 // Thread contract: plain data, and pure functions.
 #pragma once
 
