@@ -64,6 +64,15 @@ Result<CatalogedBytes> read_cataloged(const Catalog& catalog, const CatalogEntry
     if (Status sized = check_size(entry, static_cast<std::uint64_t>(facts.st_size)); !sized) {
         return pass_on(sized);
     }
+    // A second name of a file that only the reader may read is no link that is followed, and only a
+    // hash tells it apart.
+    if (!has_final_hash(entry) && facts.st_nlink > 1) {
+        return fail(
+            ErrorCode::corrupt,
+            "{}: may not be the file that was cataloged: it was still growing then, and has "
+            "{} names now",
+            entry.path.native(), facts.st_nlink);
+    }
     auto bytes = read_open_file(file.number(), entry.path, default_read_limit);
     if (!bytes) return pass_on(bytes);
     if (Status same = check_cataloged(entry, bytes->size(), xxh3_64(*bytes)); !same) {

@@ -60,6 +60,11 @@ TEST_F(ReadCataloged, TheFileThatWasCatalogedIsGiven) {
     EXPECT_EQ(found->bytes, *read_file(raw_));
 }
 
+TEST_F(ReadCataloged, AFileWithASecondNameIsGivenWhereItsHashProvesIt) {
+    fs::create_hard_link(raw_, directory_ / "second-name");
+    EXPECT_TRUE(read());
+}
+
 TEST_F(ReadCataloged, ALinkInItsPlaceIsNotFollowed) {
     fs::rename(raw_, directory_ / "same");
     fs::create_symlink(directory_ / "same", raw_);
@@ -118,6 +123,9 @@ TEST_F(ReadCataloged, AFileThatGrowsIsComparedAsFarAsItsRowGoes) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_FALSE(found->is_compared);
     EXPECT_EQ(found->bytes.size(), 8U);
+    fs::create_hard_link(raw_, directory_ / "second-name");
+    expect_refused(ErrorCode::corrupt, "has 2 names now");
+    fs::remove(directory_ / "second-name");
     std::ofstream(raw_) << "abc";
     expect_refused(ErrorCode::corrupt, "it has 3 bytes and not 4 or more");
     fs::rename(raw_, directory_ / "same");
