@@ -107,9 +107,9 @@ About about(const Finished& finished) {
     return subject;
 }
 
-void Reporter::report(const Finished& finished) {
+void Reporter::report(const Finished& finished, Named named) {
     const auto severity = [&] {
-        if (!finished.taken) return Severity::error;
+        if (!finished.taken) return named == Named::before ? Severity::debug : Severity::error;
         switch (finished.taken->ingest.result) {
             case IngestResult::gridded:
                 return finished.taken->ingest.no_room ? Severity::warning : Severity::info;

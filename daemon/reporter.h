@@ -14,9 +14,12 @@ namespace stormcellar::daemon {
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
+// Whether what a job failed of has a line already.
+enum class Named : bool { not_yet, before };
+
 class Reporter {
   public:
-    static void report(const Finished& finished);
+    static void report(const Finished& finished, Named named = Named::not_yet);
     // A directory that cannot be watched or read.
     static void report_directory(const Error& error);
     // What two sites of a mosaic say otherwise than each other: a warning for each fault.

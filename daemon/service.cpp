@@ -231,7 +231,7 @@ void Service::apply(const Config& fresh) {
 
 void Service::collect() {
     for (const Finished& finished : pool_.collect()) {
-        if (status_.add(finished)) Reporter::report(finished);
+        if (status_.add(finished)) report(finished);
         intake_.job_ended(finished);
         status_file_.changed();
     }

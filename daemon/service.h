@@ -96,6 +96,7 @@ class Service {
     void keep_house();
     void report_repairs();
     void report_catalog(SteadyTime now);
+    void report(const Finished& finished);
     void report_sites();
     void look_at_others_loops(SteadyTime now);
     void keep_state(SteadyTime now);

@@ -129,6 +129,21 @@ void Service::report_catalog(SteadyTime now) {
     status_file_.changed();
 }
 
+// What fails because of a database in trouble is named once, with the trouble.
+void Service::report(const Finished& finished) {
+    if (!finished.taken) {
+        next_catalog_look_ = {};
+        report_catalog(parts_.clock.steady());
+    }
+    const auto& troubles = status_.facts().catalog.troubles;
+    const bool is_named = !finished.taken && std::any_of(troubles.begin(), troubles.end(),
+                                                         [&](const auto& trouble) {
+                                                             return trouble.second ==
+                                                                    finished.taken.error().message;
+                                                         });
+    Reporter::report(finished, is_named ? Named::before : Named::not_yet);
+}
+
 void Service::sites_compared(pipeline::PairReport report) {
     {
         const std::scoped_lock lock(compared_mutex_);

@@ -183,6 +183,30 @@ Result<level2::Decoded> ChunkVolume::finish() {
     return decoded;
 }
 
+bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
+    const auto beside = chunks_beside(chunk, options_.beneath);
+    if (!beside) return true;  // whoever reads it says why
+    bool has_end = chunk.name.kind == level2::ChunkKind::end;
+    auto newest = level2::LiveVolume::Clock::time_point::min();
+    const auto look_at = [&](const ChunkPath& one) {
+        has_end = has_end || one.name.kind == level2::ChunkKind::end;
+        const auto stamp = stamp_of(one.path, options_.beneath);
+        if (stamp) newest = std::max(newest, arrival_of(*stamp));
+    };
+    look_at(chunk);
+    for (const ChunkPath& one : *beside)
+        look_at(one);
+    const auto waited = level2::LiveVolume::Clock::now() - newest;
+    return has_end || waited >= options_.chunk_timeout;
+}
+
+std::filesystem::path ChunkVolumes::wait_for_place(const ChunkPath& chunk) {
+    const std::scoped_lock lock(mutex_);
+    if (waiters_.size() >= most_not_again && !waiters_.contains(chunk.key)) waiters_.clear();
+    std::filesystem::path former = std::exchange(waiters_[chunk.key], chunk.path);
+    return former == chunk.path ? std::filesystem::path{} : former;
+}
+
 std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
                                                 bool more_may_come) {
     const std::scoped_lock lock(mutex_);
@@ -198,6 +222,7 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const st
     live.decode.array_limit_bytes = most_array_bytes(options_.selection);
     live.decode.selection = options_.selection;
     live.decode.fallback_station = station_of_path(chunk.path);
+    waiters_.erase(chunk.key);
     auto made = std::make_shared<ChunkVolume>(options_, live);
     volumes_.add(chunk.key, made, station, now);
     return made;
@@ -236,6 +261,7 @@ void ChunkVolumes::forget(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
     volumes_.erase(chunk.key);
     not_again_.erase(chunk.key);
+    waiters_.erase(chunk.key);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk, const ChunkVolume* volume) {
@@ -243,6 +269,7 @@ void ChunkVolumes::forget(const ChunkPath& chunk, const ChunkVolume* volume) {
     if (volumes_.find(chunk.key).get() != volume) return;
     volumes_.erase(chunk.key);
     not_again_.erase(chunk.key);
+    waiters_.erase(chunk.key);
 }
 
 std::size_t ChunkVolumes::count() const {

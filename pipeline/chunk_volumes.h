@@ -112,6 +112,12 @@ class ChunkVolumes {
     [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk,
                                                     const std::string& station,
                                                     bool more_may_come = true);
+    // Whether a volume may be finished by what its files' names and times say, without reading them:
+    // its end is there, or nothing has come for the timeout.
+    [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
+    // Of a volume that found no place: this chunk waits for it now, in the place of the one that is
+    // given (empty: none).
+    [[nodiscard]] std::filesystem::path wait_for_place(const ChunkPath& chunk);
     // Null where it is not.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find_known(const ChunkPath& chunk) const;
     // Counts what it takes now. False: that is more than its share, and it was given up.
@@ -130,6 +136,7 @@ class ChunkVolumes {
     mutable std::mutex mutex_;  // guards what follows
     GrowingSet<std::string, ChunkVolume> volumes_;
     std::set<std::string> not_again_;  // those that were given up, until they are quiet
+    std::map<std::string, std::filesystem::path> waiters_;  // of those that found no place
     std::uint64_t given_up_ = 0;
 };
 

@@ -58,7 +58,7 @@ Result<bool> Ingestor::Impl::show_living(const KeptVolume& kept, LivingNews news
                                          IngestOutcome& outcome) {
     // A grid is named by the start in the header: without it, it would stay beside the whole one.
     if (!kept.facts.header) return false;
-    if (!living || !options.own_grids) return false;
+    if (!living || !options.own_grids || taken_station(kept.facts.station).empty()) return false;
     // With the next sweep, or when the volume has ended. Low sweeps are what is looked at first.
     if (!news.low && options.living.has_time && !options.living.has_time()) {
         outcome.living_left_out = true;
@@ -166,16 +166,24 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     return taken;
 }
 
+// One chunk of the volume, the newest, is asked for again in the name of all.
+Result<IngestOutcome> Ingestor::Impl::wait_for_place(const ChunkPath& chunk, const FileStamp& stamp,
+                                                     IngestOutcome outcome) {
+    outcome.instead_of = chunks->wait_for_place(chunk);
+    return wait_unread(facts_unread(chunk.path, stamp), std::move(outcome));
+}
+
 std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath& chunk,
                                                                 const FileStamp& before,
                                                                 Finish finish,
                                                                 IngestOutcome outcome) {
     if (!before.regular) return std::nullopt;
     const std::string path_station = taken_station(station_of_path(chunk.path));
-    const bool more_may_come = finish == Finish::when_it_ends;
+    const bool more_may_come = finish == Finish::when_it_ends ||
+                               (finish == Finish::when_quiet && !chunks->may_be_due(chunk));
     std::shared_ptr<ChunkVolume> volume = chunks->find(chunk, path_station, more_may_come);
     outcome.given_up = chunks->take_given_up();
-    if (!volume) return wait_unread(facts_unread(chunk.path, before), std::move(outcome));
+    if (!volume) return wait_for_place(chunk, before, std::move(outcome));
     std::unique_lock lock(volume->mutex);
     while (volume->is_finished) {  // by another worker, while we waited for it
         const auto settled = catalog.is_settled(chunk.path, before.size_bytes, before.modified_ns);
@@ -187,7 +195,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         lock.unlock();
         chunks->forget(chunk, volume.get());
         volume = chunks->find(chunk, path_station, more_may_come);
-        if (!volume) return wait_unread(facts_unread(chunk.path, before), std::move(outcome));
+        if (!volume) return wait_for_place(chunk, before, std::move(outcome));
         lock = std::unique_lock(volume->mutex);
     }
     const auto start = Clock::now();

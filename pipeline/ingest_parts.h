@@ -91,6 +91,9 @@ struct Ingestor::Impl {
                         const Reading& reading, IngestOutcome& outcome);
     // Of a file that grows and is not followed: it is looked at again when it ends or is quiet.
     Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
+    // The same of a chunk whose volume found no place.
+    Result<IngestOutcome> wait_for_place(const ChunkPath& chunk, const FileStamp& stamp,
+                                         IngestOutcome outcome);
     // None: the file is to be read as a whole.
     std::optional<Result<IngestOutcome>> follow(const std::filesystem::path& path,
                                                 const FileStamp& before, bool finish_partial,
