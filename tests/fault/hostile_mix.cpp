@@ -225,6 +225,12 @@ fs::path HostileMix::path_of(const Standing& file) const {
     return file.directory ? directories_[*file.directory] / file.path : file.path;
 }
 
+// Known, or one that it invents, as often each.
+std::string HostileMix::some_station() {
+    return below(2) == 0 ? known_names_[below(known_names_.size())]
+                         : invented_station(below(invented_count));
+}
+
 // In place, or under a dot-name and then renamed.
 void HostileMix::write(const Standing& file, const Bytes& bytes) {
     const fs::path path = path_of(file);
@@ -257,7 +263,7 @@ void HostileMix::strike_endless() {
         growing_.erase(growing_.begin() + static_cast<std::ptrdiff_t>(index));
     }
     const bool is_large = below(4) == 0;
-    growing_.push_back(place(known_names_[below(known_names_.size())]));
+    growing_.push_back(place(some_station()));
     const fs::path path = path_of(growing_.back());
     append_bytes(path, one_of(is_large ? endless_large_ : endless_small_));
     // A hole in the place of a record that has not come to its end.
@@ -270,7 +276,7 @@ void HostileMix::strike_growth() {
 }
 
 void HostileMix::strike_unsettled() {
-    write(place("KTLX_unsettled"), one_of(unsettled_));
+    write(place(some_station() + "_unsettled"), one_of(unsettled_));
 }
 
 void HostileMix::strike_chunk() {
@@ -316,7 +322,7 @@ void HostileMix::strike_rename() {
 }
 
 void HostileMix::strike_link() {
-    const Standing file = place("KTLX_link");
+    const Standing file = place(some_station() + "_link");
     const fs::path path = path_of(file);
     const std::array<fs::path, 7> targets = {options_.outside / "KTLX_volume",
                                              options_.outside,
@@ -340,7 +346,7 @@ void HostileMix::strike_special() {
 }
 
 void HostileMix::strike_sparse() {
-    standing_.push_back(place("KTLX_sparse"));
+    standing_.push_back(place(some_station() + "_sparse"));
     const fs::path path = path_of(standing_.back());
     append_bytes(path, one_of(unsettled_));
     // One in twenty stays below what a raw file may have, and is read.
@@ -349,21 +355,21 @@ void HostileMix::strike_sparse() {
 }
 
 void HostileMix::strike_name() {
-    const std::string& station = known_names_[below(known_names_.size())];
+    const std::string station = some_station();
     Standing file = place("x");
     file.path.replace_filename(fs::path{evil_name(number_, station)});
     write(file, one_of(below(2) == 0 ? unsettled_ : invented_));
 }
 
 void HostileMix::strike_clock() {
-    write(place("KTLX_clock"), one_of(clocks_));
+    write(place(some_station() + "_clock"), one_of(clocks_));
     const fs::path path = path_of(standing_.back());
     constexpr std::array<std::int64_t, 4> times = {1, 4'000'000'000, 253'402'300'799, -86'400};
     set_modified(path, times[below(times.size())]);
 }
 
 void HostileMix::strike_deleted() {
-    const fs::path path = path_of(place("KTLX_deleted"));
+    const fs::path path = path_of(place(some_station() + "_deleted"));
     append_bytes(path, one_of(invented_));
     ::unlink(path.c_str());
 }
@@ -399,7 +405,8 @@ void HostileMix::strike(Attack attack) {
         case Attack::clock:
             return strike_clock();
         case Attack::bomb:
-            write(place("KTLX_bomb"), below(10) == 0 ? bombs_.front() : small_bombs_.front());
+            write(place(some_station() + "_bomb"),
+                  below(10) == 0 ? bombs_.front() : small_bombs_.front());
             return;
         case Attack::deleted:
             return strike_deleted();

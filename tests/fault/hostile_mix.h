@@ -86,6 +86,7 @@ class HostileMix {
     void run();
     void strike();
     void strike(Attack attack);
+    std::string some_station();
     // Where the next file goes, and what it is called.
     Standing place(std::string_view stem);
     [[nodiscard]] std::filesystem::path path_of(const Standing& file) const;

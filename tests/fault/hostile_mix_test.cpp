@@ -29,7 +29,9 @@ using std::chrono::milliseconds;
 // The bounds.
 constexpr double most_p95_s = 1, most_ready_s = 5;
 constexpr long most_resident_mib = 512;
-constexpr std::size_t most_descriptors = 1500, most_descriptors_afterwards = 250;
+constexpr std::size_t most_descriptors = 1500;
+// Three for the database of each known station, as a feed of all of them needs, and some.
+constexpr std::size_t most_descriptors_afterwards = 900;
 constexpr std::size_t queue_limit = 20'000;
 constexpr std::uint64_t cache_bytes = 1'000'000'000;
 constexpr std::uint64_t mib = std::uint64_t{1} << 20U;

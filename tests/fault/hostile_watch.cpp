@@ -90,16 +90,6 @@ std::size_t open_descriptors(pid_t process) {
     return count;
 }
 
-std::uint64_t bytes_read_by(pid_t process) {
-    std::ifstream io("/proc/" + std::to_string(process) + "/io");
-    std::string word;
-    std::uint64_t bytes = 0;
-    while (io >> word) {
-        if (word == "rchar:" && io >> bytes) return bytes;
-    }
-    return 0;
-}
-
 double cpu_seconds(pid_t process) {
     std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
     std::string text;

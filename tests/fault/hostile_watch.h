@@ -37,8 +37,6 @@ struct CatalogRow {
 [[nodiscard]] std::size_t open_descriptors(pid_t process);
 // Of the processors, in user and system mode.
 [[nodiscard]] double cpu_seconds(pid_t process);
-// What it has asked to read in all, in bytes; 0 where that cannot be known.
-[[nodiscard]] std::uint64_t bytes_read_by(pid_t process);
 // On disk, of the files without a name that it holds open.
 [[nodiscard]] std::uint64_t unnamed_bytes(pid_t process);
 [[nodiscard]] std::uint64_t disk_bytes_below(const std::filesystem::path& directory);
