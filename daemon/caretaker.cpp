@@ -24,6 +24,14 @@ void log_problem(std::string_view what, const Error& error) {
                 printable(error.message));
 }
 
+// A database that cannot be used at all is named by the service.
+bool is_in_trouble(const catalog::Catalog& catalog, const std::string& station) {
+    const auto troubles = catalog.troubles();
+    return std::any_of(troubles.begin(), troubles.end(), [&](const catalog::Trouble& trouble) {
+        return trouble.station == station;
+    });
+}
+
 }  // namespace
 
 Caretaker::Caretaker(CareOf of, CareTimes times, CareLinks links)
@@ -97,9 +105,9 @@ void Caretaker::examine_databases() {
     if (!stations) return log_problem("cannot examine the catalog", stations.error());
     for (const std::string& station : *stations) {
         if (!pause({})) return;
-        if (const Status sound = of_.catalog.examine(station); !sound) {
+        const Status sound = of_.catalog.examine(station);
+        if (!sound && !is_in_trouble(of_.catalog, station))
             log_problem("cannot mend a database", sound.error());
-        }
     }
 }
 

@@ -97,6 +97,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     std::erase_if(*files, [&](const fs::path& path) { return !may_be_of(path, options.station); });
 
     IngestOptions ingest;
+    ingest.stations = options.stations;
     ingest.decode_threads = options.threads;
     Ingestor ingestor(*catalog, ingest);
     report.files = files->size();
