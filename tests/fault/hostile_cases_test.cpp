@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -39,11 +39,13 @@ constexpr long most_mib = 512;
 // What a configuration says beyond what makes the daemon quick.
 struct More {
     std::string watch = {}, ingest = {}, cache = {}, rest = {};
+    int quiet_s = 2;
 };
 
 std::string configuration(const More& more) {
     return "[watch]\nrescan_seconds = 2\n" + more.watch + "[cache]\npercent = 0\n" + more.cache +
-           "[ingest]\nquiet_seconds = 2\nreread_seconds = 0.05\nworkers = 2\nspacing_km = 10\n"
+           "[ingest]\nquiet_seconds = " + std::to_string(more.quiet_s) +
+           "\nreread_seconds = 0.05\nworkers = 2\nspacing_km = 10\n"
            "extent_km = [200, 200]\nlevels_km = [1, 3, 6]\n" +
            more.ingest + "[log]\nlevel = \"debug\"\n" + more.rest;
 }
@@ -86,19 +88,22 @@ class HostileCases : public ::testing::Test {
         return took.count();
     }
     bool rests(double most_s) { return comes_to_rest(daemon_, most_s); }
-    // But for those of level debug, which no operator sees.
-    std::size_t lines_with(const std::string& text) const {
+    // Lines with this text, of this severity or of any one.
+    std::size_t lines_with(const std::string& text, const std::string& severity = {}) const {
         std::istringstream log(daemon_.log());
         std::size_t lines = 0;
         for (std::string line; std::getline(log, line);) {
-            const bool is_debug = line.find(" debug: ") != std::string::npos;
-            if (!is_debug && line.find(text) != std::string::npos) ++lines;
+            const bool counts = severity.empty() || line.find(" " + severity + ": ") < 30;
+            lines += counts && line.find(text) != std::string::npos ? 1 : 0;
         }
         return lines;
     }
+    std::size_t complaints_about(const std::string& text) const {
+        return lines_with(text, "error") + lines_with(text, "warning");
+    }
     std::string log_end() const {
         const std::string log = daemon_.log();
-        return log.size() > 1000 ? log.substr(log.size() - 1000) : log;
+        return log.size() > 2500 ? log.substr(log.size() - 2500) : log;
     }
     void expect_no_invented_database() {
         const auto databases = databases_in(daemon_.catalog());
@@ -310,6 +315,46 @@ TEST_F(LivingMemory, RecordsThatNeverEndAreCounted) {
     stop();
 }
 
+// More files and volumes of chunks than are followed, each of which begins and then stands still.
+TEST_F(LivingMemory, WhatOnlyBeginsTakesNoPlaceFromWhatGoesOn) {
+    start({.quiet_s = 60});
+    const auto begun = [](std::string_view station) {
+        Claims claims = claims_of(station, now_utc() - std::chrono::hours{1});
+        claims.sweeps = 2;
+        return wire::join({file_header(claims), wire::ldm_record(sweep_messages(claims, 0))});
+    };
+    for (int i = 0; i < 2; ++i) {
+        for (const Station& station : all_stations()) {
+            const std::string name{station.icao};
+            put(name + "_begun" + std::to_string(i), begun(name));
+            put(fs::path{name} / std::to_string(i) / "20241003-010000-001-S", begun(name));
+        }
+    }
+    EXPECT_TRUE(rests(20 * slow_down));
+    Claims growing = claims_of("KTLX", std::chrono::floor<seconds>(now_utc()));
+    Claims of_chunks = claims_of("KFWS", std::chrono::floor<seconds>(now_utc()));
+    growing.sweeps = of_chunks.sweeps = 3;
+    for (unsigned sweep = 0; sweep < 3; ++sweep) {
+        const auto record = [&](const Claims& claims) {
+            const Bytes bytes = wire::ldm_record(sweep_messages(claims, sweep), sweep == 2);
+            return sweep == 0 ? wire::join({file_header(claims), bytes}) : bytes;
+        };
+        const Bytes bytes = record(growing);
+        daemon::append_to_file(daemon_.drop() / "KTLX_real",
+                               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        const std::string kind{"SIE"[sweep]};
+        put("KFWS/77/20241003-020000-00" + std::to_string(sweep + 1) + "-" + kind,
+            record(of_chunks));
+        std::this_thread::sleep_for(milliseconds{700});
+    }
+    const auto time_of = [](const Claims& claims) {
+        return time_from_nexrad(claims.time.day, claims.time.milliseconds);
+    };
+    expect_gridded("KTLX", time_of(growing));
+    expect_gridded("KFWS", time_of(of_chunks));
+    stop();
+}
+
 // ---- Case 2: the newest grid of a site that nobody knows
 // -------------------------------------------
 
@@ -412,9 +457,6 @@ class OneDatabase : public HostileCases, public ::testing::WithParamInterface<Sp
     // Whatever stands there now, the database does again.
     void mend() {
         fs::remove_all(database());
-        // Root has looked into it, and made these.
-        for (const char* beside : {"-wal", "-shm"})
-            fs::remove(database().native() + beside);
         fs::copy_file(aside(), database());
         if (::geteuid() == 0) {
             ASSERT_EQ(::chown(database().c_str(), 65534, 65534), 0);
@@ -428,28 +470,29 @@ TEST_P(OneDatabase, ThatCannotBeOpenedIsItsStationsTroubleAlone) {
     expect_gridded("KTLX", put_good("KTLX"));
     stop();
     spoil();
-    const std::size_t before = lines_with("KTLX.sqlite");
+    const std::size_t before = complaints_about("KTLX.sqlite");
     start();
     for (const char* station : {"KFWS", "KINX", "KVNX"})
         expect_gridded(station, put_good(station));
     const UtcTime later = put_good("KTLX", 60);
     put("misc/no-radar-data", Bytes(300, std::byte{'x'}));
-    EXPECT_TRUE(comes_true(prompt_s, [&] { return lines_with("KTLX.sqlite") > before; }))
+    EXPECT_TRUE(comes_true(prompt_s, [&] { return complaints_about("KTLX.sqlite") > before; }))
         << log_end();
     std::this_thread::sleep_for(seconds{4});
-    EXPECT_EQ(lines_with("KTLX.sqlite"), before + 1) << log_end();
+    EXPECT_EQ(complaints_about("KTLX.sqlite"), before + 1) << log_end();
     EXPECT_NE(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
         << "the status does not name it";
     expect_gridded("KAMA", put_good("KAMA"));
-    EXPECT_EQ(not_rejected({"misc/no-radar-data"}), "");
+    EXPECT_GT(lines_with("misc/no-radar-data ("), 0U) << "it was not rejected";
     mend();
     expect_gridded("KTLX", later, 30.0 * slow_down);
-    EXPECT_EQ(
-        catalog_rows(daemon_.catalog()).count(daemon_.drop() / ("KTLX" + format_compact(later))),
-        1U);
     EXPECT_EQ(daemon_.status().dump().find("KTLX.sqlite"), std::string::npos)
         << "the status still names it";
     stop();
+    // Not before: whoever reads a database as root leaves files beside it that are root's.
+    EXPECT_EQ(
+        catalog_rows(daemon_.catalog()).count(daemon_.drop() / ("KTLX" + format_compact(later))),
+        1U);
 }
 
 std::string name_of_spoilt(const ::testing::TestParamInfo<Spoilt>& which) {
@@ -504,7 +547,7 @@ class Openings {
 
 // More volumes of chunks than are followed at once, one chunk of each in turn.
 TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
-    constexpr int volumes = 400, chunks = 12;
+    constexpr int volumes = 350, chunks = 10;
     const UtcTime time = now_utc() - std::chrono::minutes{5};
     const auto directory_of = [&](int volume) { return fs::path{"KTLX"} / std::to_string(volume); };
     const auto put_chunk = [&](int volume, int chunk) {
@@ -529,6 +572,7 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
         for (int volume = 0; volume < volumes; ++volume) {
             put_chunk(volume, chunk);
             openings.count();
+            std::this_thread::sleep_for(milliseconds{3});  // for the daemon to look at each
         }
     }
     expect_gridded("KFWS", put_good("KFWS"), 2 * prompt_s);

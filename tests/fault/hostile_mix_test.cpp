@@ -1,5 +1,5 @@
-// Every attack at once, beside a real feed of 16 stations: what the issue of the daemon's bounds
-// promises, measured from outside.
+// Every attack at once, beside a real feed of 16 stations: that the bounds of docs/reliability.md
+// hold, measured from outside.
 //
 //   STORMCELLAR_HOSTILE_SECONDS   how long (20; scripts/test --hostile: 1,800)
 //   STORMCELLAR_HOSTILE_RATE      hostile files a second (1,000)
