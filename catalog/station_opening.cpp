@@ -21,6 +21,10 @@ namespace fs = std::filesystem;
 
 // How long a statement waits for another process's write before it gives up.
 constexpr int busy_timeout_ms = 10'000;
+// Of the write-ahead log, from where it is brought into the database, and what is left of its file
+// then. A registration writes some five pages.
+constexpr int most_log_pages = 128;
+constexpr int most_log_bytes = 512 << 10;
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
     // SQLite says of a file without permission only that it cannot be opened.
@@ -151,6 +155,9 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         if (Status ours = check_identity(database, path); !ours) return pass_on(ours);
         enter_wal(database);
         database.exec("PRAGMA synchronous = FULL");
+        // Each station that is open has a log of its own, so none may grow to SQLite's usual 4 MB.
+        database.exec(fmt::format("PRAGMA wal_autocheckpoint = {}", most_log_pages));
+        database.exec(fmt::format("PRAGMA journal_size_limit = {}", most_log_bytes));
         database.exec("PRAGMA foreign_keys = ON");
         migrate(database);
         return opened;

@@ -27,9 +27,8 @@ void log_problem(std::string_view what, const Error& error) {
 // A database that cannot be used at all is named by the service.
 bool is_in_trouble(const catalog::Catalog& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
-    return std::any_of(troubles.begin(), troubles.end(), [&](const catalog::Trouble& trouble) {
-        return trouble.station == station;
-    });
+    return std::any_of(troubles.begin(), troubles.end(),
+                       [&](const catalog::Trouble& trouble) { return trouble.station == station; });
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ bool GrowingFiles::has_room_for(const std::string& station) {
     const auto own = by_station_.find(station);
     const std::size_t own_count = own == by_station_.end() ? 0 : own->second.size();
     if (largest->second.size() <= own_count + 1) return false;
-    displaced_.push_back(*largest->second.begin());
+    displaced_.emplace_back(*largest->second.begin());
     forget(displaced_.back());
     return true;
 }
@@ -21,8 +21,8 @@ bool GrowingFiles::has_room_for(const std::string& station) {
 void GrowingFiles::add(const std::filesystem::path& path, File file, SteadyTime now) {
     if (files_.empty()) next_poll_ = now + settle;
     forget(path);
-    by_station_[file.station].insert(path);
-    files_.emplace(path, std::move(file));
+    by_station_[file.station].insert(path.native());
+    files_.emplace(path.native(), std::move(file));
 }
 
 GrowingFiles::Files::iterator GrowingFiles::erase(Files::iterator file) {
@@ -33,12 +33,12 @@ GrowingFiles::Files::iterator GrowingFiles::erase(Files::iterator file) {
 }
 
 void GrowingFiles::forget(const std::filesystem::path& path) {
-    if (const auto known = files_.find(path); known != files_.end()) erase(known);
+    if (const auto known = files_.find(path.native()); known != files_.end()) erase(known);
 }
 
 bool GrowingFiles::add_new(const std::filesystem::path& path, const FileStamp& stamp,
                            SteadyTime now, const std::string& station) {
-    if (files_.contains(path)) return true;
+    if (files_.contains(path.native())) return true;
     if (!has_room_for(station)) return false;
     File file{.looked_at = {}, .last = stamp, .since = now, .changed_at = now};
     file.station = station;
@@ -48,7 +48,7 @@ bool GrowingFiles::add_new(const std::filesystem::path& path, const FileStamp& s
 
 bool GrowingFiles::add_incomplete(const std::filesystem::path& path, const FileStamp& stamp,
                                   SteadyTime now, bool followed, const std::string& station) {
-    if (!files_.contains(path) && !has_room_for(station)) return false;
+    if (!files_.contains(path.native()) && !has_room_for(station)) return false;
     add(path,
         {.looked_at = stamp,
          .last = stamp,
@@ -76,34 +76,37 @@ std::optional<GrowingFiles::Due> GrowingFiles::decide(const std::filesystem::pat
     return std::nullopt;
 }
 
+GrowingFiles::Files::iterator GrowingFiles::look_at(Files::iterator entry, SteadyTime now,
+                                                    const Look& look, std::vector<Due>& due) {
+    auto& [path, file] = *entry;
+    const FileFound found = look(path);
+    if (found.standing == Standing::unknown) return std::next(entry);
+    const bool was_there = file.last != FileStamp{};
+    if (found.standing != Standing::regular && (was_there || !file.incomplete)) {
+        if (file.incomplete) due.push_back({path, {}, false});
+        return erase(entry);
+    }
+    if (found.stamp != file.last) {
+        file.last = found.stamp;
+        file.changed_at = now;
+    }
+    auto decided = decide(path, file, now);
+    if (!decided) return std::next(entry);
+    due.push_back(std::move(*decided));
+    return erase(entry);
+}
+
 std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& look) {
     std::vector<Due> due;
     if (files_.empty() || now < next_poll_) return due;
     next_poll_ = now + settle;
-    for (auto entry = files_.begin(); entry != files_.end();) {
-        auto& [path, file] = *entry;
-        const FileFound found = look(path);
-        if (found.standing == Standing::unknown) {
-            ++entry;
-            continue;
-        }
-        const bool was_there = file.last != FileStamp{};
-        if (found.standing != Standing::regular && (was_there || !file.incomplete)) {
-            if (file.incomplete) due.push_back({path, {}, false});
-            entry = erase(entry);
-            continue;
-        }
-        if (found.stamp != file.last) {
-            file.last = found.stamp;
-            file.changed_at = now;
-        }
-        if (auto decided = decide(path, file, now)) {
-            due.push_back(std::move(*decided));
-            entry = erase(entry);
-        } else {
-            ++entry;
-        }
+    auto entry = files_.lower_bound(next_name_);
+    for (std::size_t left = std::min(files_.size(), most_looks); left > 0; --left) {
+        if (entry == files_.end()) entry = files_.begin();
+        entry = look_at(entry, now, look, due);
+        if (files_.empty()) break;
     }
+    next_name_ = entry == files_.end() ? std::string{} : entry->first;
     return due;
 }
 
@@ -114,7 +117,7 @@ std::optional<SteadyTime> GrowingFiles::next_time() const {
 
 std::optional<SteadyTime> GrowingFiles::found_incomplete_at(
     const std::filesystem::path& path) const {
-    const auto found = files_.find(path);
+    const auto found = files_.find(path.native());
     if (found == files_.end() || !found->second.incomplete) return std::nullopt;
     return found->second.since;
 }

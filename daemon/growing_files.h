@@ -34,6 +34,8 @@ class GrowingFiles {
     static constexpr Duration settle = std::chrono::seconds{1};  // also how often stamps are read
     // A writer that keeps its file open at a great pace is to be followed soon; a large copy is
     // looked at once in vain.
+    // So many stamps are read in a second: of more files each has its turn less often.
+    static constexpr std::size_t most_looks = 512;
     static constexpr Duration busy = std::chrono::seconds{3};
     // A file that is followed shows its sweeps anyway, and to finish it is to begin it anew when
     // more comes after all: it is given so many times `quiet`.
@@ -68,7 +70,7 @@ class GrowingFiles {
 
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     [[nodiscard]] bool contains(const std::filesystem::path& path) const {
-        return files_.contains(path);
+        return files_.contains(path.native());
     }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
     // When the file was last looked at and found incomplete; none for all others.
@@ -85,9 +87,13 @@ class GrowingFiles {
         bool followed = false;
         std::string station = {};
     };
-    using Files = std::map<std::filesystem::path, File>;
+    // By their names as text: to compare paths part by part takes ten times as long.
+    using Files = std::map<std::string, File>;
     bool has_room_for(const std::string& station);
     void add(const std::filesystem::path& path, File file, SteadyTime now);
+    // Looks at a file whose turn it is; gives the next one.
+    Files::iterator look_at(Files::iterator entry, SteadyTime now, const Look& look,
+                            std::vector<Due>& due);
     Files::iterator erase(Files::iterator file);
     [[nodiscard]] std::optional<Due> decide(const std::filesystem::path& path, const File& file,
                                             SteadyTime now) const;
@@ -96,7 +102,8 @@ class GrowingFiles {
     std::size_t limit_;
     SteadyTime next_poll_{};
     Files files_;
-    std::map<std::string, std::set<std::filesystem::path>> by_station_;
+    std::map<std::string, std::set<std::string>> by_station_;
+    std::string next_name_;  // where the next poll goes on
     std::vector<std::filesystem::path> displaced_;
 };
 

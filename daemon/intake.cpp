@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/chunk_path.h"
 #include "pipeline/drop_names.h"
 
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::size_t most_growing = 16'384;
+constexpr std::size_t most_growing = 4096;
+constexpr std::size_t most_placed = 4096;
 constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
@@ -51,6 +53,18 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
+// What goes on with a volume that is followed comes before the beginnings of others.
+void Intake::note_place(const std::filesystem::path& path, bool has_place) {
+    const auto chunk = pipeline::ChunkPath::of(path);
+    if (!chunk) return;
+    if (!has_place) {
+        placed_.erase(chunk->key);
+        return;
+    }
+    if (placed_.size() >= most_placed) placed_.clear();
+    placed_.insert(chunk->key);
+}
+
 void Intake::note_displaced() {
     for (const auto& paths : {schedule_.take_displaced(), growing_.take_displaced()}) {
         for (const std::filesystem::path& path : paths) {
@@ -66,7 +80,8 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.path = path;
     const bool is_followed = followed_.contains(path);
     job.urgency = urgency;
-    job.is_begun = is_followed || pipeline::is_chunk_name(path);
+    const auto chunk = pipeline::ChunkPath::of(path);
+    job.is_begun = is_followed || (chunk && placed_.contains(chunk->key));
     job.is_registered = is_followed;
     job.station = station_of(path);
     return job;
@@ -219,6 +234,7 @@ void Intake::job_ended(const Finished& finished) {
     if (!finished.taken) return job_failed(finished);
     SteadyTime again{};
     followed_.erase(path);
+    note_place(path, finished.taken->ingest.has_place);
     switch (finished.taken->ingest.result) {
         case pipeline::IngestResult::incomplete:
             if (!finished.taken->ingest.followed) again = finished.ended + reread_;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,7 @@ class Intake final : public WatchListener {
     void job_failed(const Finished& finished);
     // What had to give its place is found again by a scan.
     void note_displaced();
+    void note_place(const std::filesystem::path& path, bool has_place);
     void leave_to_scan(const std::filesystem::path& path);
 
     [[nodiscard]] FileFound look(const std::filesystem::path& path) const {
@@ -119,6 +121,8 @@ class Intake final : public WatchListener {
     SeenFiles seen_;
     // Growing files of which only what is new is read, and so at once.
     std::set<std::filesystem::path> followed_;
+    // The same of volumes of chunks (pipeline/chunk_path.h), by their keys.
+    std::unordered_set<std::string> placed_;
     bool refused_ = false;  // something did not fit since the last scan began
     bool lost_ = false;
     std::uint64_t overflows_ = 0, unseen_ = 0;

@@ -19,6 +19,7 @@ constexpr std::chrono::milliseconds least_scan_gap{100};
 constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
+constexpr std::chrono::seconds between_held_back{1};
 constexpr std::chrono::seconds longest_start{60};  // from one look to the next, at most
 // A drop directory that is missing at the start is looked for so often, not once a minute.
 constexpr std::chrono::seconds between_first_scans{1};
@@ -78,6 +79,7 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
     });
     need([this] { return can_write_in(parts_.file_system, config_.state); });
     need([this] { return parts_.sink.can_store(); });
+    watcher_.on_step([this] { step_of_scan(); });
     status_.set_listening(config_.status.socket, config_.status.http_port);
     watch("missing", row_keeper_.pulse());
     watch("cache", cache_keeper_.pulse());
@@ -261,6 +263,18 @@ void Service::note_drop(const Status& scanned) {
     status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
 }
 
+// A scan of many files takes seconds, in which the workers are not to stand still and what is
+// closed is to be seen. A directory that an event tells of is scanned in a step, without steps of
+// its own.
+void Service::step_of_scan() {
+    if (is_in_step_) return;
+    is_in_step_ = true;
+    collect();
+    watcher_.read_events();
+    start_jobs();
+    is_in_step_ = false;
+}
+
 void Service::scan() {
     const SteadyTime began = parts_.clock.steady();
     const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
@@ -310,7 +324,10 @@ void Service::keep_house() {
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         Reporter::report_directory(problem);
-    log_held_back();
+    if (now >= next_held_back_) {
+        next_held_back_ = now + between_held_back;
+        log_held_back();
+    }
     if (const auto usage = cache_keeper_.poll(now, config_.budgets)) {
         status_.set_usage(*usage);
         status_file_.changed();

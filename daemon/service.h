@@ -89,6 +89,7 @@ class Service {
     void collect();
     void scan_if_due();
     void scan();
+    void step_of_scan();
     void note_drop(const Status& scanned);
     void get_ready();
     void start_jobs();
@@ -120,6 +121,7 @@ class Service {
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     Readiness readiness_;
+    bool is_in_step_ = false;  // of a scan
     bool drop_missing_ = false;
     std::string drop_problem_;
     // The earliest next scan, the regular one, and the next that looks for rows of missing files
@@ -129,7 +131,7 @@ class Service {
     bool state_lost_ = false;  // and it stands in the log
     bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
-    SteadyTime next_catalog_look_{};
+    SteadyTime next_catalog_look_{}, next_held_back_{};
     SteadyTime next_loops_look_{};
     bool loops_kept_twice_ = false;  // and it stands in the log
     WorkerPool pool_;                // last: its threads, and the next one's, use what stands above

@@ -136,11 +136,10 @@ void Service::report(const Finished& finished) {
         report_catalog(parts_.clock.steady());
     }
     const auto& troubles = status_.facts().catalog.troubles;
-    const bool is_named = !finished.taken && std::any_of(troubles.begin(), troubles.end(),
-                                                         [&](const auto& trouble) {
-                                                             return trouble.second ==
-                                                                    finished.taken.error().message;
-                                                         });
+    const bool is_named =
+        !finished.taken && std::any_of(troubles.begin(), troubles.end(), [&](const auto& trouble) {
+            return trouble.second == finished.taken.error().message;
+        });
     Reporter::report(finished, is_named ? Named::before : Named::not_yet);
 }
 

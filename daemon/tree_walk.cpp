@@ -100,7 +100,8 @@ void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor) {
     const int descriptor = ::dirfd(directory);
     NameProblem problem(path, visitor);
-    for (;;) {
+    for (int entries = 1;; ++entries) {
+        if (entries % entries_a_step == 0 && visitor.step) visitor.step();
         errno = 0;
         const struct dirent* entry = ::readdir(directory);
         if (entry == nullptr) {

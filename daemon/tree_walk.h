@@ -16,6 +16,7 @@
 namespace stormcellar::daemon {
 
 inline constexpr int max_walk_depth = 16;
+inline constexpr int entries_a_step = 128;
 
 struct WalkVisitor {
     // Called before the directory's entries are read, so that a watch set here misses nothing.
@@ -27,6 +28,8 @@ struct WalkVisitor {
     std::function<void(const std::filesystem::path&, mode_t mode)> other = {};
     // Beside `problem`: the system has no descriptors or no memory for it now. May be empty.
     std::function<void()> unseen = {};
+    // Called after so many entries, for whoever has other things to do meanwhile. May be empty.
+    std::function<void()> step = {};
 };
 
 // Fails (not_found, permission, io) when the root itself cannot be read. `depth`: of the root below

@@ -47,7 +47,10 @@ Status Watcher::scan_below(const std::filesystem::path& directory) {
                  [this](const std::filesystem::path& path, mode_t mode) {
                      listener_.entry_left_out(path, kind_of_file(mode));
                  },
-                 [this] { listener_.entry_unseen(); }},
+                 [this] { listener_.entry_unseen(); },
+                 [this] {
+                     if (step_) step_();
+                 }},
                 static_cast<int>(depth));
 }
 

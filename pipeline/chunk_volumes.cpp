@@ -208,13 +208,15 @@ std::filesystem::path ChunkVolumes::wait_for_place(const ChunkPath& chunk) {
 }
 
 std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
-                                                bool more_may_come) {
+                                                Expected expected) {
     const std::scoped_lock lock(mutex_);
     if (auto known = volumes_.find(chunk.key)) return known;
     const auto now = std::chrono::steady_clock::now();
-    const bool has_place = !not_again_.contains(chunk.key) && volumes_.has_place(station, now);
+    const bool was_given_up = not_again_.contains(chunk.key);
+    const bool has_place = !was_given_up && volumes_.has_place(station, now);
     note_given_up();
-    if (!has_place && more_may_come) return nullptr;
+    if (was_given_up && expected != Expected::nothing) return nullptr;
+    if (!has_place && expected == Expected::more) return nullptr;
     level2::LiveOptions live;
     live.timeout = options_.chunk_timeout;
     live.grace = options_.chunk_grace;

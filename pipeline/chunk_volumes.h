@@ -106,14 +106,16 @@ class ChunkVolumes {
     explicit ChunkVolumes(LivingFile::Options options, GrowingLimits limits = {})
         : options_(std::move(options)), volumes_(limits) {}
 
-    // Made where it is not known. `station`: whose its path says that it is. Null where more chunks
-    // may come and there is no place for it now, or it was given up before: it is to be asked for
-    // again when it is quiet.
+    // What is still to come of a volume, as far as its caller knows.
+    enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
+    // Made where it is not known. `station`: whose its path says that it is. Null where there is no
+    // place for it and more is expected, or where it was given up and is not over: it is to be
+    // asked for again when it is quiet.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk,
                                                     const std::string& station,
-                                                    bool more_may_come = true);
-    // Whether a volume may be finished by what its files' names and times say, without reading them:
-    // its end is there, or nothing has come for the timeout.
+                                                    Expected expected = Expected::more);
+    // Whether a volume may be finished by what its files' names and times say, without reading
+    // them: its end is there, or nothing has come for the timeout.
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
     // Of a volume that found no place: this chunk waits for it now, in the place of the one that is
     // given (empty: none).

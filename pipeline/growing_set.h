@@ -8,9 +8,9 @@
 // Of memory and disk the largest and least alive gives way: what it holds, times a weight that
 // grows by one for each minute in which nothing came of it. Of the number of things the least alive
 // of the station that has most.
-// A newcomer finds no place where only things stand that are alive (something came of them within
-// `most_idle`): to give these up for it, and it for the next one, would be to read all again and
-// again.
+// A newcomer finds no place where only things stand that are alive: something came of them within
+// the last minute, or they began within the last five seconds. To give these up for it, and it for
+// the next one, would be to read all again and again.
 // Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
 #pragma once
 
@@ -40,7 +40,9 @@ template <class Key, class Object>
 class GrowingSet {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds most_idle{60};
+    static constexpr std::chrono::seconds most_idle{60}, most_idle_when_begun{5};
+    // What has not grown for so long since it began has only begun.
+    static constexpr std::chrono::seconds beginning{1};
 
     explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
 
@@ -63,7 +65,7 @@ class GrowingSet {
 
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station,
              Clock::time_point now) {
-        things_.insert_or_assign(key, Thing{std::move(object), station, now, 0, 0});
+        things_.insert_or_assign(key, Thing{std::move(object), station, now, now, 0, 0});
     }
 
     // Counts what it holds now. False: it was given up, or another stands in its place.
@@ -96,7 +98,7 @@ class GrowingSet {
     struct Thing {
         std::shared_ptr<Object> object;
         std::string station;  // empty: of none that is known
-        Clock::time_point grew_at;
+        Clock::time_point began_at, grew_at;
         std::uint64_t held_bytes = 0, shelf_bytes = 0;
     };
     using Things = std::map<Key, Thing>;
@@ -127,6 +129,11 @@ class GrowingSet {
         things_.erase(place);
     }
 
+    [[nodiscard]] static bool is_idle(const Thing& thing, Clock::time_point now) {
+        const bool has_only_begun = thing.grew_at - thing.began_at < beginning;
+        return now - thing.grew_at >= (has_only_begun ? most_idle_when_begun : most_idle);
+    }
+
     // The least alive of the station (null: of the one that has most), where nothing came of it for
     // long enough.
     bool give_up_idle(const std::string* station, Clock::time_point now) {
@@ -142,7 +149,7 @@ class GrowingSet {
         for (Place at = things_.begin(); at != things_.end(); ++at) {
             const Thing& thing = at->second;
             if (station != nullptr && thing.station != *station) continue;
-            if (now - thing.grew_at < most_idle) continue;
+            if (!is_idle(thing, now)) continue;
             if (chosen == things_.end() || count(thing) > count(chosen->second) ||
                 (count(thing) == count(chosen->second) && thing.grew_at < chosen->second.grew_at)) {
                 chosen = at;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "level2/volume_checks.h"
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
+#include "pipeline/read_whole.h"
 #include "pipeline/stopwatch.h"
 
 namespace stormcellar::pipeline {
@@ -25,10 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 // Nearly all of a volume of chunks lies on the shelf.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
-
-// The largest volume known has 12 MB, uncompressed 75. Larger files are read one at a time, so that
-// several together do not take the memory.
-constexpr std::uint64_t large_file_bytes = std::uint64_t{32} << 20;
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
@@ -364,46 +360,37 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                  before.size_bytes, options.most_file_bytes)},
             outcome);
     }
-    std::unique_lock alone(large_file, std::defer_lock);
-    if (before.size_bytes > large_file_bytes && !alone.try_lock()) {
-        outcome.result = IngestResult::incomplete;
-        outcome.reason = "waits until another large file has been read";
-        return outcome;
-    }
-    const auto read_start = Clock::now();
-    const auto bytes = read_beneath(options.beneath, path, options.most_file_bytes);
-    outcome.read_s = seconds_since(read_start);
-    const auto after = stamp_of(path, options.beneath);
-    if (!bytes && after) {
-        const ErrorCode code = bytes.error().code;
-        // Ours for now, as when descriptors run out: the file is not to blame.
-        if (code == ErrorCode::io || is_shortage(code)) return pass_on(bytes);
-        if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
-        return reject(facts, {code, without_path(bytes.error().message, path)}, outcome);
-    }
-    if (!bytes || !after || *after != before) {
-        outcome.result = IngestResult::incomplete;
-        outcome.reason = "changed while it was read";
-        return outcome;
-    }
-    facts.content_hash = xxh3_64(*bytes);
-    if (options.check_read) {
-        const Status wanted = options.check_read(path, bytes->size(), facts.content_hash);
-        if (!wanted) {
-            const Error& why = wanted.error();
-            return reject(facts, {why.code, without_path(why.message, path)}, outcome);
-        }
-    }
-
-    const auto decode_start = Clock::now();
     level2::DecodeOptions decode_options;
     decode_options.threads = share_of(options.decode_threads);
     decode_options.output_limit_bytes = options.most_output_bytes;
     decode_options.selection = {moments_of(options), {}};
     decode_options.array_limit_bytes = most_array_bytes(decode_options.selection);
     decode_options.fallback_station = facts.station;
-    auto decoded = level2::decode(*bytes, decode_options);
-    outcome.decode_s = seconds_since(decode_start);
+    auto read = read_whole(options.beneath, path, before.size_bytes, decode_options);
+    outcome.read_s = read.read_s;
+    outcome.decode_s = read.decode_s;
+    const auto after = stamp_of(path, options.beneath);
+    if (!after || *after != before) {
+        outcome.result = IngestResult::incomplete;
+        outcome.reason = "changed while it was read";
+        return outcome;
+    }
+    if (!read.was_read) {
+        const ErrorCode code = read.was_read.error().code;
+        // Ours for now, as when descriptors run out: the file is not to blame.
+        if (code == ErrorCode::io || is_shortage(code)) return pass_on(read.was_read);
+        if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
+        return reject(facts, {code, without_path(read.was_read.error().message, path)}, outcome);
+    }
+    facts.content_hash = read.content_hash;
+    if (options.check_read) {
+        const Status wanted = options.check_read(path, before.size_bytes, facts.content_hash);
+        if (!wanted) {
+            const Error& why = wanted.error();
+            return reject(facts, {why.code, without_path(why.message, path)}, outcome);
+        }
+    }
+    auto& decoded = read.decoded;
     if (!decoded) {
         const ErrorCode code = decoded.error().code;
         if (is_shortage(code)) return pass_on(decoded);

@@ -166,6 +166,21 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     return taken;
 }
 
+// A volume that found no place is read at once when its end has come.
+ChunkVolumes::Expected Ingestor::Impl::expected_of(const ChunkPath& chunk, Finish finish) const {
+    using Expected = ChunkVolumes::Expected;
+    switch (finish) {
+        case Finish::as_it_is:
+            return Expected::nothing;
+        case Finish::when_quiet:
+            return chunks->may_be_due(chunk) ? Expected::nothing : Expected::more;
+        case Finish::when_it_ends:
+            break;
+    }
+    const bool is_end = chunk.name.kind == level2::ChunkKind::end;
+    return is_end ? Expected::its_end_is_there : Expected::more;
+}
+
 // One chunk of the volume, the newest, is asked for again in the name of all.
 Result<IngestOutcome> Ingestor::Impl::wait_for_place(const ChunkPath& chunk, const FileStamp& stamp,
                                                      IngestOutcome outcome) {
@@ -179,9 +194,8 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
                                                                 IngestOutcome outcome) {
     if (!before.regular) return std::nullopt;
     const std::string path_station = taken_station(station_of_path(chunk.path));
-    const bool more_may_come = finish == Finish::when_it_ends ||
-                               (finish == Finish::when_quiet && !chunks->may_be_due(chunk));
-    std::shared_ptr<ChunkVolume> volume = chunks->find(chunk, path_station, more_may_come);
+    const auto expected = expected_of(chunk, finish);
+    std::shared_ptr<ChunkVolume> volume = chunks->find(chunk, path_station, expected);
     outcome.given_up = chunks->take_given_up();
     if (!volume) return wait_for_place(chunk, before, std::move(outcome));
     std::unique_lock lock(volume->mutex);
@@ -194,7 +208,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         }
         lock.unlock();
         chunks->forget(chunk, volume.get());
-        volume = chunks->find(chunk, path_station, more_may_come);
+        volume = chunks->find(chunk, path_station, expected);
         if (!volume) return wait_for_place(chunk, before, std::move(outcome));
         lock = std::unique_lock(volume->mutex);
     }
@@ -230,6 +244,7 @@ Result<IngestOutcome> Ingestor::Impl::show_chunk(const ChunkPath& chunk, const F
                                                  ChunkVolume& volume, IngestOutcome outcome) {
     if (Status stored = record(facts); !stored) return pass_on(stored);
     volume.is_finished = !chunks->grew(chunk, volume, taken_station(facts.station));
+    outcome.has_place = !volume.is_finished;
     outcome.given_up += chunks->take_given_up();
     if (volume.news().any && volume.kept() != nullptr) {
         const auto shown =

@@ -36,7 +36,9 @@ struct IngestOutcome {
     std::optional<ErrorCode> rejected_with;  // of what kind the reason is; rejected files alone
     std::string reason;     // why rejected, or what is wrong or worth saying; one line
     bool followed = false;  // incomplete: what is appended will be read without the rest
-    bool partial = false;   // gridded: some volume had not ended, or was damaged
+    // Of a chunk: its volume is followed, so that what comes of it is read without the rest.
+    bool has_place = false;
+    bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,7 +63,6 @@ struct Ingestor::Impl {
     std::optional<LivingFiles> living;
     std::optional<ChunkVolumes> chunks;
     std::atomic<int> running{0};
-    std::mutex large_file;  // held by whoever reads one
 
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
     // A file that was tried often enough. `why`: of the last try.
@@ -91,6 +89,7 @@ struct Ingestor::Impl {
                         const Reading& reading, IngestOutcome& outcome);
     // Of a file that grows and is not followed: it is looked at again when it ends or is quiet.
     Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
+    [[nodiscard]] ChunkVolumes::Expected expected_of(const ChunkPath& chunk, Finish finish) const;
     // The same of a chunk whose volume found no place.
     Result<IngestOutcome> wait_for_place(const ChunkPath& chunk, const FileStamp& stamp,
                                          IngestOutcome outcome);

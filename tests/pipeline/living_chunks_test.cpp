@@ -216,7 +216,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     EXPECT_FALSE(has_its_share);
     EXPECT_EQ(each.take_given_up(), 1U);
     EXPECT_EQ(each.find(given_up, "A"), nullptr) << "it would be read again with each chunk";
-    EXPECT_TRUE(each.find(given_up, "A", false)) << "it is quiet";
+    EXPECT_TRUE(each.find(given_up, "A", ChunkVolumes::Expected::nothing)) << "it is quiet";
 }
 
 TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
