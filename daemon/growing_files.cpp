@@ -99,14 +99,20 @@ GrowingFiles::Files::iterator GrowingFiles::look_at(Files::iterator entry, Stead
 std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& look) {
     std::vector<Due> due;
     if (files_.empty() || now < next_poll_) return due;
-    next_poll_ = now + settle;
+    // A round a second, in pieces, so that nobody waits for it.
+    if (looks_left_ == 0) {
+        looks_left_ = std::min(files_.size(), most_looks);
+        next_round_ = now + settle;
+    }
     auto entry = files_.lower_bound(next_name_);
-    for (std::size_t left = std::min(files_.size(), most_looks); left > 0; --left) {
+    for (std::size_t i = 0; i < most_looks_at_once && looks_left_ > 0; ++i) {
+        --looks_left_;
         if (entry == files_.end()) entry = files_.begin();
         entry = look_at(entry, now, look, due);
-        if (files_.empty()) break;
+        if (files_.empty()) looks_left_ = 0;
     }
     next_name_ = entry == files_.end() ? std::string{} : entry->first;
+    next_poll_ = looks_left_ == 0 ? next_round_ : now;
     return due;
 }
 

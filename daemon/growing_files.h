@@ -36,6 +36,7 @@ class GrowingFiles {
     // looked at once in vain.
     // So many stamps are read in a second: of more files each has its turn less often.
     static constexpr std::size_t most_looks = 512;
+    static constexpr std::size_t most_looks_at_once = 64;
     static constexpr Duration busy = std::chrono::seconds{3};
     // A file that is followed shows its sweeps anyway, and to finish it is to begin it anew when
     // more comes after all: it is given so many times `quiet`.
@@ -103,7 +104,9 @@ class GrowingFiles {
     SteadyTime next_poll_{};
     Files files_;
     std::map<std::string, std::set<std::string>> by_station_;
-    std::string next_name_;  // where the next poll goes on
+    std::string next_name_;       // where the next poll goes on
+    std::size_t looks_left_ = 0;  // of the round that has begun
+    SteadyTime next_round_{};
     std::vector<std::filesystem::path> displaced_;
 };
 

@@ -79,7 +79,7 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
     });
     need([this] { return can_write_in(parts_.file_system, config_.state); });
     need([this] { return parts_.sink.can_store(); });
-    watcher_.on_step([this] { step_of_scan(); });
+    watcher_.on_step([this] { keep_workers_busy(); });
     status_.set_listening(config_.status.socket, config_.status.http_port);
     watch("missing", row_keeper_.pulse());
     watch("cache", cache_keeper_.pulse());
@@ -140,12 +140,13 @@ void Service::turn() {
     handle_signals();
     if (stop_requested_) return;
     wake_up_.clear();
-    collect();
+    keep_workers_busy();
     watcher_.read_events();
+    keep_workers_busy();
     scan_if_due();
     intake_.poll_growing();
     get_ready();
-    start_jobs();
+    keep_workers_busy();
     keep_house();
     const std::size_t waiting = intake_.pending().waiting;
     idle_ = waiting == 0;
@@ -263,16 +264,11 @@ void Service::note_drop(const Status& scanned) {
     status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
 }
 
-// A scan of many files takes seconds, in which the workers are not to stand still and what is
-// closed is to be seen. A directory that an event tells of is scanned in a step, without steps of
-// its own.
-void Service::step_of_scan() {
-    if (is_in_step_) return;
-    is_in_step_ = true;
+// Called between two parts of what takes long: a scan of many files takes seconds, a burst of events
+// a tenth of one.
+void Service::keep_workers_busy() {
     collect();
-    watcher_.read_events();
     start_jobs();
-    is_in_step_ = false;
 }
 
 void Service::scan() {

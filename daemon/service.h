@@ -89,7 +89,7 @@ class Service {
     void collect();
     void scan_if_due();
     void scan();
-    void step_of_scan();
+    void keep_workers_busy();
     void note_drop(const Status& scanned);
     void get_ready();
     void start_jobs();
@@ -121,7 +121,6 @@ class Service {
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     Readiness readiness_;
-    bool is_in_step_ = false;  // of a scan
     bool drop_missing_ = false;
     std::string drop_problem_;
     // The earliest next scan, the regular one, and the next that looks for rows of missing files

@@ -15,6 +15,8 @@
 namespace stormcellar::daemon {
 namespace {
 
+constexpr int events_a_step = 32;
+
 bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
     const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
     return end.first == directory.end();
@@ -47,10 +49,7 @@ Status Watcher::scan_below(const std::filesystem::path& directory) {
                  [this](const std::filesystem::path& path, mode_t mode) {
                      listener_.entry_left_out(path, kind_of_file(mode));
                  },
-                 [this] { listener_.entry_unseen(); },
-                 [this] {
-                     if (step_) step_();
-                 }},
+                 [this] { listener_.entry_unseen(); }, [this] { step(); }},
                 static_cast<int>(depth));
 }
 
@@ -109,9 +108,19 @@ void Watcher::unwatch_tree(const std::filesystem::path& directory) {
     }
 }
 
+void Watcher::step() {
+    if (step_) step_();
+    if (!is_reading_) read_events();
+}
+
 void Watcher::read_events() {
-    for (const DirectoryEvent& event : events_.read())
+    is_reading_ = true;
+    int handled = 0;
+    for (const DirectoryEvent& event : events_.read()) {
         handle(event);
+        if (++handled % events_a_step == 0) step();
+    }
+    is_reading_ = false;
 }
 
 void Watcher::handle(const DirectoryEvent& event) {

@@ -63,7 +63,8 @@ class Watcher {
     // Both must outlive the watcher.
     Watcher(std::filesystem::path drop, EventSource& events, WatchListener& listener);
 
-    // Called now and then while a scan lasts, from within scan(); it may call read_events().
+    // Called now and then from within scan() and read_events(), while there is much to do. In a
+    // scan events are read then as well.
     void on_step(std::function<void()> step) { step_ = std::move(step); }
     // Watches and reports everything below the drop directory; fails when it cannot be read.
     [[nodiscard]] Status scan();
@@ -86,7 +87,9 @@ class Watcher {
     std::filesystem::path drop_;
     EventSource& events_;
     WatchListener& listener_;
+    void step();
     std::function<void()> step_;
+    bool is_reading_ = false;  // events
     std::unordered_map<int, std::filesystem::path> path_of_;
     std::map<std::filesystem::path, int> watch_of_;  // sorted: a tree is one run of entries
     std::size_t unwatched_ = 0, silent_ = 0;         // directories, of the last scan and since

@@ -101,8 +101,9 @@ Status GrowingVolume::Reader::read_records(bool last) {
         if (Status taken = volume_.append(std::move(fragment)); !taken) return taken;
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
-    // Many volumes grow at once, and each has a record of half a megabyte once a sweep.
-    if (held_.capacity() > kept_bytes + held_.size()) held_.shrink_to_fit();
+    // Many volumes grow at once, and each has a record of half a megabyte once a sweep. A record
+    // that is still coming keeps its room: to move it with each stretch takes time by the square.
+    if (held_.capacity() > kept_bytes + 2 * held_.size()) held_.shrink_to_fit();
     return {};
 }
 

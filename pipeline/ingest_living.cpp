@@ -139,6 +139,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
         if (claimed.empty() || !station.empty()) file = living->begin(path, facts.station, station);
         // What is not followed is read when it has ended or has been quiet, and not before: again
         // and again it would be read in vain.
+        if (!file && LivingFile::has_ended(path, *growing, options.beneath)) return std::nullopt;
         if (!file) return wait_unread(std::move(facts), std::move(outcome));
     }
     if (!file) return std::nullopt;

@@ -16,6 +16,7 @@
 #include "base/descriptor.h"
 #include "level2/archive_header.h"
 #include "level2/content.h"
+#include "level2/live_chunk.h"
 #include "pipeline/ingest_options.h"
 
 namespace stormcellar::pipeline {
@@ -27,6 +28,9 @@ constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
 constexpr double same_elevation_deg = 0.2;
 constexpr std::chrono::minutes longest_standing{20};
 constexpr std::uint64_t most_records = 10'000;
+// The largest record known has half a megabyte, and holds five.
+constexpr std::uint64_t most_last_record_bytes = std::uint64_t{2} << 20;
+constexpr std::uint64_t most_last_record_output = std::uint64_t{16} << 20;
 
 class OpenFile {
   public:
@@ -66,19 +70,39 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
     return static_cast<std::int32_t>(value);
 }
 
-// Whether the chain of LDM records ends with the file, or is none: whoever reads such a file whole
-// finds more.
-bool has_all_records(const OpenFile& file, std::uint64_t size) {
+struct RecordChain {
+    // It ends with the file by its last word, or is none: whoever reads such a file whole finds
+    // more.
+    bool is_whole = false;
+    // Where the last record begins that ends with the file; 0: the file ends within one.
+    std::uint64_t last = 0;
+};
+
+RecordChain chain_of(const OpenFile& file, std::uint64_t size) {
     std::uint64_t at = level2::archive_header_bytes;
     for (std::uint64_t record = 0; record < most_records; ++record) {
         std::array<std::byte, 4> word{};
-        if (at + 4 > size || file.read(at, word) < 4) return false;
+        if (at + 4 > size || file.read(at, word) < 4) return {};
+        const std::uint64_t begin = at;
         const std::int64_t length = control_word(word);
         at += 4 + static_cast<std::uint64_t>(std::abs(length));
-        if (at > size) return false;
-        if (length == 0 || (length < 0 && at == size)) return true;
+        if (at > size) return {};
+        if (length == 0 || (length < 0 && at == size)) return {true, 0};
+        if (at == size) return {false, begin};
     }
-    return true;
+    return {true, 0};
+}
+
+// Whether the record from there to the end of the file holds the last radial of a volume.
+bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) {
+    if (size - begin > most_last_record_bytes) return false;
+    std::vector<std::byte> record(size - begin);
+    if (file.read(begin, record) < record.size()) return false;
+    level2::DecodeOptions options;
+    options.output_limit_bytes = most_last_record_output;
+    const auto read = level2::read_live_chunk(record, options,
+                                              {most_last_record_output, most_last_record_output});
+    return read && read->ended_volume;
 }
 
 }  // namespace
@@ -101,12 +125,23 @@ std::optional<LivingFile::Growing> LivingFile::growing(const fs::path& path,
     const std::span<const std::byte> head = std::span{start}.first(known);
     const auto header = level2::read_archive_header(head);
     if (!header) return std::nullopt;
-    Growing growing{header->icao};
+    Growing growing{header->icao, 0};
     // Nothing but the header yet: no more than a promise, but of a file that grows.
     if (known <= level2::archive_header_bytes + 16) return growing;
     if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
-    if (has_all_records(file, static_cast<std::uint64_t>(facts->st_size))) return std::nullopt;
+    const RecordChain chain = chain_of(file, static_cast<std::uint64_t>(facts->st_size));
+    if (chain.is_whole) return std::nullopt;
+    growing.last_record = chain.last;
     return growing;
+}
+
+bool LivingFile::has_ended(const fs::path& path, const Growing& growing,
+                           const fs::path& beneath) {
+    if (growing.last_record == 0) return false;
+    const OpenFile file(path, beneath);
+    const auto facts = file.is_open() ? file.facts() : std::nullopt;
+    return facts &&
+           ends_volume(file, growing.last_record, static_cast<std::uint64_t>(facts->st_size));
 }
 
 LivingFile::LivingFile(fs::path path, const Options& options)

@@ -60,12 +60,17 @@ class LivingFile {
 
     // The start of a file that grows.
     struct Growing {
-        std::string station;  // of its header; empty where that names none
+        std::string station;            // of its header; empty where that names none
+        std::uint64_t last_record = 0;  // where that begins, if it ends with the file; else 0
     };
     // Whether the file grows: LDM records, of which the last is not there yet. Reads the lengths
     // of its records. None: it does not, or cannot be read.
     [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
                                                         const std::filesystem::path& beneath = {});
+    // Whether the last record of a file that grows holds the last radial of a volume, whatever its
+    // control word says.
+    [[nodiscard]] static bool has_ended(const std::filesystem::path& path, const Growing& growing,
+                                        const std::filesystem::path& beneath = {});
     static Result<std::unique_ptr<LivingFile>> begin(const std::filesystem::path& path,
                                                      const Options& options);
 
