@@ -27,13 +27,21 @@ namespace stormcellar::pipeline {
 
 struct GrowingLimits {
     std::size_t count = 320;  // each has a descriptor
-    std::uint64_t held_bytes = std::uint64_t{256} << 20;
+    std::uint64_t held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
     // Of one station, and of all together that no known station claims. A site's volume holds some
     // 3 MB of one moment, and two of its volumes may grow at once.
     std::size_t station_count = 16;
-    std::uint64_t station_held_bytes = std::uint64_t{24} << 20;
+    std::uint64_t station_held_bytes = std::uint64_t{16} << 20;
     std::uint64_t station_shelf_bytes = std::uint64_t{512} << 20;
+
+    // Of so many moments. 160 sites hold about a megabyte of each.
+    [[nodiscard]] static GrowingLimits of(std::size_t moments) {
+        GrowingLimits limits;
+        limits.held_bytes = (128 + 64 * moments) << 20;
+        limits.station_held_bytes = (8 + 8 * moments) << 20;
+        return limits;
+    }
 };
 
 template <class Key, class Object>

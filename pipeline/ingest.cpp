@@ -36,6 +36,8 @@ std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     std::vector<level2::Moment> moments = {options.moment};
     for (const Domain& domain : options.domains)
         moments.insert(moments.end(), domain.moments.begin(), domain.moments.end());
+    std::sort(moments.begin(), moments.end());
+    moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     return moments;
 }
 
@@ -74,7 +76,7 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
         .chunk_timeout = options.living.chunk_timeout,
         .chunk_grace = options.living.chunk_grace,
     };
-    GrowingLimits limits;
+    GrowingLimits limits = GrowingLimits::of(follow.selection.moments.size());
     limits.shelf_bytes = options.living.put_aside_bytes;
     limits.count = options.living.count;
     limits.station_shelf_bytes = limits.shelf_bytes / 8;
