@@ -10,11 +10,17 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr std::size_t most_growing = 4096;
-constexpr std::size_t most_placed = 4096;
+constexpr std::size_t most_going_on = 4096;
 constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
 constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
+
+// The same for all files of one volume.
+std::string volume_of(const std::filesystem::path& path) {
+    auto chunk = pipeline::ChunkPath::of(path);
+    return chunk ? std::move(chunk->key) : path.native();
+}
 
 }  // namespace
 
@@ -53,16 +59,14 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
-// What goes on with a volume that is followed comes before the beginnings of others.
-void Intake::note_place(const std::filesystem::path& path, bool has_place) {
-    const auto chunk = pipeline::ChunkPath::of(path);
-    if (!chunk) return;
-    if (!has_place) {
-        placed_.erase(chunk->key);
+// What goes on with a volume that has sweeps comes before the beginnings of others.
+void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
+    if (!goes_on) {
+        going_on_.erase(volume_of(path));
         return;
     }
-    if (placed_.size() >= most_placed) placed_.clear();
-    placed_.insert(chunk->key);
+    if (going_on_.size() >= most_going_on) going_on_.clear();
+    going_on_.insert(volume_of(path));
 }
 
 void Intake::note_displaced() {
@@ -80,8 +84,7 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.path = path;
     const bool is_followed = followed_.contains(path);
     job.urgency = urgency;
-    const auto chunk = pipeline::ChunkPath::of(path);
-    job.is_begun = is_followed || (chunk && placed_.contains(chunk->key));
+    job.is_begun = going_on_.contains(volume_of(path));
     job.is_registered = is_followed;
     job.station = station_of(path);
     return job;
@@ -234,7 +237,7 @@ void Intake::job_ended(const Finished& finished) {
     if (!finished.taken) return job_failed(finished);
     SteadyTime again{};
     followed_.erase(path);
-    note_place(path, finished.taken->ingest.has_place);
+    note_going_on(path, finished.taken->ingest.goes_on);
     switch (finished.taken->ingest.result) {
         case pipeline::IngestResult::incomplete:
             if (!finished.taken->ingest.followed) again = finished.ended + reread_;

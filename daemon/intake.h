@@ -105,7 +105,7 @@ class Intake final : public WatchListener {
     void job_failed(const Finished& finished);
     // What had to give its place is found again by a scan.
     void note_displaced();
-    void note_place(const std::filesystem::path& path, bool has_place);
+    void note_going_on(const std::filesystem::path& path, bool goes_on);
     void leave_to_scan(const std::filesystem::path& path);
 
     [[nodiscard]] FileFound look(const std::filesystem::path& path) const {
@@ -121,8 +121,9 @@ class Intake final : public WatchListener {
     SeenFiles seen_;
     // Growing files of which only what is new is read, and so at once.
     std::set<std::filesystem::path> followed_;
-    // The same of volumes of chunks (pipeline/chunk_path.h), by their keys.
-    std::unordered_set<std::string> placed_;
+    // Volumes of which sweeps have closed: files, and keys of chunks' volumes
+    // (pipeline/chunk_path.h).
+    std::unordered_set<std::string> going_on_;
     bool refused_ = false;  // something did not fit since the last scan began
     bool lost_ = false;
     std::uint64_t overflows_ = 0, unseen_ = 0;

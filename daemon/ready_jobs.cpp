@@ -2,16 +2,19 @@
 
 namespace stormcellar::daemon {
 
-ReadyJobs::Rank ReadyJobs::rank_of(const Key& key) {
-    if (key.urgency == Urgency::live && key.is_begun) {
-        return {false, key.newest_ns, key.sequence};
-    }
-    return {true, -key.newest_ns, key.sequence};
+ReadyJobs::Class ReadyJobs::class_of(const Key& key) {
+    if (key.station.empty()) return Class::others;
+    return key.is_begun ? Class::going_on : Class::fresh;
 }
 
-void ReadyJobs::give_turn(const std::string& name, Station& station) {
+ReadyJobs::Rank ReadyJobs::rank_of(const Key& key) {
+    const bool is_oldest_first = key.urgency == Urgency::live && class_of(key) == Class::going_on;
+    return {is_oldest_first ? key.newest_ns : -key.newest_ns, key.sequence};
+}
+
+void ReadyJobs::give_turn(Turns& turns, const std::string& name, Station& station) {
     station.turn = next_turn_++;
-    turns_.emplace(station.turn, name);
+    turns.turns.emplace(station.turn, name);
 }
 
 void ReadyJobs::add(const Key& key, void* job) {
@@ -19,8 +22,9 @@ void ReadyJobs::add(const Key& key, void* job) {
         count_ += backlog_of(key).emplace(rank_of(key), OldJob{job, key.station}).second ? 1 : 0;
         return;
     }
-    Station& station = stations_[key.station];
-    if (station.jobs.empty()) give_turn(key.station, station);
+    Turns& turns = turns_for(key);
+    Station& station = turns.stations[key.station];
+    if (station.jobs.empty()) give_turn(turns, key.station, station);
     count_ += station.jobs.emplace(rank_of(key), job).second ? 1 : 0;
 }
 
@@ -34,12 +38,32 @@ void ReadyJobs::remove(const Key& key) {
         count_ -= backlog_of(key).erase(rank_of(key));
         return;
     }
-    const auto station = stations_.find(key.station);
-    if (station == stations_.end()) return;
+    Turns& turns = turns_for(key);
+    const auto station = turns.stations.find(key.station);
+    if (station == turns.stations.end()) return;
     count_ -= station->second.jobs.erase(rank_of(key));
     if (!station->second.jobs.empty()) return;
-    turns_.erase(station->second.turn);
-    stations_.erase(station);
+    turns.turns.erase(station->second.turn);
+    turns.stations.erase(station);
+}
+
+void* ReadyJobs::take_live(Turns& turns, const MayBegin& may_begin) {
+    for (auto turn = turns.turns.begin(); turn != turns.turns.end(); ++turn) {
+        if (may_begin && !may_begin(turn->second)) continue;
+        const auto station = turns.stations.find(turn->second);
+        turns.turns.erase(turn);
+        auto& jobs = station->second.jobs;
+        void* job = jobs.begin()->second;
+        jobs.erase(jobs.begin());
+        --count_;
+        if (jobs.empty()) {
+            turns.stations.erase(station);
+        } else {
+            give_turn(turns, station->first, station->second);
+        }
+        return job;
+    }
+    return nullptr;
 }
 
 void* ReadyJobs::take_old(Backlog& backlog, const MayBegin& may_begin) {
@@ -55,22 +79,23 @@ void* ReadyJobs::take_old(Backlog& backlog, const MayBegin& may_begin) {
     return nullptr;
 }
 
-void* ReadyJobs::take_next(const MayBegin& may_begin) {
-    for (auto turn = turns_.begin(); turn != turns_.end(); ++turn) {
-        if (may_begin && !may_begin(turn->second)) continue;
-        const auto station = stations_.find(turn->second);
-        turns_.erase(turn);
-        auto& jobs = station->second.jobs;
-        void* job = jobs.begin()->second;
-        jobs.erase(jobs.begin());
-        --count_;
-        if (jobs.empty()) {
-            stations_.erase(station);
-        } else {
-            give_turn(station->first, station->second);
-        }
+// Of the classes that have turns left, the first that has a job which may begin.
+void* ReadyJobs::take_of_round(const MayBegin& may_begin) {
+    for (Turns& turns : live_) {
+        if (turns.left == 0) continue;
+        void* job = take_live(turns, may_begin);
+        if (job == nullptr) continue;
+        --turns.left;
         return job;
     }
+    return nullptr;
+}
+
+void* ReadyJobs::take_next(const MayBegin& may_begin) {
+    if (void* job = take_of_round(may_begin)) return job;
+    for (std::size_t i = 0; i < live_.size(); ++i)
+        live_.at(i).left = turns_a_round.at(i);
+    if (void* job = take_of_round(may_begin)) return job;
     if (void* job = take_old(backlog_, may_begin)) return job;
     return take_old(others_backlog_, may_begin);
 }

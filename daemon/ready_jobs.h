@@ -1,20 +1,26 @@
 // daemon/ready_jobs.h -- which of the jobs that may run is the next.
 //
-// Two classes. LIVE is what changed while we watched, or less than ten minutes ago; BACKLOG is all
-// else, and has its turn when nothing live waits: that of known stations first, newest first.
-// Live jobs take turns by station, the one that was served longest ago (or has waited longest)
-// first, so that no station can hold up another, however much it sends. Of one station the first is
-// what goes on with volumes that were begun, oldest first (the end of a volume before the next
-// volume's beginning: it is little, and would else wait as long as new chunks come), then the
-// newest.
+// LIVE is what changed while we watched, or less than ten minutes ago; BACKLOG is all else. Of the
+// live jobs there are three classes; in a round each has so many turns as stand behind it:
+//   going on   of a known station, of a volume of which sweeps have closed   8
+//   fresh      all else of a known station                                   4
+//   others     of no station that is known                                   1
+// The backlog of known stations, then that of others, each newest first, has its turn when nothing
+// live waits. So a flood of beginnings delays no volume that goes on, one of names that nobody knows
+// delays no known station, and none of them stands still.
+// In a class stations take turns, the one that was served longest ago (or has waited longest)
+// first, so that no station can hold up another, however much it sends. Of one station what goes on
+// is served oldest first (the end of a volume before the next volume's sweeps: it is little, and
+// would else wait as long as new chunks come), all else newest first.
 // Pure bookkeeping. Thread contract: one thread.
 #pragma once
 
+#include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -26,7 +32,7 @@ class ReadyJobs {
   public:
     struct Key {
         Urgency urgency = Urgency::backlog;
-        bool is_begun = false;       // goes on with a volume; live jobs alone
+        bool is_begun = false;       // of a volume that goes on; live jobs alone
         std::int64_t newest_ns = 0;  // since the epoch
         std::uint64_t sequence = 0;  // tells all jobs apart; equal ones go by it
         std::string station;         // whose turn it takes; empty: that of all unknown ones
@@ -47,7 +53,6 @@ class ReadyJobs {
   private:
     // By its order: what is to come first is less.
     struct Rank {
-        bool is_new = false;
         std::int64_t order = 0;
         std::uint64_t sequence = 0;
         // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
@@ -57,22 +62,36 @@ class ReadyJobs {
         std::uint64_t turn = 0;
         std::map<Rank, void*> jobs;
     };
-    static Rank rank_of(const Key& key);
-    void give_turn(const std::string& name, Station& station);
-
-    std::size_t count_ = 0;
-    std::uint64_t next_turn_ = 0;
-    std::unordered_map<std::string, Station> stations_;  // those with live jobs
-    std::map<std::uint64_t, std::string> turns_;
+    // The live jobs of a class.
+    struct Turns {
+        std::unordered_map<std::string, Station> stations;  // those with jobs
+        std::map<std::uint64_t, std::string> turns;
+        int left = 0;  // in this round
+    };
+    enum class Class : std::size_t { going_on, fresh, others };
+    static constexpr std::array<int, 3> turns_a_round = {8, 4, 1};
     struct OldJob {
         void* job = nullptr;
         std::string station;
     };
     using Backlog = std::map<Rank, OldJob>;
+
+    static Class class_of(const Key& key);
+    static Rank rank_of(const Key& key);
+    [[nodiscard]] Turns& turns_for(const Key& key) {
+        return live_.at(static_cast<std::size_t>(class_of(key)));
+    }
     [[nodiscard]] Backlog& backlog_of(const Key& key) {
         return key.station.empty() ? others_backlog_ : backlog_;
     }
+    void give_turn(Turns& turns, const std::string& name, Station& station);
+    void* take_live(Turns& turns, const MayBegin& may_begin);
     void* take_old(Backlog& backlog, const MayBegin& may_begin);
+    void* take_of_round(const MayBegin& may_begin);
+
+    std::size_t count_ = 0;
+    std::uint64_t next_turn_ = 0;
+    std::array<Turns, 3> live_;
     Backlog backlog_, others_backlog_;  // of known stations, and of all else
 };
 

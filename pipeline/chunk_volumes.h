@@ -63,6 +63,8 @@ class ChunkVolume {
     void set_shown() { news_ = {}; }
     // Null where there is no room on the shelf.
     [[nodiscard]] const KeptVolume* kept() const { return kept_.get(); }
+    // Some of its sweeps have closed.
+    [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
     // In memory, and on the shelf.
     [[nodiscard]] std::uint64_t held_bytes() const { return live_.held_bytes(); }
     [[nodiscard]] std::uint64_t shelf_bytes() const { return kept_ ? kept_->shelf->bytes() : 0; }

@@ -8,9 +8,9 @@
 // Of memory and disk the largest and least alive gives way: what it holds, times a weight that
 // grows by one for each minute in which nothing came of it. Of the number of things the least alive
 // of the station that has most.
-// A newcomer finds no place where only things stand that are alive: something came of them within
-// the last minute, or they began within the last five seconds. To give these up for it, and it for
-// the next one, would be to read all again and again.
+// A newcomer finds no place where only things stand that are alive: they have grown within the last
+// minute, or, where no sweep of theirs has closed yet, within the last five seconds. To give these
+// up for it, and it for the next one, would be to read all again and again.
 // Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
 #pragma once
 
@@ -44,13 +44,17 @@ struct GrowingLimits {
     }
 };
 
+// What a thing holds, and what has come of it.
+struct Growth {
+    std::uint64_t held_bytes = 0, shelf_bytes = 0;
+    bool has_sweeps = false;  // that have closed
+};
+
 template <class Key, class Object>
 class GrowingSet {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds most_idle{60}, most_idle_when_begun{5};
-    // What has not grown for so long since it began has only begun.
-    static constexpr std::chrono::seconds beginning{1};
+    static constexpr std::chrono::seconds most_idle{60}, most_idle_without_sweep{5};
 
     explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
 
@@ -73,20 +77,18 @@ class GrowingSet {
 
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station,
              Clock::time_point now) {
-        things_.insert_or_assign(key, Thing{std::move(object), station, now, now, 0, 0});
+        things_.insert_or_assign(key, Thing{std::move(object), station, now, {}});
     }
 
     // Counts what it holds now. False: it was given up, or another stands in its place.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
-                            std::uint64_t held_bytes, std::uint64_t shelf_bytes,
-                            Clock::time_point now) {
+                            const Growth& growth, Clock::time_point now) {
         const auto at = things_.find(key);
         if (at == things_.end() || at->second.object.get() != object) return false;
         Thing& thing = at->second;
         thing.station = station;
         thing.grew_at = now;
-        thing.held_bytes = held_bytes;
-        thing.shelf_bytes = shelf_bytes;
+        thing.growth = growth;
         if (things_.size() > limits_.count || count_of(station) > limits_.station_count) {
             give_up(at);
         } else {
@@ -106,8 +108,8 @@ class GrowingSet {
     struct Thing {
         std::shared_ptr<Object> object;
         std::string station;  // empty: of none that is known
-        Clock::time_point began_at, grew_at;
-        std::uint64_t held_bytes = 0, shelf_bytes = 0;
+        Clock::time_point grew_at;
+        Growth growth;
     };
     using Things = std::map<Key, Thing>;
     using Place = typename Things::iterator;
@@ -120,8 +122,8 @@ class GrowingSet {
         Sum sum;
         for (const auto& [key, thing] : things_) {
             if (station != nullptr && thing.station != *station) continue;
-            sum.held += thing.held_bytes;
-            sum.shelf += thing.shelf_bytes;
+            sum.held += thing.growth.held_bytes;
+            sum.shelf += thing.growth.shelf_bytes;
         }
         return sum;
     }
@@ -138,8 +140,8 @@ class GrowingSet {
     }
 
     [[nodiscard]] static bool is_idle(const Thing& thing, Clock::time_point now) {
-        const bool has_only_begun = thing.grew_at - thing.began_at < beginning;
-        return now - thing.grew_at >= (has_only_begun ? most_idle_when_begun : most_idle);
+        const auto most = thing.growth.has_sweeps ? most_idle : most_idle_without_sweep;
+        return now - thing.grew_at >= most;
     }
 
     // The least alive of the station (null: of the one that has most), where nothing came of it for
@@ -178,7 +180,7 @@ class GrowingSet {
             const Thing& thing = at->second;
             if (station != nullptr && thing.station != *station) continue;
             const auto bytes =
-                static_cast<double>(what == What::memory ? thing.held_bytes : thing.shelf_bytes);
+                static_cast<double>(what == What::memory ? thing.growth.held_bytes : thing.growth.shelf_bytes);
             const double idle_min = std::chrono::duration<double>(now - thing.grew_at).count() / 60;
             const double weight = bytes * (1 + idle_min);
             const bool is_known = !thing.station.empty();

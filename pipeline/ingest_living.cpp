@@ -84,6 +84,7 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     outcome.result = IngestResult::incomplete;
     outcome.followed = true;
     const KeptVolume& kept = living_file.kept();
+    outcome.goes_on = !kept.places.empty();
     // Also where no sweep is complete yet: something has come of the station.
     outcome.station = kept.facts.station.empty() ? file.station : kept.facts.station;
     if (!living_file.news().any || living_file.holds_several()) return outcome;
@@ -245,7 +246,7 @@ Result<IngestOutcome> Ingestor::Impl::show_chunk(const ChunkPath& chunk, const F
                                                  ChunkVolume& volume, IngestOutcome outcome) {
     if (Status stored = record(facts); !stored) return pass_on(stored);
     volume.is_finished = !chunks->grew(chunk, volume, taken_station(facts.station));
-    outcome.has_place = !volume.is_finished;
+    outcome.goes_on = !volume.is_finished && volume.has_sweeps();
     outcome.given_up += chunks->take_given_up();
     if (volume.news().any && volume.kept() != nullptr) {
         const auto shown =

@@ -36,8 +36,8 @@ struct IngestOutcome {
     std::optional<ErrorCode> rejected_with;  // of what kind the reason is; rejected files alone
     std::string reason;     // why rejected, or what is wrong or worth saying; one line
     bool followed = false;  // incomplete: what is appended will be read without the rest
-    // Of a chunk: its volume is followed, so that what comes of it is read without the rest.
-    bool has_place = false;
+    // Incomplete or registered: its volume is followed, and a sweep of it has closed.
+    bool goes_on = false;
     bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)

@@ -42,7 +42,9 @@ bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file
                        const std::string& station) {
     const std::scoped_lock lock(mutex_);
     const bool stands =
-        files_.grew(path, &file, station, file.held_bytes(), file.shelf_bytes(), Clock::now());
+        files_.grew(
+        path, &file, station,
+        {file.held_bytes(), file.shelf_bytes(), !file.kept().places.empty()}, Clock::now());
     note_given_up();
     drop_last_beyond_limits();
     return stands;
