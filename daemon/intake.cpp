@@ -84,7 +84,10 @@ Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     job.path = path;
     const bool is_followed = followed_.contains(path);
     job.urgency = urgency;
-    job.is_begun = going_on_.contains(volume_of(path));
+    // The end of a volume that could not be followed is what its grid waits for.
+    const auto chunk = pipeline::ChunkPath::of(path);
+    const bool is_end = chunk && chunk->name.kind == level2::ChunkKind::end;
+    job.is_begun = is_end || going_on_.contains(volume_of(path));
     job.is_registered = is_followed;
     job.station = station_of(path);
     return job;

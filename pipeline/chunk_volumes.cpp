@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 // No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::chrono::minutes longest_failing{2};
+constexpr std::chrono::seconds between_catching_up{1};
 // Beyond it all are forgotten, and read again with their next chunk.
 constexpr std::size_t most_not_again = 4096;
 
@@ -127,6 +128,24 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
     // One bad sector must not keep the rest of the volume from everybody.
     if (!all && now - *fails_since_ < longest_failing) return all;
     return {};
+}
+
+// What fails here comes in its own name.
+void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
+    const auto now = level2::LiveVolume::Clock::now();
+    const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;
+    if (live_.missing_numbers().empty() || is_early) return;
+    next_catching_up_ = now + between_catching_up;
+    const auto found = chunks_beside(of, beneath_);
+    if (!found) return;
+    const fs::path waiter = waiter_, former = former_waiter_;
+    for (const ChunkPath& chunk : *found) {
+        if (files_.contains(chunk.path)) continue;
+        const auto stamp = stamp_of(chunk.path, beneath_);
+        if (stamp && stamp->regular) (void)add(chunk, *stamp);
+    }
+    waiter_ = waiter;
+    former_waiter_ = former;
 }
 
 bool ChunkVolume::waits(const ChunkPath& chunk) {

@@ -47,6 +47,10 @@ class ChunkVolume {
     // missing; for two minutes, then the volume goes without them.
     [[nodiscard]] Status add_siblings(const ChunkPath& of);
 
+    // Where numbers are missing, those that lie beside this one, which came later: their own jobs may
+    // wait behind others for long. At most once a second.
+    void add_what_is_missing(const ChunkPath& of);
+
     // Whether it is the one that came last, which is asked again when nothing has come for a while.
     // Where that one is no good this one, which is whole, takes its place.
     [[nodiscard]] bool waits(const ChunkPath& chunk);
@@ -101,6 +105,7 @@ class ChunkVolume {
     std::filesystem::path waiter_, former_waiter_;
     LivingNews news_;
     std::optional<level2::LiveVolume::Clock::time_point> fails_since_;
+    level2::LiveVolume::Clock::time_point next_catching_up_{};
 };
 
 class ChunkVolumes {

@@ -10,10 +10,12 @@
 // of the station that has most.
 // A newcomer finds no place where only things stand that are alive: they have grown within the last
 // minute, or, where no sweep of theirs has closed yet, within the last five seconds. To give these
-// up for it, and it for the next one, would be to read all again and again.
+// up for it, and it for the next one, would be to read all again and again. But at the bound of all
+// a station that has fewer takes a place of the one that has most.
 // Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -70,7 +72,7 @@ class GrowingSet {
             if (!give_up_idle(&station, now)) return false;
         }
         while (things_.size() >= limits_.count) {
-            if (!give_up_idle(nullptr, now)) return false;
+            if (!give_up_idle(nullptr, now) && !give_up_of_largest(count_of(station))) return false;
         }
         return true;
     }
@@ -166,6 +168,27 @@ class GrowingSet {
             }
         }
         if (chosen == things_.end()) return false;
+        give_up(chosen);
+        return true;
+    }
+
+    // The least alive of the station that has most, where that is more than one more than so many.
+    bool give_up_of_largest(std::size_t count) {
+        std::map<std::string, std::size_t> counts;
+        for (const auto& [key, thing] : things_)
+            ++counts[thing.station];
+        const auto largest =
+            std::max_element(counts.begin(), counts.end(),
+                             [](const auto& a, const auto& b) { return a.second < b.second; });
+        if (largest == counts.end() || largest->second <= count + 1) return false;
+        Place chosen = things_.end();
+        const auto rank = [](const Thing& thing) {
+            return std::pair(thing.growth.has_sweeps, thing.grew_at);
+        };
+        for (Place at = things_.begin(); at != things_.end(); ++at) {
+            if (at->second.station != largest->first) continue;
+            if (chosen == things_.end() || rank(at->second) < rank(chosen->second)) chosen = at;
+        }
         give_up(chosen);
         return true;
     }

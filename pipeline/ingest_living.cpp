@@ -227,6 +227,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         if (finish != Finish::when_it_ends) return std::nullopt;
         return outcome;
     }
+    volume->add_what_is_missing(chunk);
     const FileFacts facts = facts_of(*volume, chunk, before);
     outcome.station = taken_station(facts.station);
     if (volume->is_whole() || finish == Finish::as_it_is ||

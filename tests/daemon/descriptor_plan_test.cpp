@@ -20,7 +20,7 @@ TEST(DescriptorPlan, NobodyHasAllOfThem) {
 TEST(DescriptorPlan, TheUnitsLimitServesEveryStation) {
     const DescriptorPlan plan = DescriptorPlan::of(4096);
     EXPECT_GT(plan.databases, all_stations().size() + 64);
-    EXPECT_EQ(plan.growing, 320U);
+    EXPECT_EQ(plan.growing, 448U);
 }
 
 }  // namespace
