@@ -9,7 +9,8 @@
 // grows by one for each minute in which nothing came of it. Of the number of things the least alive
 // of the station that has most.
 // A newcomer finds no place where only things stand that are alive: they have grown within the last
-// minute, or, where no sweep of theirs has closed yet, within the last five seconds. To give these
+// minute, or, where they have not shown yet that they go on (a sweep has closed, and more came than
+// what stood there at the first look), within the last five seconds. To give these
 // up for it, and it for the next one, would be to read all again and again. But at the bound of all
 // a station that has fewer takes a place of the one that has most.
 // Inside the pipeline room only. Thread contract: one thread at a time; whoever owns it locks.
@@ -56,7 +57,9 @@ template <class Key, class Object>
 class GrowingSet {
   public:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds most_idle{60}, most_idle_without_sweep{5};
+    static constexpr std::chrono::seconds most_idle{60}, most_idle_at_first{5};
+    // What comes so soon is still of the first look.
+    static constexpr std::chrono::seconds first_look{1};
 
     explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
 
@@ -79,7 +82,7 @@ class GrowingSet {
 
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station,
              Clock::time_point now) {
-        things_.insert_or_assign(key, Thing{std::move(object), station, now, {}});
+        things_.insert_or_assign(key, Thing{std::move(object), station, now, now, {}});
     }
 
     // Counts what it holds now. False: it was given up, or another stands in its place.
@@ -110,7 +113,7 @@ class GrowingSet {
     struct Thing {
         std::shared_ptr<Object> object;
         std::string station;  // empty: of none that is known
-        Clock::time_point grew_at;
+        Clock::time_point began_at, grew_at;
         Growth growth;
     };
     using Things = std::map<Key, Thing>;
@@ -141,9 +144,11 @@ class GrowingSet {
         things_.erase(place);
     }
 
+    [[nodiscard]] static bool goes_on(const Thing& thing) {
+        return thing.growth.has_sweeps && thing.grew_at - thing.began_at >= first_look;
+    }
     [[nodiscard]] static bool is_idle(const Thing& thing, Clock::time_point now) {
-        const auto most = thing.growth.has_sweeps ? most_idle : most_idle_without_sweep;
-        return now - thing.grew_at >= most;
+        return now - thing.grew_at >= (goes_on(thing) ? most_idle : most_idle_at_first);
     }
 
     // The least alive of the station (null: of the one that has most), where nothing came of it for
@@ -183,7 +188,7 @@ class GrowingSet {
         if (largest == counts.end() || largest->second <= count + 1) return false;
         Place chosen = things_.end();
         const auto rank = [](const Thing& thing) {
-            return std::pair(thing.growth.has_sweeps, thing.grew_at);
+            return std::pair(goes_on(thing), thing.grew_at);
         };
         for (Place at = things_.begin(); at != things_.end(); ++at) {
             if (at->second.station != largest->first) continue;
