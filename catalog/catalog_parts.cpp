@@ -83,6 +83,7 @@ Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
     }
     if (!opened) {
         databases.close(place);
+        if (is_out_of_descriptors()) return no_descriptor(path);
         return pass_on(opened);
     }
     place.database = std::move(*opened);
@@ -119,8 +120,8 @@ bool Catalog::Impl::mend(Slot& place, const std::string& name) {
 void Catalog::Impl::note_outcome(const std::string& name, const Error* error,
                                  std::chrono::steady_clock::time_point began) {
     // A full disk is no station's trouble, and a database that is not there is none.
-    const bool is_trouble = error != nullptr && error->code != ErrorCode::not_found &&
-                            error->code != ErrorCode::no_space;
+    const bool is_trouble =
+        error != nullptr && error->code != ErrorCode::not_found && !is_shortage(error->code);
     if (!is_trouble && !has_troubles_) return;
     const std::scoped_lock lock(troubles_mutex_);
     if (is_trouble) {

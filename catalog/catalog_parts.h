@@ -104,6 +104,8 @@ struct Catalog::Impl {
             // Where a file cannot be opened for writing, SQLite opens it for reading, and stays so.
             const bool is_stuck = writing && code_of(error) == ErrorCode::permission;
             if (is_snapshot || is_stuck) databases.close(place);
+            if (code_of(error) == ErrorCode::io && is_out_of_descriptors())
+                return no_descriptor(path);
             return fail(code_of(error), "{}: {}", path.native(), error.what());
         }
     }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -102,6 +103,11 @@ std::size_t OpenDatabases::open_count() const {
 std::size_t OpenDatabases::slot_count() const {
     const std::scoped_lock lock(mutex_);
     return slots_.size();
+}
+
+tl::unexpected<Error> no_descriptor(const std::filesystem::path& database) {
+    return fail(ErrorCode::exhausted, "{}: {}", database.native(),
+                std::system_category().message(EMFILE));
 }
 
 bool is_out_of_descriptors() {

@@ -110,5 +110,7 @@ class OpenDatabases {
 
 // Whether this process can open no further database at the moment.
 [[nodiscard]] bool is_out_of_descriptors();
+// What a database gives then: nobody's fault, and to be tried again.
+[[nodiscard]] tl::unexpected<Error> no_descriptor(const std::filesystem::path& database);
 
 }  // namespace stormcellar::catalog

@@ -8,11 +8,10 @@
 // row whose path lies elsewhere (files were dropped there once), it is opened from "/", and then no
 // part of the path may be a link: the catalog's paths had none when they were written.
 // What a row cannot say is not compared: a file that was growing (`seen`) or could not be read has
-// no final hash. It must be a regular file of at least the cataloged size all the same, and have one
-// name: a hard link to somebody else's file is one, too.
-// Errors: not_found and not_a_file for links and what else is no file, corrupt where it is not the
-// file that was cataloged, unsupported beyond 1 GiB, permission, io.
-// Thread contract: functions without state; the catalog is only read.
+// no final hash. It must be a regular file of at least the cataloged size all the same, and have
+// one name: a hard link to somebody else's file is one, too. Errors: not_found and not_a_file for
+// links and what else is no file, corrupt where it is not the file that was cataloged, unsupported
+// beyond 1 GiB, permission, io. Thread contract: functions without state; the catalog is only read.
 #pragma once
 
 #include <cstddef>

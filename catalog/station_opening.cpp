@@ -140,6 +140,8 @@ ErrorCode code_of(const SQLite::Exception& error) {
         case SQLITE_READONLY:
         case SQLITE_PERM:
             return ErrorCode::permission;
+        case SQLITE_NOMEM:
+            return ErrorCode::exhausted;
         default:
             return ErrorCode::io;
     }

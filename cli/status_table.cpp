@@ -125,14 +125,14 @@ std::string counts_lines(const json& status) {
     std::string lines = fmt::format(
         "queue    {} waiting{}, {} running, {} growing{}; {} of the kernel's events, {}\n",
         count(pending, "waiting"), wait_of(pending), count(pending, "running"),
-        count(pending, "growing"), retrying_of(pending), counted(count(status, "overflows"), "overflow"),
-        counted(count(status, "scans"), "scan"));
-    lines += fmt::format("files    {} gridded ({} partial), {}, {} with nothing to grid, {}\n",
-                         count(status, "ingested"), count(status, "partial"),
-                         with_kinds(status, "rejected", "rejected_by"),
-                         count(status, "no_moment") + count(status, "no_position") +
-                             count(status, "other_station"),
-                         with_kinds(status, "failures", "failures_by"));
+        count(pending, "growing"), retrying_of(pending),
+        counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
+    lines += fmt::format(
+        "files    {} gridded ({} partial), {}, {} with nothing to grid, {}\n",
+        count(status, "ingested"), count(status, "partial"),
+        with_kinds(status, "rejected", "rejected_by"),
+        count(status, "no_moment") + count(status, "no_position") + count(status, "other_station"),
+        with_kinds(status, "failures", "failures_by"));
     const json& latency = at(status, "latency_s");
     lines += fmt::format("close to cache    {} ({})\n", summary(latency),
                          counted(count(latency, "count"), "file"));

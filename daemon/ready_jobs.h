@@ -6,13 +6,12 @@
 //   fresh      all else of a known station                                   4
 //   others     of no station that is known                                   1
 // The backlog of known stations, then that of others, each newest first, has its turn when nothing
-// live waits. So a flood of beginnings delays no volume that goes on, one of names that nobody knows
-// delays no known station, and none of them stands still.
-// In a class stations take turns, the one that was served longest ago (or has waited longest)
-// first, so that no station can hold up another, however much it sends. Of one station what goes on
-// is served oldest first (the end of a volume before the next volume's sweeps: it is little, and
-// would else wait as long as new chunks come), all else newest first.
-// Pure bookkeeping. Thread contract: one thread.
+// live waits. So a flood of beginnings delays no volume that goes on, one of names that nobody
+// knows delays no known station, and none of them stands still. In a class stations take turns, the
+// one that was served longest ago (or has waited longest) first, so that no station can hold up
+// another, however much it sends. Of one station what goes on is served oldest first (the end of a
+// volume before the next volume's sweeps: it is little, and would else wait as long as new chunks
+// come), all else newest first. Pure bookkeeping. Thread contract: one thread.
 #pragma once
 
 #include <array>

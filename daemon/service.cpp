@@ -264,8 +264,8 @@ void Service::note_drop(const Status& scanned) {
     status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
 }
 
-// Called between two parts of what takes long: a scan of many files takes seconds, a burst of events
-// a tenth of one.
+// Called between two parts of what takes long: a scan of many files takes seconds, a burst of
+// events a tenth of one.
 void Service::keep_workers_busy() {
     collect();
     start_jobs();

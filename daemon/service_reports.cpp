@@ -120,7 +120,7 @@ void Service::report_catalog(SteadyTime now) {
             {Event::databases_left_alone},
             "{} of stations of which no data are taken in ({}{}): left alone, and files of "
             "these stations are cataloged among those of no known station; a [[station]] or "
-            "[ingest] stations takes them in, `stormcellar catalog check --clear-unknown` "
+            "[ingest] stations takes them in, stormcellar catalog check --clear-unknown "
             "removes them",
             counted(state.left_alone, "database"), fmt::join(state.some_left_alone, ", "),
             state.left_alone > state.some_left_alone.size() ? ", ..." : "");

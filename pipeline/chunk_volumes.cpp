@@ -259,7 +259,8 @@ bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume,
     const std::scoped_lock lock(mutex_);
     // Forgotten meanwhile, as when it is read anew: that is nobody's fault.
     if (volumes_.find(chunk.key).get() != &volume) return !not_again_.contains(chunk.key);
-    const bool stands = volumes_.grew(chunk.key, &volume, station,
+    const bool stands =
+        volumes_.grew(chunk.key, &volume, station,
                       {volume.held_bytes(), volume.shelf_bytes(), volume.has_sweeps()},
                       std::chrono::steady_clock::now());
     note_given_up();

@@ -47,8 +47,8 @@ class ChunkVolume {
     // missing; for two minutes, then the volume goes without them.
     [[nodiscard]] Status add_siblings(const ChunkPath& of);
 
-    // Where numbers are missing, those that lie beside this one, which came later: their own jobs may
-    // wait behind others for long. At most once a second.
+    // Where numbers are missing, those that lie beside this one, which came later: their own jobs
+    // may wait behind others for long. At most once a second.
     void add_what_is_missing(const ChunkPath& of);
 
     // Whether it is the one that came last, which is asked again when nothing has come for a while.

@@ -207,8 +207,8 @@ class GrowingSet {
         for (Place at = things_.begin(); at != things_.end(); ++at) {
             const Thing& thing = at->second;
             if (station != nullptr && thing.station != *station) continue;
-            const auto bytes =
-                static_cast<double>(what == What::memory ? thing.growth.held_bytes : thing.growth.shelf_bytes);
+            const auto bytes = static_cast<double>(what == What::memory ? thing.growth.held_bytes
+                                                                        : thing.growth.shelf_bytes);
             const double idle_min = std::chrono::duration<double>(now - thing.grew_at).count() / 60;
             const double weight = bytes * (1 + idle_min);
             const bool is_known = !thing.station.empty();

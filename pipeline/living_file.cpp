@@ -135,8 +135,7 @@ std::optional<LivingFile::Growing> LivingFile::growing(const fs::path& path,
     return growing;
 }
 
-bool LivingFile::has_ended(const fs::path& path, const Growing& growing,
-                           const fs::path& beneath) {
+bool LivingFile::has_ended(const fs::path& path, const Growing& growing, const fs::path& beneath) {
     if (growing.last_record == 0) return false;
     const OpenFile file(path, beneath);
     const auto facts = file.is_open() ? file.facts() : std::nullopt;

@@ -41,10 +41,9 @@ std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path
 bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file,
                        const std::string& station) {
     const std::scoped_lock lock(mutex_);
-    const bool stands =
-        files_.grew(
-        path, &file, station,
-        {file.held_bytes(), file.shelf_bytes(), !file.kept().places.empty()}, Clock::now());
+    const bool stands = files_.grew(
+        path, &file, station, {file.held_bytes(), file.shelf_bytes(), !file.kept().places.empty()},
+        Clock::now());
     note_given_up();
     drop_last_beyond_limits();
     return stands;

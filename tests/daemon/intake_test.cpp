@@ -116,7 +116,7 @@ TEST_F(IntakeTest, OneChunkOfAVolumeIsWaitedForTheNewest) {
 // The end of a volume, while the station's next one comes and another station sends much.
 TEST_F(IntakeTest, TheEndOfAVolumeWaitsForOneTurnOfItsStation) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
-    followed.followed = true;
+    followed.followed = followed.goes_on = true;
     intake_.file_closed(at("KTLX20240101_000000"), make("KTLX20240101_000000"));
     ASSERT_EQ(next(), "KTLX20240101_000000");
     end("KTLX20240101_000000", followed);

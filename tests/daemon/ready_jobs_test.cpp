@@ -92,6 +92,48 @@ TEST_F(ReadyJobsTest, WhatIsRemovedDoesNotCome) {
     EXPECT_EQ(jobs_.take_next(), nullptr);
 }
 
+TEST_F(ReadyJobsTest, ClassesHaveTheirTurnsAndNoneStandsStill) {
+    for (int i = 0; i < 20; ++i) {
+        add(live("KTLX", i, true), "on" + std::to_string(i));
+        add(live("KTLX", -i), "fresh" + std::to_string(i));
+        add(live("", -i), "other" + std::to_string(i));
+    }
+    std::string kinds;
+    for (int i = 0; i < 26; ++i)
+        kinds += next().front();
+    const std::string round = "ooooooooffffo";  // eight that go on, four fresh, one of the others
+    EXPECT_EQ(kinds, round + round);
+    EXPECT_EQ(next(), "on16") << "the next round";
+}
+
+TEST_F(ReadyJobsTest, NamesThatNobodyKnowsDelayNoKnownStation) {
+    for (int i = 0; i < 50; ++i)
+        add(live("", i), "flood");
+    add(live("KTLX", 1), "a");
+    add(live("KTLX", 2), "b");
+    EXPECT_EQ(next(), "b");
+    EXPECT_EQ(next(), "a");
+    EXPECT_EQ(next(), "flood");
+    add(live("KTLX", 3), "c");
+    EXPECT_EQ(next(), "c");
+}
+
+TEST_F(ReadyJobsTest, TheBacklogOfKnownStationsGoesBeforeThatOfOthers) {
+    add(backlog(100), "nobody's");
+    add(backlog(50, "KTLX"), "old");
+    add(backlog(60, "KOKX"), "newer");
+    EXPECT_EQ(all(), "newer old nobody's");
+}
+
+TEST_F(ReadyJobsTest, WhoMayNotBeginIsPassedOver) {
+    add(live("KTLX", 1), "a");
+    add(live("KOKX", 1), "b");
+    const auto not_the_first = [](const std::string& station) { return station != "KTLX"; };
+    EXPECT_EQ(*static_cast<std::string*>(jobs_.take_next(not_the_first)), "b");
+    EXPECT_EQ(jobs_.take_next(not_the_first), nullptr);
+    EXPECT_EQ(next(), "a");
+}
+
 // However the jobs come, no station is served twice while another one waits.
 TEST_F(ReadyJobsTest, NoStationIsServedTwiceWhileAnotherWaits) {
     std::mt19937 random(7);
@@ -104,8 +146,7 @@ TEST_F(ReadyJobsTest, NoStationIsServedTwiceWhileAnotherWaits) {
     for (int step = 0; step < 5000; ++step) {
         if (random() % 2 == 0) {
             const std::string& station = stations.at(random() % 3 == 0 ? random() % 5 : 0);
-            add(live(station, static_cast<std::int64_t>(random() % 100), random() % 2 == 0),
-                station);
+            add(live(station, static_cast<std::int64_t>(random() % 100)), station);
             ++waiting[station];
             continue;
         }

@@ -37,6 +37,24 @@ wire::Bytes volume_of(std::string_view station, unsigned sweeps = 2) {
         {wire::archive_header("AR2V0006.116", station), wire::ldm_record(messages, true)});
 }
 
+// One sweep that never ends, a megabyte of gates in each of its records, which pack to a kilobyte.
+wire::Bytes endless_sweep(std::string_view station, std::size_t records) {
+    wire::Bytes messages;
+    for (unsigned i = 0; i < 50; ++i) {
+        wire::Ray ray;
+        ray.azimuth_number = i + 1;
+        ray.azimuth_deg = static_cast<float>(i);
+        ray.gates = 20'000;
+        const wire::Bytes message = wire::message_31(ray);
+        messages.insert(messages.end(), message.begin(), message.end());
+    }
+    const wire::Bytes record = wire::ldm_record(said_by(std::move(messages), station), false, 1);
+    wire::Bytes file = wire::archive_header("AR2V0006.116", station);
+    for (std::size_t i = 0; i < records; ++i)
+        file.insert(file.end(), record.begin(), record.end());
+    return file;
+}
+
 class Claims : public ::testing::Test {
   protected:
     Claims() { fs::create_directories(drop()); }
@@ -110,10 +128,7 @@ TEST_F(Claims, AnyTakesSoManyFurtherStations) {
 // It would be read again and again as it grows, for nothing.
 TEST_F(Claims, AGrowingFileOfAnotherStationIsReadWhenItIsQuiet) {
     Ingestor& ingestor = with(std::make_shared<StationRule>());
-    wire::Bytes bytes =
-        wire::join({wire::archive_header("AR2V0006.116", "XAAA"),
-                    wire::ldm_record(said_by(wire::radial_messages(2, 360), "XAAA"), false)});
-    const fs::path path = put("KTLX_a", bytes);
+    const fs::path path = put("KTLX_a", endless_sweep("XAAA", 2));
     const auto outcome = ingestor.ingest(path, false);
     ASSERT_TRUE(outcome);
     EXPECT_EQ(outcome->result, IngestResult::incomplete);
@@ -159,24 +174,6 @@ TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
     fs::remove(directory_ / "cache/KTLX");
     EXPECT_EQ(ingestor.ingest(path, false)->result, IngestResult::gridded);
     EXPECT_EQ(rows("KTLX").size(), 1U);
-}
-
-// One sweep that never ends, a megabyte of gates in each of its records, which pack to a kilobyte.
-wire::Bytes endless_sweep(std::string_view station, std::size_t records) {
-    wire::Bytes messages;
-    for (unsigned i = 0; i < 50; ++i) {
-        wire::Ray ray;
-        ray.azimuth_number = i + 1;
-        ray.azimuth_deg = static_cast<float>(i);
-        ray.gates = 20'000;
-        const wire::Bytes message = wire::message_31(ray);
-        messages.insert(messages.end(), message.begin(), message.end());
-    }
-    const wire::Bytes record = wire::ldm_record(said_by(std::move(messages), station), false, 1);
-    wire::Bytes file = wire::archive_header("AR2V0006.116", station);
-    for (std::size_t i = 0; i < records; ++i)
-        file.insert(file.end(), record.begin(), record.end());
-    return file;
 }
 
 class LivingMemory : public Claims {
@@ -247,6 +244,21 @@ TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
     ASSERT_TRUE(read(files, c, "KOKX")->is_whole());
     EXPECT_FALSE(files.find(b)) << "smaller, and nobody's";
     EXPECT_TRUE(files.find(a) && files.find(c));
+}
+
+// It had no place, and what says that it is over is its last radial alone.
+TEST_F(LivingMemory, AFileThatIsNotFollowedIsReadAtItsEnd) {
+    Ingestor& ingestor = with(std::make_shared<StationRule>());
+    const wire::Bytes messages = wire::radial_messages(2, 360);
+    const wire::Bytes bytes =
+        wire::join({wire::archive_header(), wire::ldm_record(messages, false)});
+    const auto growing = LivingFile::growing(put("KTLX_a", bytes));
+    ASSERT_TRUE(growing);
+    EXPECT_TRUE(LivingFile::has_ended(drop() / "KTLX_a", *growing));
+    const fs::path endless = put("KTLX_b", endless_sweep("KTLX", 1));
+    ASSERT_TRUE(LivingFile::growing(endless));
+    EXPECT_FALSE(LivingFile::has_ended(endless, *LivingFile::growing(endless)));
+    EXPECT_EQ(ingestor.ingest(drop() / "KTLX_a", false)->result, IngestResult::gridded);
 }
 
 // The whole file has a bound of its own, far above that of any volume.

@@ -192,12 +192,14 @@ TEST_F(Living, WhereNoPlaceIsLeftANewcomerIsNotFollowed) {
     ASSERT_TRUE(a && b);
     EXPECT_FALSE(files.begin("/drop/c", "KTLX", "KTLX")) << "the station has its two";
     EXPECT_TRUE(files.begin("/drop/d", "KOKX", "KOKX"));
-    EXPECT_FALSE(files.begin("/drop/e", "KBGM", "KBGM")) << "all have their three";
+    EXPECT_FALSE(files.begin("/drop/e", "KOKX", "KOKX")) << "all have their three";
     EXPECT_EQ(files.find("/drop/a"), a);
     EXPECT_EQ(files.take_given_up(), 0U) << "what is alive stays";
-    files.forget("/drop/a");
+    EXPECT_TRUE(files.begin("/drop/f", "KBGM", "KBGM")) << "in the place of one of the other's two";
+    EXPECT_EQ(files.take_given_up(), 1U);
     EXPECT_EQ(files.find("/drop/a"), nullptr);
-    EXPECT_TRUE(files.begin("/drop/e", "KBGM", "KBGM"));
+    files.forget("/drop/b");
+    EXPECT_TRUE(files.begin("/drop/g", "KOKX", "KOKX"));
 }
 
 TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
