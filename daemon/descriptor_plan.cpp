@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t most_reserved = 256;   // status connections take up to 96 of them
 constexpr std::uint64_t most_databases = 288;  // the station table has some 210
-constexpr std::uint64_t most_growing = 448;    // two of each station
+constexpr std::uint64_t most_growing_files = 448;    // two of each station
 constexpr std::uint64_t least = 4;
 
 }  // namespace
@@ -19,7 +19,7 @@ DescriptorPlan DescriptorPlan::of(std::uint64_t limit) {
     const std::uint64_t left = limit - reserved;
     DescriptorPlan plan;
     plan.databases = std::clamp(left * 2 / 5 / 3, least, most_databases);
-    plan.growing = std::clamp(left / 5, least, most_growing);
+    plan.growing = std::clamp(left / 5, least, most_growing_files);
     const std::uint64_t given = 3 * plan.databases + 3 * plan.growing;
     plan.reserved = limit - std::min(limit, given);
     return plan;

@@ -18,7 +18,7 @@ constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 constexpr std::chrono::minutes longest_failing{2};
 constexpr std::chrono::seconds between_catching_up{1};
 // Beyond it all are forgotten, and read again with their next chunk.
-constexpr std::size_t most_not_again = 4096;
+constexpr std::size_t most_chunks_not_again = 4096;
 
 // The pieces of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
@@ -221,7 +221,7 @@ bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
 
 std::filesystem::path ChunkVolumes::wait_for_place(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
-    if (waiters_.size() >= most_not_again && !waiters_.contains(chunk.key)) waiters_.clear();
+    if (waiters_.size() >= most_chunks_not_again && !waiters_.contains(chunk.key)) waiters_.clear();
     std::filesystem::path former = std::exchange(waiters_[chunk.key], chunk.path);
     return former == chunk.path ? std::filesystem::path{} : former;
 }
@@ -269,7 +269,7 @@ bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume,
 
 void ChunkVolumes::note_given_up() {
     for (const std::string& key : volumes_.take_given_up()) {
-        if (not_again_.size() >= most_not_again) not_again_.clear();
+        if (not_again_.size() >= most_chunks_not_again) not_again_.clear();
         not_again_.insert(key);
         ++given_up_;
     }

@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
+constexpr std::size_t read_stretch_bytes = std::size_t{256} << 10;
 
 // As many bytes as there are, up to the buffer's size.
 Result<std::size_t> read_stretch(int descriptor, const std::filesystem::path& path,
@@ -51,7 +51,7 @@ WholeFile read_by_stretches(const std::filesystem::path& beneath, const std::fil
     const Descriptor descriptor{*opened};
     Xxh3Stream hash;
     level2::GrowingVolume volume(options);
-    std::vector<std::byte> buffer(stretch_bytes);
+    std::vector<std::byte> buffer(read_stretch_bytes);
     Status taken;
     for (std::uint64_t done = 0; done < size_bytes;) {
         const auto start = Clock::now();

@@ -114,7 +114,7 @@ TEST_F(IntakeTest, OneChunkOfAVolumeIsWaitedForTheNewest) {
 }
 
 // The end of a volume, while the station's next one comes and another station sends much.
-TEST_F(IntakeTest, TheEndOfAVolumeWaitsForOneTurnOfItsStation) {
+TEST_F(IntakeTest, WhatGoesOnComesBeforeTheBeginningsOfAllStations) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
     followed.followed = followed.goes_on = true;
     intake_.file_closed(at("KTLX20240101_000000"), make("KTLX20240101_000000"));
@@ -127,8 +127,8 @@ TEST_F(IntakeTest, TheEndOfAVolumeWaitsForOneTurnOfItsStation) {
     wall_ns_ += second_ns;
     intake_.file_closed(at("KFWS20240101_000500"), make("KFWS20240101_000500"));
     EXPECT_EQ(next(), "KTLX20240101_000000");
-    EXPECT_EQ(next(), "KFWS20240101_000500") << "the newest of those that were not begun";
-    EXPECT_EQ(next(), "KTLX20240101_000500");
+    EXPECT_EQ(next(), "KTLX20240101_000500") << "of the beginnings it has waited for longest";
+    EXPECT_EQ(next(), "KFWS20240101_000500") << "the newest of its station";
     EXPECT_EQ(next(), "KFWS20240101_000000");
 }
 

@@ -40,8 +40,8 @@ void read_rows(const fs::path& path, Rows& rows, Aftermath& after) {
     }
 }
 
-// The catalog's directory holds databases, what SQLite keeps beside them, and damaged ones of
-// before.
+// The catalog's directory holds databases, what SQLite keeps beside them, damaged ones of before,
+// and a file that names the drop directory.
 Rows look_at_catalog(const fs::path& directory, Aftermath& after) {
     Rows rows;
     std::error_code error;
@@ -59,7 +59,8 @@ Rows look_at_catalog(const fs::path& directory, Aftermath& after) {
                     complain(after, "{}: {}", path.native(), damage);
             }
             read_rows(path, rows, after);
-        } else if (!name.ends_with(".sqlite-wal") && !name.ends_with(".sqlite-shm")) {
+        } else if (!name.ends_with(".sqlite-wal") && !name.ends_with(".sqlite-shm") &&
+                   name != "drop-directory") {
             complain(after, "{}: was left behind", path.native());
         }
     }

@@ -18,7 +18,7 @@ using nlohmann::json;
 constexpr const char* quick =
     "[watch]\nrescan_seconds = 2\n[cache]\npercent = 0\n[ingest]\nquiet_seconds = 1\n"
     "reread_seconds = 0.05\nspacing_km = 10\nextent_km = [100, 100]\nlevels_km = [1, 3, 6]\n"
-    "workers = 2\n";
+    "workers = 2\nstations = \"any\"\n";
 
 std::size_t settled_in(const fs::path& database) {
     try {
