@@ -237,6 +237,8 @@ TEST_F(Recovery, KilledWhileItWorks) {
             ++whole;
         }
     }
+    // What the killed daemon last said says nothing about the one that starts now.
+    fs::remove(daemon_.cache().parent_path() / "state" / "status.json");
     daemon_.start("[ingest]\nspacing_km = 2\n");
     ASSERT_TRUE(daemon_.wait_for([](const json& s) {
         return s["state"] == "running" && s["pending"]["waiting"] == 0 &&
