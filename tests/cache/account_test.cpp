@@ -15,18 +15,18 @@ using std::chrono::minutes;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
+const UtcTime account_noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 
 // Times in minutes after noon.
-GridName name(const std::string& domain, int minute) {
-    return {domain, level2::Moment::ref, noon + minutes{minute}};
+GridName grid_named(const std::string& domain, int minute) {
+    return {domain, level2::Moment::ref, account_noon + minutes{minute}};
 }
 
 class AccountTest : public ::testing::Test {
   protected:
-    AccountTest() { account_.set_now(noon + hours{24}); }
+    AccountTest() { account_.set_now(account_noon + hours{24}); }
     void put(const std::string& domain, int minute, std::uint64_t bytes = 10, bool pinned = false) {
-        account_.put(name(domain, minute), {bytes, noon, pinned});
+        account_.put(grid_named(domain, minute), {bytes, account_noon, pinned});
     }
     [[nodiscard]] auto room(const GridName& grid, std::uint64_t bytes) const {
         return account_.room_for(grid, bytes, budgets_);
@@ -42,34 +42,34 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     }
     EXPECT_EQ(account_.used(), 80U);
     EXPECT_EQ(account_.used("A"), 40U);
-    EXPECT_THAT(account_.down_to("", 60, 100), ElementsAre(name("A", 0), name("B", 1)));
-    EXPECT_THAT(account_.down_to("B", 20, 100), ElementsAre(name("B", 1), name("B", 3)));
-    EXPECT_THAT(account_.down_to("B", 0, 2), ElementsAre(name("B", 1), name("B", 3)));
+    EXPECT_THAT(account_.down_to("", 60, 100), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
+    EXPECT_THAT(account_.down_to("B", 20, 100), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
+    EXPECT_THAT(account_.down_to("B", 0, 2), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
 
     budgets_.total.bytes = 80;
     budgets_.domains["B"].bytes = 45;
     EXPECT_FALSE(account_.fits("B", 10, budgets_));
     EXPECT_TRUE(account_.fits("B", 0, budgets_));
     // Its own budget asks for 5 bytes, that of all for 10: what goes for one counts for the other.
-    EXPECT_THAT(*room(name("B", 9), 10), ElementsAre(name("B", 1)));
-    EXPECT_THAT(*room(name("B", 9), 20), ElementsAre(name("B", 1), name("B", 3)));
-    EXPECT_THAT(*room(name("A", 9), 20), ElementsAre(name("A", 0), name("B", 1)));
-    EXPECT_THAT(*room(name("B", 9), 15), ElementsAre(name("B", 1), name("A", 0)));
-    EXPECT_FALSE(room(name("B", 9), 46)) << "more than all of its budget";
+    EXPECT_THAT(*room(grid_named("B", 9), 10), ElementsAre(grid_named("B", 1)));
+    EXPECT_THAT(*room(grid_named("B", 9), 20), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
+    EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
+    EXPECT_THAT(*room(grid_named("B", 9), 15), ElementsAre(grid_named("B", 1), grid_named("A", 0)));
+    EXPECT_FALSE(room(grid_named("B", 9), 46)) << "more than all of its budget";
 }
 
 TEST_F(AccountTest, NeverTakesTheNewestOfADomainAndMoment) {
     put("A", 0);
     put("A", 1);
     put("B", 2);
-    account_.put({"A", level2::Moment::vel, noon}, {10, noon, false});
-    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(name("A", 0)));
+    account_.put({"A", level2::Moment::vel, account_noon}, {10, account_noon, false});
+    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(grid_named("A", 0)));
     account_.reserve("C", 20);
     budgets_.total.bytes = 60;
-    EXPECT_THAT(*room(name("C", 3), 10), ElementsAre(name("A", 0)));
-    EXPECT_FALSE(room(name("C", 3), 11)) << "nothing else may go";
+    EXPECT_THAT(*room(grid_named("C", 3), 10), ElementsAre(grid_named("A", 0)));
+    EXPECT_FALSE(room(grid_named("C", 3), 11)) << "nothing else may go";
     // The newest stays until a newer one stands.
-    EXPECT_THAT(*room(name("B", 3), 10), ElementsAre(name("A", 0)));
+    EXPECT_THAT(*room(grid_named("B", 3), 10), ElementsAre(grid_named("A", 0)));
 }
 
 TEST_F(AccountTest, MakesRoomForOldGridsOnlyFromOlderOnes) {
@@ -77,39 +77,39 @@ TEST_F(AccountTest, MakesRoomForOldGridsOnlyFromOlderOnes) {
     put("A", 20);
     put("A", 30);
     budgets_.total.bytes = 30;
-    EXPECT_FALSE(room(name("A", 5), 10)) << "it would be the first to go";
-    EXPECT_THAT(*room(name("A", 15), 10), ElementsAre(name("A", 10)));
-    EXPECT_FALSE(room(name("A", 15), 20));
+    EXPECT_FALSE(room(grid_named("A", 5), 10)) << "it would be the first to go";
+    EXPECT_THAT(*room(grid_named("A", 15), 10), ElementsAre(grid_named("A", 10)));
+    EXPECT_FALSE(room(grid_named("A", 15), 20));
     // But the only grid of a domain is its newest, however old.
-    EXPECT_THAT(*room(name("B", -500), 10), ElementsAre(name("A", 10)));
+    EXPECT_THAT(*room(grid_named("B", -500), 10), ElementsAre(grid_named("A", 10)));
 }
 
 TEST_F(AccountTest, LeavesPinnedBusyAndStuckOnes) {
     for (int minute = 0; minute < 6; ++minute)
         put("A", minute, 10, minute == 0);
-    account_.set_busy(name("A", 1));
-    account_.set_stuck(name("A", 2));
+    account_.set_busy(grid_named("A", 1));
+    account_.set_stuck(grid_named("A", 2));
     EXPECT_EQ(account_.pinned_count(), 1U);
-    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(name("A", 3), name("A", 4)));
-    account_.set_pinned(name("A", 3));
+    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(grid_named("A", 3), grid_named("A", 4)));
+    account_.set_pinned(grid_named("A", 3));
     EXPECT_EQ(account_.pinned_count(), 2U);
-    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(name("A", 4)));
+    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(grid_named("A", 4)));
     put("A", 1);
     put("A", 2);
-    EXPECT_THAT(account_.down_to("", 0, 2), ElementsAre(name("A", 1), name("A", 2)));
+    EXPECT_THAT(account_.down_to("", 0, 2), ElementsAre(grid_named("A", 1), grid_named("A", 2)));
 }
 
 TEST_F(AccountTest, WhatIsLeavingIsCountedAndNotTakenTwice) {
     for (int minute = 0; minute < 4; ++minute)
         put("A", minute);
     budgets_.total.bytes = 40;
-    account_.set_leaving(name("A", 0));
+    account_.set_leaving(grid_named("A", 0));
     EXPECT_EQ(account_.used(), 40U);
     EXPECT_FALSE(account_.fits("A", 10, budgets_)) << "not gone yet";
-    EXPECT_THAT(*room(name("A", 9), 10), IsEmpty()) << "enough is on its way";
-    EXPECT_THAT(*room(name("A", 9), 20), ElementsAre(name("A", 1)));
-    EXPECT_THAT(account_.down_to("", 20, 100), ElementsAre(name("A", 1)));
-    account_.erase(name("A", 0));
+    EXPECT_THAT(*room(grid_named("A", 9), 10), IsEmpty()) << "enough is on its way";
+    EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 1)));
+    EXPECT_THAT(account_.down_to("", 20, 100), ElementsAre(grid_named("A", 1)));
+    account_.erase(grid_named("A", 0));
     EXPECT_TRUE(account_.fits("A", 10, budgets_));
 }
 
@@ -134,49 +134,49 @@ TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     put("B", 0);
     put("B", 10);
     budgets_.total.age = minutes{60};
-    EXPECT_THAT(account_.expired("A", budgets_, 100), ElementsAre(name("A", 0)));
+    EXPECT_THAT(account_.expired("A", budgets_, 100), ElementsAre(grid_named("A", 0)));
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
     budgets_.domains["A"].age = minutes{20};
     EXPECT_THAT(account_.expired("A", budgets_, 100),
-                ElementsAre(name("A", 0), name("A", 30), name("A", 60)));
-    EXPECT_THAT(account_.expired("A", budgets_, 1), ElementsAre(name("A", 0)));
-    EXPECT_TRUE(account_.is_expired(name("A", 69), budgets_));
-    EXPECT_FALSE(account_.is_expired(name("A", 70), budgets_));
-    EXPECT_FALSE(account_.is_expired(name("C", -9000), budgets_));
+                ElementsAre(grid_named("A", 0), grid_named("A", 30), grid_named("A", 60)));
+    EXPECT_THAT(account_.expired("A", budgets_, 1), ElementsAre(grid_named("A", 0)));
+    EXPECT_TRUE(account_.is_expired(grid_named("A", 69), budgets_));
+    EXPECT_FALSE(account_.is_expired(grid_named("A", 70), budgets_));
+    EXPECT_FALSE(account_.is_expired(grid_named("C", -9000), budgets_));
     // The time of the clock plays no part.
-    account_.set_now(noon + hours{24 * 3650});
+    account_.set_now(account_noon + hours{24 * 3650});
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
 }
 
 // DESIGN 5: "stamps over 10 minutes in the future do not count".
 TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
-    account_.set_now(noon);
+    account_.set_now(account_noon);
     budgets_.total.age = minutes{60};
     put("A", -30);
     put("A", 0);
     put("A", 10);
-    EXPECT_EQ(account_.newest("A"), noon + minutes{10});
-    account_.put(name("A", 11), {10, noon, false});
-    account_.put(name("A", 60 * 24 * 365), {10, noon + minutes{1}, false});
-    EXPECT_EQ(account_.newest("A"), noon + minutes{10});
+    EXPECT_EQ(account_.newest("A"), account_noon + minutes{10});
+    account_.put(grid_named("A", 11), {10, account_noon, false});
+    account_.put(grid_named("A", 60 * 24 * 365), {10, account_noon + minutes{1}, false});
+    EXPECT_EQ(account_.newest("A"), account_noon + minutes{10});
     EXPECT_THAT(account_.expired("A", budgets_, 100), IsEmpty());
     // They are as old as their files, so they roll with the others, and protect nothing.
-    EXPECT_TRUE(account_.is_newest(name("A", 10)));
+    EXPECT_TRUE(account_.is_newest(grid_named("A", 10)));
     EXPECT_THAT(account_.down_to("A", 0, 100),
-                ElementsAre(name("A", -30), name("A", 0), name("A", 11), name("A", 60 * 24 * 365)));
+                ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11), grid_named("A", 60 * 24 * 365)));
     // A minute later one of them is believed.
-    account_.set_now(noon + minutes{1});
-    EXPECT_EQ(account_.newest("A"), noon + minutes{11});
+    account_.set_now(account_noon + minutes{1});
+    EXPECT_EQ(account_.newest("A"), account_noon + minutes{11});
     EXPECT_THAT(account_.down_to("A", 0, 100),
-                ElementsAre(name("A", -30), name("A", 0), name("A", 60 * 24 * 365), name("A", 10)));
+                ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 60 * 24 * 365), grid_named("A", 10)));
 }
 
 TEST_F(AccountTest, ADomainOfFutureStampsAloneKeepsItsNewest) {
-    account_.set_now(noon);
+    account_.set_now(account_noon);
     put("A", 100);
     put("A", 200);
     EXPECT_EQ(account_.newest("A"), std::nullopt);
-    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(name("A", 100)));
+    EXPECT_THAT(account_.down_to("", 0, 100), ElementsAre(grid_named("A", 100)));
 }
 
 TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
@@ -186,12 +186,12 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     put("northeast.KOKX", 5);
     put("north", 0);
     EXPECT_EQ(account_.used("northeast"), 40U);
-    EXPECT_EQ(account_.newest("northeast"), noon + minutes{60});
-    EXPECT_THAT(account_.down_to("northeast", 0, 100), ElementsAre(name("northeast.KBOX", 0)));
+    EXPECT_EQ(account_.newest("northeast"), account_noon + minutes{60});
+    EXPECT_THAT(account_.down_to("northeast", 0, 100), ElementsAre(grid_named("northeast.KBOX", 0)));
     // Of a part that went silent not even the newest outlives the age.
     budgets_.domains["northeast"].age = minutes{30};
     EXPECT_THAT(account_.expired("northeast", budgets_, 100),
-                ElementsAre(name("northeast.KBOX", 0), name("northeast.KOKX", 5)));
+                ElementsAre(grid_named("northeast.KBOX", 0), grid_named("northeast.KOKX", 5)));
 }
 
 TEST_F(AccountTest, AFullDiskTakesTheOldestWhereABudgetLimitsSpace) {
@@ -202,12 +202,12 @@ TEST_F(AccountTest, AFullDiskTakesTheOldestWhereABudgetLimitsSpace) {
     budgets_.domains["B"].bytes = 1000;
     EXPECT_FALSE(budgets_.makes_room("A"));
     EXPECT_TRUE(budgets_.makes_room("B"));
-    EXPECT_THAT(account_.oldest(name("B", 9), 10, budgets_), ElementsAre(name("B", 5)));
-    EXPECT_THAT(account_.oldest(name("B", 9), 100, budgets_), ElementsAre(name("B", 5)));
+    EXPECT_THAT(account_.oldest(grid_named("B", 9), 10, budgets_), ElementsAre(grid_named("B", 5)));
+    EXPECT_THAT(account_.oldest(grid_named("B", 9), 100, budgets_), ElementsAre(grid_named("B", 5)));
     budgets_.total.file_system_percent = 90;
-    EXPECT_THAT(account_.oldest(name("B", 9), 11, budgets_),
-                ElementsAre(name("A", 0), name("B", 5)));
-    EXPECT_THAT(account_.oldest(name("B", 3), 11, budgets_), ElementsAre(name("A", 0)))
+    EXPECT_THAT(account_.oldest(grid_named("B", 9), 11, budgets_),
+                ElementsAre(grid_named("A", 0), grid_named("B", 5)));
+    EXPECT_THAT(account_.oldest(grid_named("B", 3), 11, budgets_), ElementsAre(grid_named("A", 0)))
         << "only what is older";
 }
 
@@ -217,12 +217,12 @@ TEST_F(AccountTest, AGridToStayMayTakeTheRoomOfNewerOnes) {
     put("A", 1);
     put("A", 2);
     budgets_.total.bytes = 30;
-    EXPECT_TRUE(account_.is_to_stay(name("A", 0)));
-    EXPECT_FALSE(account_.is_to_stay(name("A", 1)));
-    EXPECT_THAT(*room(name("A", 0), 10), ElementsAre(name("A", 1)));
+    EXPECT_TRUE(account_.is_to_stay(grid_named("A", 0)));
+    EXPECT_FALSE(account_.is_to_stay(grid_named("A", 1)));
+    EXPECT_THAT(*room(grid_named("A", 0), 10), ElementsAre(grid_named("A", 1)));
     budgets_.total.age = std::chrono::seconds{1};
-    EXPECT_FALSE(account_.is_expired(name("A", 0), budgets_));
-    EXPECT_TRUE(account_.is_expired(name("A", 1), budgets_));
+    EXPECT_FALSE(account_.is_expired(grid_named("A", 0), budgets_));
+    EXPECT_TRUE(account_.is_expired(grid_named("A", 1), budgets_));
 }
 
 // Sums and choices against the obvious way, over random changes.
@@ -234,13 +234,13 @@ TEST_F(AccountTest, AgreesWithAListThatIsSortedEachTime) {
     std::map<GridName, GridFacts> slow;
     for (int step = 0; step < 3000; ++step) {
         const GridName grid =
-            name(std::vector<std::string>{"A", "B", "B.KBOX"}.at(static_cast<std::size_t>(draw(3))),
+            grid_named(std::vector<std::string>{"A", "B", "B.KBOX"}.at(static_cast<std::size_t>(draw(3))),
                  draw(60));
         if (draw(3) == 0) {
             account_.erase(grid);
             slow.erase(grid);
         } else {
-            const GridFacts facts{static_cast<std::uint64_t>(draw(100)), noon, draw(8) == 0};
+            const GridFacts facts{static_cast<std::uint64_t>(draw(100)), account_noon, draw(8) == 0};
             account_.put(grid, facts);
             slow[grid] = facts;
         }
