@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "cache/budget.h"
 #include "grid/audit.h"
 #include "grid/brick_grid.h"
 #include "grid/column_geometry.h"
@@ -24,9 +25,11 @@ tl::unexpected<Error> of_gridding(Error error) {
     return tl::unexpected<Error>(caused_by(Cause::data, std::move(error)));
 }
 
-void note_not_kept(IngestOutcome& outcome) {
+void note_not_kept(const std::string& station, IngestOutcome& outcome) {
     ++outcome.not_kept;
-    outcome.reason = "older than what the cache keeps";
+    outcome.reason = cache::is_known_group(station)
+                         ? "older than what the cache keeps"
+                         : "the cache has no more room for stations that nobody knows";
 }
 
 tl::unexpected<Error> of_storing(Error error) {
@@ -105,7 +108,7 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     if (!has_place(volume, outcome)) return {};
     if (!store_.would_keep(volume.station, options_.moment,
                            volume.start_time().value_or(UtcTime{}))) {
-        note_not_kept(outcome);
+        note_not_kept(volume.station, outcome);
         return {};
     }
     const auto start = Clock::now();
@@ -123,7 +126,7 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     }
     if (!path) return of_storing(path.error());
     if (path->empty()) {
-        note_not_kept(outcome);
+        note_not_kept(volume.station, outcome);
     } else {
         remove_other_times(store_, volume.station, options_.moment, volume, source.file);
         outcome.grids.push_back(std::move(*path));

@@ -70,6 +70,7 @@ class SiteGrids {
 // The cache's budgets leave no room for a grid, and somebody would have to change them: the file is
 // not tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);
-void note_not_kept(IngestOutcome& outcome);
+// The cache keeps no grid of this station that is so old, or none at all where nobody knows it.
+void note_not_kept(const std::string& station, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

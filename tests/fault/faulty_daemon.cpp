@@ -8,6 +8,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "tests/fault/load.h"
+
 namespace stormcellar::fault {
 namespace {
 
@@ -18,7 +20,7 @@ using nlohmann::json;
 constexpr const char* quick =
     "[watch]\nrescan_seconds = 2\n[cache]\npercent = 0\n[ingest]\nquiet_seconds = 1\n"
     "reread_seconds = 0.05\nspacing_km = 10\nextent_km = [100, 100]\nlevels_km = [1, 3, 6]\n"
-    "workers = 2\nstations = \"any\"\n";
+    "workers = 2\n";
 
 std::size_t settled_in(const fs::path& database) {
     try {
@@ -42,7 +44,7 @@ int number_of(const char* variable, int usual) {
 void FaultyDaemon::start(const std::map<std::string, std::string>& environment,
                          const std::string& more) {
     fs::remove(running_.root() / "state/status.json");
-    running_.start(quick + more, environment);
+    running_.start(quick + more + usual_station_tables(), environment);
 }
 
 void FaultyDaemon::kill() {

@@ -21,13 +21,16 @@ namespace fs = std::filesystem;
 
 constexpr int gates = 160;  // of 250 m
 const std::vector<std::string> usual_stations = {"XFAA", "XFAB", "XFAC", "XFAD", "XFAE", "XFAF"};
+constexpr double latitude_deg = 35;
+constexpr double first_longitude_deg = -98;  // the next station stands a degree further east
+constexpr double antenna_altitude_m = 380;
 
 level2::Volume pattern_of(const std::string& station, double longitude_deg) {
     const std::string text = fmt::format(R"([radar]
 station = "{}"
-latitude_deg = 35
+latitude_deg = {}
 longitude_deg = {}
-altitude_m = 380
+altitude_m = {}
 [volumes]
 count = 1
 start = "2024-06-01T00:00:00Z"
@@ -48,7 +51,7 @@ core_km = 2
 top_km = 9
 peak_dbz = 55
 )",
-                                         station, longitude_deg);
+                                         station, latitude_deg, longitude_deg, antenna_altitude_m);
     const auto scene = synth::parse_scene(text, station);
     if (!scene) throw std::runtime_error(scene.error().message);
     level2::Volume volume = synth::observe(*scene, 0);
@@ -105,11 +108,23 @@ void put_whole(const Shipment& shipment) {
 
 }  // namespace
 
+std::string usual_station_tables() {
+    std::string tables;
+    double longitude_deg = first_longitude_deg;
+    for (const std::string& station : usual_stations) {
+        tables += fmt::format(
+            "[[station]]\nicao = \"{}\"\nlatitude_deg = {}\nlongitude_deg = {}\n"
+            "antenna_altitude_m = {}\n",
+            station, latitude_deg, longitude_deg++, antenna_altitude_m);
+    }
+    return tables;
+}
+
 Shipments::Shipments(fs::path drop, std::uint32_t seed, const std::vector<std::string>& stations)
     : drop_(std::move(drop)), random_(seed) {
-    double longitude_deg = -99;
+    double longitude_deg = first_longitude_deg;
     for (const std::string& station : stations.empty() ? usual_stations : stations)
-        patterns_.push_back(pattern_of(station, longitude_deg += 1));
+        patterns_.push_back(pattern_of(station, longitude_deg++));
     if (!stations.empty()) return;
     const auto data = testing::data_directory();
     if (!data) return;

@@ -33,6 +33,9 @@ struct Shipment {
     Delivered delivered;  // files: that of each piece for chunks, else one
 };
 
+// The six stations that a load usually has, as [[station]] tables.
+[[nodiscard]] std::string usual_station_tables();
+
 class Shipments {
   public:
     // Of six stations and with real volumes, or of these stations alone.
