@@ -174,6 +174,23 @@ std::string own_temporary_prefix() {
     return fmt::format("{}{}-", temporary_prefix, ::getpid());
 }
 
+Status remove_temporaries(FileSystem& file_system, const std::filesystem::path& directory) {
+    std::error_code error;
+    std::vector<std::filesystem::path> found;
+    for (std::filesystem::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (entry->path().filename().native().starts_with(temporary_prefix))
+            found.push_back(entry->path());
+    }
+    if (error && error != std::errc::no_such_file_or_directory)
+        return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    for (const std::filesystem::path& path : found) {
+        Status removed = file_system.remove(path);
+        if (!removed && removed.error().code != ErrorCode::not_found) return removed;
+    }
+    return {};
+}
+
 FileSystem& real_file_system() {
     static RealFileSystem file_system;
     return file_system;

@@ -45,6 +45,10 @@ class FileSystem {
 // Our temporary files start with this, so that others are never touched when leftovers are swept.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
 [[nodiscard]] std::string own_temporary_prefix();  // of those of this process
+// Removes every file of the directory that is named so: what a killed writer left. Only for who
+// knows that nobody writes there. No directory is no error; io, permission.
+[[nodiscard]] Status remove_temporaries(FileSystem& file_system,
+                                        const std::filesystem::path& directory);
 
 // Whether a file can appear at this path: its directory is there and may be written, and nothing
 // but a regular file (or a link to one) stands there. For asking before long work.

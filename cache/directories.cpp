@@ -143,16 +143,10 @@ Status sweep_temporaries(FileSystem& file_system, const fs::path& cache) {
     const auto days = all_days(cache);
     if (!days) return pass_on(days);
     for (const Day& day : *days) {
-        const fs::path directory = cache / relative_path(day);
-        const auto names = names_in(directory, fs::file_type::regular);
-        if (!names) return pass_on(names);
-        for (const std::string& name : *names) {
-            if (!name.starts_with(temporary_prefix)) continue;
-            Status removed = file_system.remove(directory / name);
-            if (!removed && removed.error().code != ErrorCode::not_found) return removed;
-        }
+        Status removed = remove_temporaries(file_system, cache / relative_path(day));
+        if (!removed) return removed;
     }
-    return {};
+    return remove_temporaries(file_system, cache);
 }
 
 }  // namespace stormcellar::cache

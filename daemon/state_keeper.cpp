@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "base/file_system.h"
+
 namespace stormcellar::daemon {
 namespace {
 
@@ -26,6 +28,11 @@ Status StateKeeper::hold() {
     if (lock_ && !is_gone(state_ / pipeline::InstanceLock::file_name)) return {};
     auto lock = pipeline::InstanceLock::acquire(state_);
     if (!lock) return pass_on(lock);
+    if (!lock_) {
+        // Nothing depends on what a killed service left: what cannot be removed may stay.
+        for (const std::filesystem::path& directory : {state_, catalog})
+            (void)remove_temporaries(real_file_system(), directory);
+    }
     lock_.emplace(std::move(*lock));
     return {};
 }

@@ -19,7 +19,8 @@ class StateKeeper {
     explicit StateKeeper(std::filesystem::path state) : state_(std::move(state)) {}
 
     // Makes the directories where they are missing and takes the lock; errors of both
-    // (pipeline/instance_lock.h).
+    // (pipeline/instance_lock.h). The first time it removes the temporary files that a killed
+    // service left.
     [[nodiscard]] Status hold();
     // None while all is there; else what came of making it again. The lock is another one then: a
     // service that was started on the new directory meanwhile has it (bad_argument).

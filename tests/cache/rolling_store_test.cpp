@@ -198,11 +198,14 @@ TEST_F(RollingStoreTest, WhatStandsAtTheStartIsBroughtWithinTheBudgetAndLeftover
     }
     const fs::path leftover =
         path("A", 1).parent_path() / (std::string(temporary_prefix) + "4242-1");
-    std::ofstream(leftover) << std::string(100'000, 'x');
+    const fs::path above = cache_ / (std::string(temporary_prefix) + "ready-4242");
+    for (const fs::path& file : {leftover, above})
+        std::ofstream(file) << std::string(100'000, 'x');
     budgets_.total.bytes = room_for(4);
     budgets_.low_watermark = 0.99;
     const Store store = open(budgets_);
     EXPECT_FALSE(fs::exists(leftover));
+    EXPECT_FALSE(fs::exists(above));
     EXPECT_THAT(grids(store), ElementsAre("A+4", "A+5", "A+6", "A+7"));
     EXPECT_EQ(store.usage()->grids, 4U);
 }

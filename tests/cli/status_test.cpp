@@ -98,12 +98,16 @@ TEST(Status, ASocketElsewhereIsFound) {
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
 }
 
-// Whatever stands in its way, files are taken in.
+// Files are taken in without it, but the service does not call itself ready.
 TEST(Status, TheDaemonStartsWithoutItsSocket) {
     RunningDaemon daemon;
+    write_file(daemon.drop() / "junk", "no radar data");
     daemon.start("[status]\nsocket = \"none/status.sock\"\n");
-    EXPECT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "running"; }));
     EXPECT_TRUE(daemon.wait_for_log("the status cannot be asked for: ")) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("not ready: ")) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for_log("rejected ")) << daemon.log();
+    EXPECT_TRUE(daemon.wait_for([](const json& s) { return s["state"] == "starting"; }));
+    EXPECT_EQ(daemon.log().find("ready: watching"), std::string::npos) << daemon.log();
     EXPECT_EQ(status({"--config", daemon.root() / "stormcellard.toml"}).status, 1);
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
 }

@@ -39,6 +39,22 @@ TEST_F(StateKeeperTest, MakesItAgainWithItsLock) {
     }
 }
 
+TEST_F(StateKeeperTest, RemovesWhatAKilledServiceLeft) {
+    const fs::path catalog = state_ / "catalog";
+    fs::create_directories(catalog);
+    write_file(state_ / ".stormcellar-tmp-status", "half");
+    write_file(catalog / ".stormcellar-tmp-4242-0", "half");
+    write_file(catalog / "drop-directory", "whole");
+    ASSERT_TRUE(keeper_.hold());
+    EXPECT_FALSE(fs::exists(state_ / ".stormcellar-tmp-status"));
+    EXPECT_FALSE(fs::exists(catalog / ".stormcellar-tmp-4242-0"));
+    EXPECT_TRUE(fs::exists(catalog / "drop-directory"));
+    // What this service itself is writing stays.
+    write_file(catalog / ".stormcellar-tmp-4242-0", "half");
+    ASSERT_TRUE(keeper_.hold());
+    EXPECT_TRUE(fs::exists(catalog / ".stormcellar-tmp-4242-0"));
+}
+
 TEST_F(StateKeeperTest, SaysWhyItCannot) {
     ASSERT_TRUE(keeper_.hold());
     fs::remove_all(root_ / "a");
