@@ -32,11 +32,11 @@ class GrowingFiles {
   public:
     using Duration = SteadyTime::duration;
     static constexpr Duration settle = std::chrono::seconds{1};  // also how often stamps are read
-    // A writer that keeps its file open at a great pace is to be followed soon; a large copy is
-    // looked at once in vain.
     // So many stamps are read in a second: of more files each has its turn less often.
     static constexpr std::size_t most_looks = 512;
     static constexpr std::size_t most_looks_at_once = 64;
+    // A writer that keeps its file open at a great pace is to be followed soon; a large copy is
+    // looked at once in vain.
     static constexpr Duration busy = std::chrono::seconds{3};
     // A file that is followed shows its sweeps anyway, and to finish it is to begin it anew when
     // more comes after all: it is given so many times `quiet`.

@@ -379,7 +379,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
     }
     if (!read.was_read) {
         const ErrorCode code = read.was_read.error().code;
-        // Ours for now, as when descriptors run out: the file is not to blame.
+        // The system is short of something, such as descriptors: the file is not to blame.
         if (code == ErrorCode::io || is_shortage(code)) return pass_on(read.was_read);
         if (code == ErrorCode::permission) facts.modified_ns = catalog::never_read_ns;
         return reject(facts, {code, without_path(read.was_read.error().message, path)}, outcome);

@@ -13,6 +13,7 @@
 #include "level2/encode.h"
 #include "synth/observe.h"
 #include "synth/replay_pieces.h"
+#include "tests/fault/cut_gates.h"
 #include "tests/fault/hostile_watch.h"
 
 namespace stormcellar::fault {
@@ -75,26 +76,12 @@ top_km = 10
 peak_dbz = 50
 )";
 
-void cut_gates(level2::SweepMoment& moment) {
-    std::vector<std::uint8_t> codes;
-    for (std::size_t radial = 0; radial < moment.gate_counts.size(); ++radial) {
-        for (int gate = 0; gate < real_gates; ++gate)
-            codes.push_back(static_cast<std::uint8_t>(moment.code(radial, gate)));
-        moment.gate_counts[radial] = real_gates;
-    }
-    moment.codes8 = std::move(codes);
-    moment.gate_stride = real_gates;
-}
-
 // One radar's view, which then stands for all of them.
 level2::Volume observed() {
     const auto parsed = synth::parse_scene(feed_scene, "feed");
     if (!parsed) throw std::runtime_error(parsed.error().message);
     level2::Volume volume = synth::observe(*parsed, 0);
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::SweepMoment& moment : sweep.moments)
-            cut_gates(moment);
-    }
+    cut_gates(volume, real_gates);
     return volume;
 }
 

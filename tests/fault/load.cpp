@@ -12,6 +12,7 @@
 #include "level2/encode.h"
 #include "synth/observe.h"
 #include "synth/replay_pieces.h"
+#include "tests/fault/cut_gates.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::fault {
@@ -55,18 +56,7 @@ peak_dbz = 55
     const auto scene = synth::parse_scene(text, station);
     if (!scene) throw std::runtime_error(scene.error().message);
     level2::Volume volume = synth::observe(*scene, 0);
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::SweepMoment& moment : sweep.moments) {
-            std::vector<std::uint8_t> codes;
-            for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
-                for (int gate = 0; gate < gates; ++gate)
-                    codes.push_back(static_cast<std::uint8_t>(moment.code(radial, gate)));
-                moment.gate_counts[radial] = gates;
-            }
-            moment.codes8 = std::move(codes);
-            moment.gate_stride = gates;
-        }
-    }
+    cut_gates(volume, gates);
     return volume;
 }
 
