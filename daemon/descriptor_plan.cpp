@@ -7,9 +7,9 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::uint64_t most_reserved = 256;   // status connections take up to 96 of them
-constexpr std::uint64_t most_databases = 288;  // the station table has some 210
-constexpr std::uint64_t most_growing_files = 448;    // two of each station
+constexpr std::uint64_t most_reserved = 256;       // status connections take up to 96 of them
+constexpr std::uint64_t most_databases = 288;      // the station table has some 210
+constexpr std::uint64_t most_growing_files = 448;  // two of each station
 constexpr std::uint64_t least = 4;
 
 }  // namespace

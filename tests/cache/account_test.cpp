@@ -43,7 +43,8 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     EXPECT_EQ(account_.used(), 80U);
     EXPECT_EQ(account_.used("A"), 40U);
     EXPECT_THAT(account_.down_to("", 60, 100), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
-    EXPECT_THAT(account_.down_to("B", 20, 100), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
+    EXPECT_THAT(account_.down_to("B", 20, 100),
+                ElementsAre(grid_named("B", 1), grid_named("B", 3)));
     EXPECT_THAT(account_.down_to("B", 0, 2), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
 
     budgets_.total.bytes = 80;
@@ -163,12 +164,14 @@ TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     // They are as old as their files, so they roll with the others, and protect nothing.
     EXPECT_TRUE(account_.is_newest(grid_named("A", 10)));
     EXPECT_THAT(account_.down_to("A", 0, 100),
-                ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11), grid_named("A", 60 * 24 * 365)));
+                ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11),
+                            grid_named("A", 60 * 24 * 365)));
     // A minute later one of them is believed.
     account_.set_now(account_noon + minutes{1});
     EXPECT_EQ(account_.newest("A"), account_noon + minutes{11});
     EXPECT_THAT(account_.down_to("A", 0, 100),
-                ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 60 * 24 * 365), grid_named("A", 10)));
+                ElementsAre(grid_named("A", -30), grid_named("A", 0),
+                            grid_named("A", 60 * 24 * 365), grid_named("A", 10)));
 }
 
 TEST_F(AccountTest, ADomainOfFutureStampsAloneKeepsItsNewest) {
@@ -187,7 +190,8 @@ TEST_F(AccountTest, PartsAreCountedWithTheirDomain) {
     put("north", 0);
     EXPECT_EQ(account_.used("northeast"), 40U);
     EXPECT_EQ(account_.newest("northeast"), account_noon + minutes{60});
-    EXPECT_THAT(account_.down_to("northeast", 0, 100), ElementsAre(grid_named("northeast.KBOX", 0)));
+    EXPECT_THAT(account_.down_to("northeast", 0, 100),
+                ElementsAre(grid_named("northeast.KBOX", 0)));
     // Of a part that went silent not even the newest outlives the age.
     budgets_.domains["northeast"].age = minutes{30};
     EXPECT_THAT(account_.expired("northeast", budgets_, 100),
@@ -203,7 +207,8 @@ TEST_F(AccountTest, AFullDiskTakesTheOldestWhereABudgetLimitsSpace) {
     EXPECT_FALSE(budgets_.makes_room("A"));
     EXPECT_TRUE(budgets_.makes_room("B"));
     EXPECT_THAT(account_.oldest(grid_named("B", 9), 10, budgets_), ElementsAre(grid_named("B", 5)));
-    EXPECT_THAT(account_.oldest(grid_named("B", 9), 100, budgets_), ElementsAre(grid_named("B", 5)));
+    EXPECT_THAT(account_.oldest(grid_named("B", 9), 100, budgets_),
+                ElementsAre(grid_named("B", 5)));
     budgets_.total.file_system_percent = 90;
     EXPECT_THAT(account_.oldest(grid_named("B", 9), 11, budgets_),
                 ElementsAre(grid_named("A", 0), grid_named("B", 5)));
@@ -233,14 +238,15 @@ TEST_F(AccountTest, AgreesWithAListThatIsSortedEachTime) {
     };
     std::map<GridName, GridFacts> slow;
     for (int step = 0; step < 3000; ++step) {
-        const GridName grid =
-            grid_named(std::vector<std::string>{"A", "B", "B.KBOX"}.at(static_cast<std::size_t>(draw(3))),
-                 draw(60));
+        const GridName grid = grid_named(
+            std::vector<std::string>{"A", "B", "B.KBOX"}.at(static_cast<std::size_t>(draw(3))),
+            draw(60));
         if (draw(3) == 0) {
             account_.erase(grid);
             slow.erase(grid);
         } else {
-            const GridFacts facts{static_cast<std::uint64_t>(draw(100)), account_noon, draw(8) == 0};
+            const GridFacts facts{static_cast<std::uint64_t>(draw(100)), account_noon,
+                                  draw(8) == 0};
             account_.put(grid, facts);
             slow[grid] = facts;
         }
