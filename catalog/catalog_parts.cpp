@@ -1,6 +1,7 @@
 #include "catalog/catalog_parts.h"
 
 #include <algorithm>
+#include <limits>
 #include <system_error>
 
 #include "base/station_table.h"
@@ -204,40 +205,62 @@ Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::pa
         found = *listed_;
     }
     const std::string_view home = home_of(path.native());
-    std::erase_if(found,
-                  [&](const std::string& name) { return name != home && !may_have_strays(name); });
+    const bool may_be_stray = strays_->may_have(path.native());
+    std::erase_if(found, [&](const std::string& name) {
+        return name != home && !may_have_stray(name, may_be_stray);
+    });
     return found;
+}
+
+std::optional<Strays> Catalog::Impl::find_strays(StationDatabase& database, const std::string& name,
+                                                 std::int64_t most_rows) {
+    Strays found = Strays::none;
+    const bool looked = database.look_at_paths(
+        [&](std::string_view path) {
+            if (home_of(path) == name) return;
+            found = Strays::some;
+            if (strays_) strays_->add(path);
+        },
+        most_rows);
+    return looked ? std::optional{found} : std::nullopt;
+}
+
+void Catalog::Impl::expect_row(const fs::path& path, const std::string& name) {
+    if (home_of(path.native()) == name) return;
+    if (strays_) strays_->add(path.native());
+    databases.lease(name)->strays = Strays::some;
 }
 
 std::vector<fs::path> Catalog::Impl::paths_below(StationDatabase& database, const fs::path& below,
                                                  const std::string& name) {
     const OpenDatabases::Lease place = databases.lease(name);
     if (place->strays == Strays::unknown || place->strays == Strays::too_many_rows) {
-        const auto has_one =
-            database.has_path([&](std::string_view path) { return home_of(path) != name; });
-        place->strays = *has_one ? Strays::some : Strays::none;
+        place->strays = *find_strays(database, name, std::numeric_limits<std::int64_t>::max());
     }
     return database.paths_below(below);
 }
 
-bool Catalog::Impl::may_have_strays(const std::string& name) {
+bool Catalog::Impl::may_have_stray(const std::string& name, bool is_likely) {
     const OpenDatabases::Lease place = databases.lease(name);
-    if (place->strays != Strays::unknown) return place->strays != Strays::none;
+    const auto may_have = [&] {
+        return place->strays == Strays::some ? is_likely : place->strays != Strays::none;
+    };
+    if (place->strays != Strays::unknown) return may_have();
     if (recent_trouble(name)) return true;
     const std::scoped_lock lock(place->mutex);
     const auto began = std::chrono::steady_clock::now();
     // Damage is mended where the database is asked, or its own station's files come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
         if (place->strays != Strays::unknown) return true;  // somebody else did meanwhile
-        const auto has_one = database.has_path(
-            [&](std::string_view path) { return home_of(path) != name; }, most_looked_through);
-        place->strays = !has_one ? Strays::too_many_rows : *has_one ? Strays::some : Strays::none;
+        place->strays =
+            find_strays(database, name, most_looked_through).value_or(Strays::too_many_rows);
         return true;
     });
     if (!looked && looked.error().code == ErrorCode::not_found) is_listing_old_ = true;
     if (!looked && looked.error().code != ErrorCode::corrupt) {
         note_outcome(name, &looked.error(), began);
     }
+    // What was found just now may be this very path.
     return place->strays != Strays::none;
 }
 

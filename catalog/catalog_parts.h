@@ -20,6 +20,7 @@
 
 #include "catalog/catalog.h"
 #include "catalog/open_databases.h"
+#include "catalog/path_filter.h"
 #include "catalog/path_homes.h"
 #include "catalog/station_database.h"
 
@@ -39,7 +40,8 @@ struct Catalog::Impl {
         : directory(std::move(its_directory)),
           options(std::move(its_options)),
           writing(is_writing),
-          databases(options.most_open) {}
+          databases(options.most_open),
+          strays_(is_writing ? std::make_unique<PathFilter>() : nullptr) {}
 
     const std::filesystem::path directory;
     const CatalogOptions options;
@@ -125,8 +127,8 @@ struct Catalog::Impl {
 
     // The names of those that may have a row of the path. A row in another database than
     // home_of() says is a stray: of a file that is named like one station and holds another's,
-    // or none's. A writer, who sees all that is written, knows which databases have any: few, so a
-    // new file is not looked for in every station's.
+    // or none's. A writer, who sees all that is written, knows the paths of those (PathFilter), so
+    // that a new file is not looked for in every station's database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
     // The paths of rows that are not gone. Looks for strays on the way where nobody could.
@@ -134,13 +136,17 @@ struct Catalog::Impl {
                                                                  const std::filesystem::path& below,
                                                                  const std::string& name);
     // Called before the row is written, with the slot's mutex held.
-    void expect_row(const std::filesystem::path& path, const std::string& name) {
-        if (home_of(path.native()) != name) databases.lease(name)->strays = Strays::some;
-    }
+    void expect_row(const std::filesystem::path& path, const std::string& name);
 
   private:
     [[nodiscard]] Result<std::unique_ptr<StationDatabase>> open_database(const std::string& name);
-    [[nodiscard]] bool may_have_strays(const std::string& name);
+    // Whether a database may have a row of a path that is not at home there. `is_likely`: the path
+    // is one of those of strays.
+    [[nodiscard]] bool may_have_stray(const std::string& name, bool is_likely);
+    // Adds the paths of its strays to strays_. None: it has more rows, at which nobody looked.
+    [[nodiscard]] std::optional<Strays> find_strays(StationDatabase& database,
+                                                    const std::string& name,
+                                                    std::int64_t most_rows);
     void look_for_admitted_stations();
     // Notes a trouble, or with no error that it is over.
     void note_outcome(const std::string& name, const Error* error,
@@ -159,6 +165,9 @@ struct Catalog::Impl {
     std::atomic<bool> has_troubles_ = false;
     mutable std::mutex troubles_mutex_;  // guards troubles_
     std::map<std::string, Standing, std::less<>> troubles_;
+
+    // The paths of strays in all databases of which that is known; null: of a reader.
+    const std::unique_ptr<PathFilter> strays_;
 
     // What names() gave, until a database is opened or found to have gone. Of a writer.
     std::mutex listed_mutex_;

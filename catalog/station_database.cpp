@@ -293,18 +293,17 @@ void StationDatabase::forget(const fs::path& path) {
     transaction.commit();
 }
 
-std::optional<bool> StationDatabase::has_path(const std::function<bool(std::string_view)>& test,
-                                              std::int64_t most) {
+bool StationDatabase::look_at_paths(const std::function<void(std::string_view)>& look,
+                                    std::int64_t most) {
     {
         LentStatement last = prepared("SELECT ifnull(max(id), 0) FROM file");
         last->executeStep();
-        if (last->getColumn(0).getInt64() > most) return std::nullopt;
+        if (last->getColumn(0).getInt64() > most) return false;
     }
     LentStatement rows = prepared("SELECT path FROM file");
-    while (rows->executeStep()) {
-        if (test(bytes_of(rows->getColumn(0)))) return true;
-    }
-    return false;
+    while (rows->executeStep())
+        look(bytes_of(rows->getColumn(0)));
+    return true;
 }
 
 std::optional<bool> StationDatabase::is_settled(const fs::path& path, std::uint64_t size_bytes,

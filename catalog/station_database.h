@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -84,10 +83,9 @@ class StationDatabase {
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
     // Deletes the oldest of these, in one transaction; gives how many.
     std::int64_t forget_oldest_gone(std::int64_t most);
-    // Whether there is a row, in any state, of a path that `test` is true of. None where there may
-    // be more than `most` rows, of which none is looked at then.
-    std::optional<bool> has_path(const std::function<bool(std::string_view)>& test,
-                                 std::int64_t most = std::numeric_limits<std::int64_t>::max());
+    // Shows the paths of all rows, in whatever state. False where there may be more than `most`
+    // rows, of which none is looked at then.
+    bool look_at_paths(const std::function<void(std::string_view)>& look, std::int64_t most);
     // None when the path has no row.
     std::optional<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
                                    std::int64_t modified_ns);

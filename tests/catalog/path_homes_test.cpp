@@ -45,6 +45,25 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_c"), 1);
 }
 
+// To ask all of them took a millisecond of each file that came.
+TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
+    ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
+    for (const bool is_opened_again : {false, true}) {
+        SCOPED_TRACE(is_opened_again);
+        if (is_opened_again) catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+        EXPECT_FALSE(*catalog_.is_known("/d/KOUN_c"));
+        // Whoever asks a database notes that its file is another.
+        const std::filesystem::path database = directory_ / "catalog/KTLX.sqlite";
+        std::filesystem::copy_file(database, directory_ / "copy");
+        std::filesystem::rename(directory_ / "copy", database);
+        EXPECT_FALSE(*catalog_.is_known("/d/KOUN_d"));
+        EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_e"), 0);
+        EXPECT_TRUE(catalog_.take_repairs().empty());
+        EXPECT_TRUE(*catalog_.is_known("/d/KOUN_b"));
+    }
+}
+
 TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundAfterARestart) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_c", {}, "")));
