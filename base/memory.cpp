@@ -22,6 +22,16 @@ void keep_freed_memory() {
 #endif
 }
 
+bool give_back_freed_memory(std::size_t most_kept_bytes) {
+#ifdef __GLIBC__
+    if (mallinfo2().fordblks <= most_kept_bytes) return false;
+    return malloc_trim(0) != 0;
+#else
+    static_cast<void>(most_kept_bytes);
+    return false;
+#endif
+}
+
 void prefer_large_pages(void* memory, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
     constexpr std::size_t page = 4096;

@@ -8,6 +8,7 @@
 #include <poll.h>
 
 #include "base/counted.h"
+#include "base/memory.h"
 #include "base/printable.h"
 #include "daemon/log.h"
 
@@ -23,6 +24,12 @@ constexpr std::chrono::seconds between_held_back{1};
 constexpr std::chrono::seconds longest_start{60};  // from one look to the next, at most
 // A drop directory that is missing at the start is looked for so often, not once a minute.
 constexpr std::chrono::seconds between_first_scans{1};
+
+// Freed memory beyond this goes back to the system: what volumes leave that are decoded one after
+// the other is less, and is used again at once.
+constexpr std::size_t most_kept_bytes(int workers) {
+    return (96 + 32 * static_cast<std::size_t>(workers)) << 20U;
+}
 
 // The socket of a configuration that names none was chosen at the start.
 bool same_listening(const Config& fresh, const Config& running) {
@@ -322,6 +329,7 @@ void Service::keep_house() {
         Reporter::report_directory(problem);
     if (now >= next_held_back_) {
         next_held_back_ = now + between_held_back;
+        (void)give_back_freed_memory(most_kept_bytes(config_.worker_count()));
         log_held_back();
     }
     if (const auto usage = cache_keeper_.poll(now, config_.budgets)) {

@@ -17,7 +17,7 @@ namespace stormcellar::level2 {
 
 // The largest volume known, all of it, has 12 MB. A length beyond this is a lie, and is known to be
 // one before so many bytes have come.
-inline constexpr std::size_t longest_record_bytes = std::size_t{64} << 20;
+inline constexpr std::size_t longest_record_bytes = std::size_t{32} << 20;
 
 struct LdmPart {
     enum class Kind : std::uint8_t {

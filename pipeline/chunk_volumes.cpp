@@ -231,11 +231,18 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const st
     const std::scoped_lock lock(mutex_);
     if (auto known = volumes_.find(chunk.key)) return known;
     const auto now = std::chrono::steady_clock::now();
-    const bool was_given_up = not_again_.contains(chunk.key);
-    const bool has_place = !was_given_up && volumes_.has_place(station, now);
-    note_given_up();
-    if (was_given_up && expected != Expected::nothing) return nullptr;
-    if (!has_place && expected == Expected::more) return nullptr;
+    const auto given_up = not_again_.find(chunk.key);
+    if (given_up != not_again_.end()) {
+        if (expected == Expected::more) return nullptr;
+        if (expected == Expected::its_end_is_there &&
+            std::exchange(given_up->second.was_read_at_end, true)) {
+            return nullptr;
+        }
+    } else {
+        const bool has_place = volumes_.has_place(station, now);
+        note_given_up();
+        if (!has_place && expected == Expected::more) return nullptr;
+    }
     level2::LiveOptions live;
     live.timeout = options_.chunk_timeout;
     live.grace = options_.chunk_grace;
@@ -270,7 +277,7 @@ bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume,
 void ChunkVolumes::note_given_up() {
     for (const std::string& key : volumes_.take_given_up()) {
         if (not_again_.size() >= most_chunks_not_again) not_again_.clear();
-        not_again_.insert(key);
+        not_again_.try_emplace(key);
         ++given_up_;
     }
 }

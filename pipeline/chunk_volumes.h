@@ -17,7 +17,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -117,7 +116,8 @@ class ChunkVolumes {
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
     // Made where it is not known. `station`: whose its path says that it is. Null where there is no
     // place for it and more is expected, or where it was given up and is not over: it is to be
-    // asked for again when it is quiet.
+    // asked for again when it is quiet. One that was given up is read once more when its end comes:
+    // should that not make it whole, it waits like the others.
     [[nodiscard]] std::shared_ptr<ChunkVolume> find(const ChunkPath& chunk,
                                                     const std::string& station,
                                                     Expected expected = Expected::more);
@@ -144,7 +144,10 @@ class ChunkVolumes {
     LivingFile::Options options_;
     mutable std::mutex mutex_;  // guards what follows
     GrowingSet<std::string, ChunkVolume> volumes_;
-    std::set<std::string> not_again_;  // those that were given up, until they are quiet
+    struct GivenUp {
+        bool was_read_at_end = false;
+    };
+    std::map<std::string, GivenUp> not_again_;  // until they are quiet
     std::map<std::string, std::filesystem::path> waiters_;  // of those that found no place
     std::uint64_t given_up_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -35,6 +36,32 @@ TEST(KeepFreedMemory, TheSecondVolumeCostsNoFaults) {
     keep_freed_memory();
     EXPECT_GT(faults_of_a_volume(), 2000);
     EXPECT_LT(faults_of_a_volume(), 100);
+}
+
+// Small things, of which every tenth stays, so that what is free lies between them.
+TEST(GiveBackFreedMemory, WhatIsFreeBetweenOtherThingsGoesBackToTheSystem) {
+#if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
+    GTEST_SKIP() << "another allocator";
+#endif
+    constexpr std::size_t count = 2000, bytes = 50'000;
+    constexpr std::size_t most_kept = count * bytes / 2;
+    std::vector<std::vector<char>> things;
+    for (std::size_t i = 0; i < count; ++i)
+        things.emplace_back(bytes, 'x');
+    EXPECT_FALSE(give_back_freed_memory(std::size_t{1} << 40));
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 10 != 0) std::vector<char>{}.swap(things[i]);
+    }
+    const auto resident = [] {
+        std::ifstream statm("/proc/self/statm");
+        std::size_t all = 0, pages = 0;
+        statm >> all >> pages;
+        return pages * 4096;
+    };
+    const std::size_t before = resident();
+    EXPECT_TRUE(give_back_freed_memory(most_kept));
+    EXPECT_LT(resident() + count * bytes / 2, before);
+    EXPECT_EQ(things[10], std::vector<char>(bytes, 'x'));
 }
 
 TEST(LargePages, AnArrayIsAllZero) {

@@ -190,7 +190,7 @@ void HostileMix::make_bytes() {
         endless_small_.push_back(
             wire::join({endless_bytes(claims, 250, 10'000), begun_record(500'000)}));
         if (i < 12)
-            endless_large_.push_back(wire::join({endless_bytes(claims), begun_record(60'000'000)}));
+            endless_large_.push_back(wire::join({endless_bytes(claims), begun_record(30'000'000)}));
         unsettled_.push_back(overflowing_bytes(claims));
         Claims open = small_claims(claims);
         open.sweeps = 2;
@@ -267,7 +267,7 @@ void HostileMix::strike_endless() {
     const fs::path path = path_of(growing_.back());
     append_bytes(path, one_of(is_large ? endless_large_ : endless_small_));
     // A hole in the place of a record that has not come to its end.
-    if (is_large && below(2) == 0) set_size(path, 50'000'000);
+    if (is_large && below(2) == 0) set_size(path, 25'000'000);
 }
 
 void HostileMix::strike_growth() {

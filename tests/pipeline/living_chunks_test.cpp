@@ -216,7 +216,31 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     EXPECT_FALSE(has_its_share);
     EXPECT_EQ(each.take_given_up(), 1U);
     EXPECT_EQ(each.find(given_up, "A"), nullptr) << "it would be read again with each chunk";
+    const auto at_its_end = each.find(given_up, "A", ChunkVolumes::Expected::its_end_is_there);
+    ASSERT_TRUE(at_its_end) << "its grid waits for nothing else";
+    EXPECT_TRUE(at_its_end->add_siblings(given_up));
+    EXPECT_FALSE(each.grew(given_up, *at_its_end, "A"));
+    EXPECT_EQ(each.find(given_up, "A", ChunkVolumes::Expected::its_end_is_there), nullptr)
+        << "whoever sends one end after the other would have it read each time";
     EXPECT_TRUE(each.find(given_up, "A", ChunkVolumes::Expected::nothing)) << "it is quiet";
+}
+
+// 2026-11-25: its grid waited until the volume had been quiet.
+TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
+    house_.ingestor.reset();
+    IngestOptions options;
+    options.spacing_m = 4000;
+    options.nx = options.ny = 115;
+    options.living.scratch = directory_ / "living";
+    options.living.put_aside_bytes = 4'000'000;
+    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    std::uint64_t given_up = 0;
+    for (std::size_t i = 0; i + 1 < names_.size(); ++i)
+        given_up += take(house_, i).given_up;
+    EXPECT_EQ(given_up, 1U);
+    EXPECT_EQ(take(house_, names_.size() - 1).result, IngestResult::gridded);
+    expect_same_cells(house_);
+    expect_one_volume(house_);
 }
 
 TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
