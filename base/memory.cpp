@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -22,9 +24,25 @@ void keep_freed_memory() {
 #endif
 }
 
+#ifdef __GLIBC__
+namespace {
+
+// What is resident and no file's: what is in use, what malloc keeps, and stacks.
+std::size_t resident_bytes() {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0, resident = 0, of_files = 0;
+    if (!(statm >> all >> resident >> of_files)) return 0;
+    return (resident - of_files) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+#endif
+
 bool give_back_freed_memory(std::size_t most_kept_bytes) {
 #ifdef __GLIBC__
-    if (mallinfo2().fordblks <= most_kept_bytes) return false;
+    // What is free for malloc may have been given back before.
+    const struct mallinfo2 info = mallinfo2();
+    if (resident_bytes() <= info.uordblks + info.hblkhd + most_kept_bytes) return false;
     return malloc_trim(0) != 0;
 #else
     static_cast<void>(most_kept_bytes);

@@ -13,7 +13,7 @@ namespace stormcellar {
 // program. Nothing happens where the C library is another one.
 void keep_freed_memory();
 
-// Gives all freed memory back where more than so many bytes of it are kept, in whatever pieces;
+// Gives all freed memory back where more than so many bytes of it are resident, in whatever pieces;
 // says whether it did. Takes 0.2 ms to look, and some 30 ms to give back 200 MB. For a program that
 // runs for long: memory that many small things have used stays otherwise. Nothing happens where the
 // C library is another one.

@@ -27,7 +27,7 @@ constexpr int most_log_pages = 128;
 constexpr int most_log_bytes = 512 << 10;
 // Of pages that a connection keeps in memory; SQLite's usual 2 MB for each of 200 stations would be
 // more than all else. The kernel's cache has the rest.
-constexpr int most_cached_kib = 256;
+constexpr int most_cached_kib = 128;
 
 tl::unexpected<Error> open_failure(const fs::path& path, const SQLite::Exception& error) {
     // SQLite says of a file without permission only that it cannot be opened.

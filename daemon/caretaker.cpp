@@ -167,7 +167,9 @@ void Caretaker::refill() {
     for (const pipeline::MissingGrid& grid : *missing) {
         if (!pause({})) return;
         const auto made = of_.mender.make(grid);
-        if (!made) return log_problem("cannot make a missing grid", made.error());
+        if (!made) log_problem("cannot make a missing grid", made.error());
+        if (!made && is_shortage(made.error().code)) return;
+        if (!made) continue;
         if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
         log_info({.event = Event::grid_made_again,
                   .volume = grid.time,

@@ -28,7 +28,7 @@ constexpr std::chrono::seconds between_first_scans{1};
 // Freed memory beyond this goes back to the system: what volumes leave that are decoded one after
 // the other is less, and is used again at once.
 constexpr std::size_t most_kept_bytes(int workers) {
-    return (96 + 32 * static_cast<std::size_t>(workers)) << 20U;
+    return (32 + 32 * static_cast<std::size_t>(workers)) << 20U;
 }
 
 // The socket of a configuration that names none was chosen at the start.

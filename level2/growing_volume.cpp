@@ -20,6 +20,8 @@ constexpr std::size_t decide_messages_bytes =
     archive_header_bytes + frame_bytes + sure_message_bytes;
 // The longest record, and what is appended at once.
 constexpr std::size_t most_unframed_bytes = longest_record_bytes + (std::size_t{2} << 20);
+// So much is looked through where nothing that is known stands at the start.
+constexpr std::size_t most_unknown_bytes = std::size_t{16} << 20;
 constexpr std::size_t kept_bytes = std::size_t{16} << 10;
 
 }  // namespace
@@ -52,11 +54,13 @@ class GrowingVolume::Reader {
     void decide();
     Status append_stretch(std::span<const std::byte> bytes);
     Status hold(std::span<const std::byte> bytes);
+    Status look_through_unknown();
     Status read_records(bool last);
     Status read_messages(std::span<const std::byte> bytes, bool last);
 
     DecodeOptions options_;
     Kind kind_ = Kind::undecided;
+    bool is_unknown_ = false;  // held, and nothing that is known stands at the start
     Status failed_;
     std::vector<std::byte> held_;  // what is not yet done with
     VolumeBuilder volume_{options_.output_limit_bytes, options_.most_array_bytes()};
@@ -76,6 +80,7 @@ void GrowingVolume::Reader::decide() {
     const bool maybe_messages = content == Content::messages || content == Content::unknown;
     if (maybe_messages && held_.size() < decide_messages_bytes) return;
     kind_ = Kind::held;
+    is_unknown_ = content == Content::unknown;
     if (content != Content::ldm && content != Content::messages) return;
     DecodeReport& report = volume_.report_data();
     const std::size_t header = held_.size() - volume_.begin_stream(held_).size();
@@ -122,7 +127,19 @@ Status GrowingVolume::Reader::read_messages(std::span<const std::byte> bytes, bo
     return taken;
 }
 
+Status GrowingVolume::Reader::look_through_unknown() {
+    if (content_anywhere(held_) == Content::unknown) {
+        return fail(ErrorCode::not_level2, "nothing in its first {} bytes is a record or a message",
+                    held_.size());
+    }
+    is_unknown_ = false;
+    return {};
+}
+
 Status GrowingVolume::Reader::hold(std::span<const std::byte> bytes) {
+    if (is_unknown_ && held_.size() >= most_unknown_bytes) {
+        if (Status known = look_through_unknown(); !known) return known;
+    }
     if (kind_ == Kind::held && bytes.size() > most_packed_bytes - held_.size()) {
         return fail(ErrorCode::unsupported, "a compressed file of more than {} bytes",
                     most_packed_bytes);

@@ -4,7 +4,8 @@
 // uncompressed file, is decoded as soon as it is whole, and the sweeps come out as they close.
 // What cannot be read before it is whole (gzip, bzip2, .Z around it) is held until the end, up to
 // most_packed_bytes. finish() gives what decode() gives for the same bytes, bit for bit, also for
-// damaged files; but for more than 34 MiB in which no LDM record ends, which are refused.
+// damaged files; but for more than 34 MiB in which no LDM record ends, and for 16 MiB that hold
+// neither record nor message at all, which are refused.
 // After a restart of the program the file is appended again from its start.
 // Errors: those of decode(). Thread contract: one thread at a time.
 #pragma once

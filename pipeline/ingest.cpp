@@ -330,21 +330,22 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
     return IngestResult::registered;
 }
 
-Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path) {
+Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path, const ReadCheck& is_the_same) {
     const Running running(impl_->running);
     const auto before = stamp_of(path, impl_->options.beneath);
     if (!before) return pass_on(before);
     if (const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt) {
         impl_->chunks->forget(*chunk);
-        if (auto taken = impl_->take_chunk(*chunk, *before, Finish::as_it_is, {}))
+        if (auto taken = impl_->take_chunk(*chunk, *before, Finish::as_it_is, {}, is_the_same))
             return std::move(*taken);
     }
-    return impl_->read_and_take_in(path, *before, true, {});
+    return impl_->read_and_take_in(path, *before, true, {}, is_the_same);
 }
 
 Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                        const FileStamp& before, bool finish_partial,
-                                                       IngestOutcome outcome) {
+                                                       IngestOutcome outcome,
+                                                       const ReadCheck& is_the_same) {
     FileFacts facts;
     facts.path = path;
     facts.station = station_of_name(path);
@@ -385,6 +386,10 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
         return reject(facts, {code, without_path(read.was_read.error().message, path)}, outcome);
     }
     facts.content_hash = read.content_hash;
+    if (is_the_same) {
+        const Status same = is_the_same(path, before.size_bytes, facts.content_hash);
+        if (!same) return pass_on(same);
+    }
     if (options.check_read) {
         const Status wanted = options.check_read(path, before.size_bytes, facts.content_hash);
         if (!wanted) {

@@ -43,8 +43,10 @@ class Ingestor {
     // its rows when it is gone (vanished; registered where a volume of chunks waits in its name).
     Result<IngestResult> note(const std::filesystem::path& path);
     // The same as ingest() for a file that was settled before: its volumes are gridded again, as
-    // they are.
-    Result<IngestOutcome> ingest_again(const std::filesystem::path& path);
+    // they are. Where `is_the_same` fails for what was read nothing is done, and its error is
+    // given.
+    Result<IngestOutcome> ingest_again(const std::filesystem::path& path,
+                                       const ReadCheck& is_the_same = {});
 
     [[nodiscard]] MosaicKeeper& mosaics();
 

@@ -193,7 +193,8 @@ Result<IngestOutcome> Ingestor::Impl::wait_for_place(const ChunkPath& chunk, con
 std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath& chunk,
                                                                 const FileStamp& before,
                                                                 Finish finish,
-                                                                IngestOutcome outcome) {
+                                                                IngestOutcome outcome,
+                                                                const ReadCheck& is_the_same) {
     if (!before.regular) return std::nullopt;
     const std::string path_station = taken_station(station_of_path(chunk.path));
     const auto expected = expected_of(chunk, finish);
@@ -235,7 +236,7 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         // A volume that could not be stored is put together again. Until then it is found, and
         // waited for: two of one volume would overwrite each other's rows.
         volume->is_finished = true;
-        auto finished = finish_chunks(*volume, facts.station, std::move(outcome));
+        auto finished = finish_chunks(*volume, facts.station, std::move(outcome), is_the_same);
         chunks->forget(chunk, volume.get());
         return finished;
     }
@@ -305,7 +306,8 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_gone_chunk(const Chunk
 
 // The first chunk's row stands for the volume; those of the others say that they were taken in.
 Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const std::string& station,
-                                                    IngestOutcome outcome) {
+                                                    IngestOutcome outcome,
+                                                    const ReadCheck& is_the_same) {
     const auto start = Clock::now();
     const std::filesystem::path first = volume.first_file();
     FileFacts facts;
@@ -324,6 +326,11 @@ Result<IngestOutcome> Ingestor::Impl::finish_chunks(ChunkVolume& volume, const s
     facts.size_bytes = file.stamp.size_bytes;
     facts.modified_ns = file.stamp.modified_ns;
     facts.content_hash = file.content_hash;
+    for (const auto& [path, read] : volume.files()) {
+        if (!is_the_same) break;
+        const Status same = is_the_same(path, read.stamp.size_bytes, read.content_hash);
+        if (!same) return pass_on(same);
+    }
     for (const auto& [path, read] : volume.files()) {
         if (!options.check_read) break;
         const Status wanted = options.check_read(path, read.stamp.size_bytes, read.content_hash);

@@ -55,6 +55,11 @@ struct LivingGrids {
     std::size_t count = 320;
 };
 
+// Says of a file that was read, by its size and hash, whether something is to be made of it; its
+// error says why not. Called by the threads that ingest.
+using ReadCheck = std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
+                                       std::uint64_t content_hash)>;
+
 struct IngestOptions {
     // Of which stations data are taken in; null: of every one that has a name. Data of all others
     // are cataloged among those of no known station, and neither followed nor gridded.
@@ -79,11 +84,8 @@ struct IngestOptions {
     // Likewise one that unpacks to more.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
     // Asked of each file that was read, before anything is made of it: its error rejects the file,
-    // as where it is no longer the one that was cataloged. Empty: every file is taken. Called by
-    // the threads that ingest.
-    std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
-                         std::uint64_t content_hash)>
-        check_read;
+    // as where it is no longer the one that was cataloged. Empty: every file is taken.
+    ReadCheck check_read;
 };
 
 }  // namespace stormcellar::pipeline

@@ -72,9 +72,11 @@ struct Ingestor::Impl {
     enum class Admit : bool { no, yes };
     [[nodiscard]] std::string taken_station(const std::string& station,
                                             Admit admit = Admit::no) const;
+    // `is_the_same`: that of ingest_again().
     Result<IngestOutcome> read_and_take_in(const std::filesystem::path& path,
                                            const FileStamp& before, bool finish_partial,
-                                           IngestOutcome outcome);
+                                           IngestOutcome outcome,
+                                           const ReadCheck& is_the_same = {});
     // Into the catalog, among those of no known station where the file's is not taken in.
     Status record(catalog::FileFacts facts);
     Status mark_gone(const std::filesystem::path& path);
@@ -98,9 +100,10 @@ struct Ingestor::Impl {
                                                 const FileStamp& before, bool finish_partial,
                                                 IngestOutcome outcome);
     [[nodiscard]] Finish finish_of(bool finish_partial) const;
-    // None: the file is to be taken by itself.
+    // None: the file is to be taken by itself. `is_the_same`: that of ingest_again().
     std::optional<Result<IngestOutcome>> take_chunk(const ChunkPath& chunk, const FileStamp& before,
-                                                    Finish finish, IngestOutcome outcome);
+                                                    Finish finish, IngestOutcome outcome,
+                                                    const ReadCheck& is_the_same = {});
     Result<IngestOutcome> show_chunk(const ChunkPath& chunk, const catalog::FileFacts& facts,
                                      ChunkVolume& volume, IngestOutcome outcome);
     // Whether a volume of chunks waits in its name, and not in another's.
@@ -109,7 +112,7 @@ struct Ingestor::Impl {
     std::optional<Result<IngestOutcome>> take_gone_chunk(const ChunkPath& chunk, Finish finish,
                                                          IngestOutcome outcome);
     Result<IngestOutcome> finish_chunks(ChunkVolume& volume, const std::string& station,
-                                        IngestOutcome outcome);
+                                        IngestOutcome outcome, const ReadCheck& is_the_same = {});
     Result<IngestOutcome> show_file(const catalog::FileFacts& file, LivingFile& living_file,
                                     IngestOutcome outcome);
     // False where there is no time for it.

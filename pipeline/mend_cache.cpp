@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/station_table.h"
+#include "catalog/read_cataloged.h"
 #include "grid/grid_window.h"
 #include "pipeline/file_facts.h"
 
@@ -125,6 +126,19 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
                                   level2::moment_name(entry.moment), entry.domain)};
 }
 
+// Somebody may have put another file in the place of the one that was cataloged, with its size and
+// time.
+Result<IngestOutcome> CacheMender::make_from(const fs::path& raw, const std::string& station) {
+    return ingestor_.ingest_again(
+        raw,
+        [&](const fs::path& path, std::uint64_t size_bytes, std::uint64_t content_hash) -> Status {
+            const auto row = catalog_.find_file(station, path);
+            if (!row) return pass_on(row);
+            if (!*row || !catalog::has_final_hash(**row)) return {};
+            return catalog::check_cataloged(**row, size_bytes, content_hash);
+        });
+}
+
 Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
                                               const std::string& station, const Error& damage) {
     const auto raw = raw_of(station, entry.time);
@@ -136,7 +150,11 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
     MendedGrid mended{GridCondition::dropped, damage.message, {}, "no raw file of it is left"};
     if (!*raw) return mended;
-    const auto outcome = ingestor_.ingest_again(**raw);
+    const auto outcome = make_from(**raw, station);
+    if (!outcome && outcome.error().cause() == Cause::data) {
+        mended.why_not = outcome.error().message;
+        return mended;
+    }
     if (!outcome) return pass_on(outcome);
     if (!holds(outcome->grids, entry.path) && !holds(outcome->partials, entry.path)) {
         mended.why_not = fmt::format(
@@ -244,9 +262,9 @@ Result<std::vector<MissingGrid>> CacheMender::missing(std::chrono::milliseconds 
     for (const std::string& station : *stations) {
         if (station.empty()) continue;
         const auto here = missing_of(station, newest);
-        if (!here) return pass_on(here);
-        all.insert(all.end(), here->begin(), here->end());
         if (step) step();
+        if (!here && is_shortage(here.error().code)) return pass_on(here);
+        if (here) all.insert(all.end(), here->begin(), here->end());
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const MissingGrid& a, const MissingGrid& b) { return a.time > b.time; });
@@ -254,8 +272,12 @@ Result<std::vector<MissingGrid>> CacheMender::missing(std::chrono::milliseconds 
 }
 
 Result<IngestOutcome> CacheMender::make(const MissingGrid& grid) {
-    auto outcome = ingestor_.ingest_again(grid.raw);
-    if (!outcome) return outcome;
+    auto outcome = make_from(grid.raw, grid.station);
+    if (!outcome) {
+        if (outcome.error().cause() == Cause::data)
+            failed_.insert(grid.names.begin(), grid.names.end());
+        return outcome;
+    }
     for (const cache::GridName& name : grid.names) {
         const auto path = store_.path_of(name.domain, name.moment, name.time);
         const bool made = path && (holds(outcome->grids, *path) || holds(outcome->partials, *path));

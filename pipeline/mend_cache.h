@@ -63,10 +63,13 @@ class CacheMender {
     // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
-    // Newest first. Errors: the catalog or the cache cannot be read.
-    // `step` is called after each station, for whoever watches that it moves on.
+    // Newest first. Errors: the catalog or the cache cannot be read. A station whose own database
+    // or grids cannot be read is left out; that stands among the catalog's troubles. `step` is
+    // called after each station, for whoever watches that it moves on.
     Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
                                              const std::function<void()>& step = {});
+    // Errors: corrupt where the raw file is not the one that was cataloged; those of
+    // Ingestor::ingest_again().
     Result<IngestOutcome> make(const MissingGrid& grid);
 
     // Frames of mosaics, newest first; after the partials. Errors: the cache cannot be read.
@@ -87,6 +90,7 @@ class CacheMender {
         UtcTime from;  // older volumes count as evicted
     };
     Result<std::optional<std::filesystem::path>> raw_of(const std::string& station, UtcTime time);
+    Result<IngestOutcome> make_from(const std::filesystem::path& raw, const std::string& station);
     Result<MendedGrid> mend_from_raw(const cache::StoreEntry& entry, const std::string& station,
                                      const Error& damage);
     Result<MendedGrid> mend_frame(const cache::StoreEntry& entry, const Error& damage);

@@ -2,8 +2,7 @@
 //
 // An ordinary file is read as a whole and decoded by several threads. A large one is decoded
 // stretch by stretch as it is read, so that its size costs no memory: the same volume, bit for bit
-// (level2/growing_volume.h), but for more than 34 MiB without the end of an LDM record, which are
-// refused.
+// (level2/growing_volume.h), but for what that refuses.
 // Inside the pipeline room only. Thread contract: a function without state.
 #pragma once
 

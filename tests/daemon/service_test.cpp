@@ -104,6 +104,19 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
     EXPECT_TRUE(wait_for_message("STOPPING=1"));
 }
 
+TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
+    for (int i = 0; i < 20'000; ++i)
+        write_file(config_.drop / std::to_string(i), "1");
+    std::atomic<bool> began_before_the_end = false;
+    start([&](const auto&, bool) {
+        if (!has_message("READY=1")) began_before_the_end = true;
+        return outcome_of(IngestResult::gridded);
+    });
+    ASSERT_TRUE(wait_for_message("READY=1"));
+    EXPECT_TRUE(began_before_the_end) << "READY is said after the first scan";
+    EXPECT_TRUE(sink_->wait_for_calls(1));
+}
+
 // Both workers are held up by files that take long.
 TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
     std::atomic<int> held = 0;

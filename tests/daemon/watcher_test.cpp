@@ -100,6 +100,24 @@ TEST_F(RealWatcher, FindsWhatStoodThereBefore) {
     EXPECT_EQ(watcher_->directory_count(), 2U);
 }
 
+// A scan of many files takes seconds.
+TEST_F(RealWatcher, WhatComesDuringAScanIsSeenBeforeItsEnd) {
+    constexpr int count = 1000;
+    for (int i = 0; i < count; ++i)
+        write_file(drop() / std::to_string(i), "1");
+    ASSERT_TRUE(watcher_->scan());  // from now on it is watched
+    notes_.said.clear();
+    int steps = 0;
+    watcher_->on_step([&] {
+        if (++steps == 1) write_file(drop() / "new", "1");
+    });
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_GE(steps, 7) << "one for each 128 entries";
+    const auto closed = std::find(notes_.said.begin(), notes_.said.end(), "closed new");
+    ASSERT_NE(closed, notes_.said.end());
+    EXPECT_GT(notes_.said.end() - closed, count / 2) << "half of the scan came after it";
+}
+
 TEST_F(RealWatcher, SeesAFileMadeAndClosed) {
     ASSERT_TRUE(watcher_->scan());
     {

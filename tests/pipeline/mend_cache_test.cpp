@@ -103,6 +103,43 @@ TEST_F(MendCache, ADamagedGridWithoutItsFileIsDropped) {
     }
 }
 
+// 2026-11-25: what stood in the place of a cataloged file was gridded as if it were that file.
+TEST_F(MendCache, AnotherFileOfTheSameSizeAndTimeIsNotTheOneThatWasCataloged) {
+    take_in(2);
+    for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
+        const auto time = fs::last_write_time(directory_ / name);
+        alter_last_byte_of(directory_ / name);
+        fs::last_write_time(directory_ / name, time);
+    }
+    const auto first = grids().at(0), second = grids().at(1);
+    fs::resize_file(first.path, 4096);
+    const auto mended = mender_.mend(first, MendDepth::header);
+    ASSERT_TRUE(mended) << mended.error().message;
+    EXPECT_EQ(mended->condition, GridCondition::dropped);
+    EXPECT_NE(mended->why_not.find("is not the file that was cataloged"), std::string::npos)
+        << mended->why_not;
+    fs::remove(second.path);
+    const auto missing = mender_.missing(hours{6});
+    ASSERT_TRUE(missing);
+    ASSERT_EQ(missing->size(), 2U);
+    EXPECT_EQ(mender_.make(missing->at(0)).error().code, ErrorCode::corrupt);
+    EXPECT_TRUE(grids().empty());
+    EXPECT_EQ(mender_.missing(hours{6})->size(), 1U) << "it is not tried again";
+    for (const auto& row : *catalog_.list("KBGM", {}))
+        EXPECT_EQ(row.state, catalog::FileState::complete) << "of the file that was cataloged";
+}
+
+TEST_F(MendCache, ADatabaseThatCannotBeReadIsItsOwnStationsTrouble) {
+    take_in(1);
+    fs::remove(grids().at(0).path);
+    std::ofstream(directory_ / "catalog/KAAA.sqlite") << std::string(8192, 'x');
+    fs::permissions(directory_ / "catalog/KAAA.sqlite", fs::perms::none);
+    fs::create_directory(directory_ / "catalog/KZZZ.sqlite");
+    const auto missing = mender_.missing(hours{6});
+    ASSERT_TRUE(missing) << missing.error().message;
+    EXPECT_EQ(missing->size(), 1U);
+}
+
 TEST_F(MendCache, AGridThatWasEvictedMeanwhileIsNoDamage) {
     take_in(1);
     const auto grid = grids().at(0);
