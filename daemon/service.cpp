@@ -21,6 +21,7 @@ constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 constexpr std::chrono::seconds between_held_back{1};
+constexpr std::chrono::milliseconds between_memory_looks{250};
 constexpr std::chrono::seconds longest_start{60};  // from one look to the next, at most
 // A drop directory that is missing at the start is looked for so often, not once a minute.
 constexpr std::chrono::seconds between_first_scans{1};
@@ -28,7 +29,7 @@ constexpr std::chrono::seconds between_first_scans{1};
 // Freed memory beyond this goes back to the system: what volumes leave that are decoded one after
 // the other is less, and is used again at once.
 constexpr std::size_t most_kept_bytes(int workers) {
-    return (32 + 32 * static_cast<std::size_t>(workers)) << 20U;
+    return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
 
 // The socket of a configuration that names none was chosen at the start.
@@ -327,9 +328,12 @@ void Service::keep_house() {
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         Reporter::report_directory(problem);
+    if (now >= next_memory_look_) {
+        next_memory_look_ = now + between_memory_looks;
+        (void)give_back_freed_memory(most_kept_bytes(config_.worker_count()));
+    }
     if (now >= next_held_back_) {
         next_held_back_ = now + between_held_back;
-        (void)give_back_freed_memory(most_kept_bytes(config_.worker_count()));
         log_held_back();
     }
     if (const auto usage = cache_keeper_.poll(now, config_.budgets)) {

@@ -130,7 +130,7 @@ class Service {
     bool state_lost_ = false;  // and it stands in the log
     bool is_behind_ = false;   // the same
     SteadyTime next_backlog_{}, next_behind_line_{};
-    SteadyTime next_catalog_look_{}, next_held_back_{};
+    SteadyTime next_catalog_look_{}, next_held_back_{}, next_memory_look_{};
     SteadyTime next_loops_look_{};
     bool loops_kept_twice_ = false;  // and it stands in the log
     WorkerPool pool_;                // last: its threads, and the next one's, use what stands above

@@ -34,6 +34,9 @@ struct DecodeOptions {
     [[nodiscard]] std::uint64_t most_array_bytes() const {
         return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
     }
+    // Of the sweep that is still open in a volume that grows, looked at after each record (0: as
+    // much as arrays may take). Beyond it appending fails with over_budget.
+    std::uint64_t open_sweep_limit_bytes = 0;
     // Arrays are made only for these; a cut that is not asked for gives no sweep.
     Selection selection;
     // Takes the station where the file does not say, e.g. from the file name; empty: unknown.

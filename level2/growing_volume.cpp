@@ -104,6 +104,9 @@ Status GrowingVolume::Reader::read_records(bool last) {
         if (part->kind == LdmPart::Kind::record) last_is_negative_ = part->negative;
         Fragment fragment = parts.decode(*part, ArrayRoom{volume_.arrays_left()});
         if (Status taken = volume_.append(std::move(fragment)); !taken) return taken;
+        const std::uint64_t limit = options_.open_sweep_limit_bytes;
+        if (limit > 0 && volume_.open_sweep_bytes() > limit)
+            return fail(ErrorCode::over_budget, "a sweep takes more than {} bytes", limit);
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
     // Many volumes grow at once, and each has a record of half a megabyte once a sweep. A record

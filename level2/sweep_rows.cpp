@@ -19,6 +19,15 @@ void with_codes(SweepMoment& moment, Function function) {
     }
 }
 
+// What is larger than any known sweep grows by a quarter and not by as much again: many such sweeps
+// may be open at once.
+template <class Code>
+void make_room(std::vector<Code>& codes, std::size_t more) {
+    const std::size_t wanted = codes.size() + more;
+    if (wanted <= codes.capacity() || wanted * sizeof(Code) <= reserve_limit_bytes) return;
+    codes.reserve(std::max(wanted, codes.size() + codes.size() / 4));
+}
+
 template <class Code>
 void append_rows(std::vector<Code>& codes, std::size_t stride, const std::vector<Code>& from,
                  std::size_t from_stride) {
@@ -153,11 +162,19 @@ void append(SweepMoment& moment, const SweepMoment& from) {
     const auto from_stride = static_cast<std::size_t>(from.gate_stride);
     moment.gate_counts.insert(moment.gate_counts.end(), from.gate_counts.begin(),
                               from.gate_counts.end());
+    with_codes(moment, [&](auto& codes) { make_room(codes, from.gate_counts.size() * stride); });
     if (moment.word_size_bits == 8) {
         append_rows(moment.codes8, stride, from.codes8, from_stride);
     } else {
         append_rows(moment.codes16, stride, from.codes16, from_stride);
     }
+}
+
+std::uint64_t idle_bytes(const SweepMoment& moment) {
+    const std::uint64_t capacity =
+        moment.codes8.capacity() + sizeof(std::uint16_t) * moment.codes16.capacity();
+    const std::uint64_t used = moment.codes8.size() + sizeof(std::uint16_t) * moment.codes16.size();
+    return capacity <= reserve_limit_bytes ? 0 : capacity - used;
 }
 
 void make_whole(Sweep& sweep) {

@@ -35,6 +35,8 @@ void pad(SweepMoment& moment, std::size_t rows);
 void append(SweepMoment& moment, const MomentBlock& block);
 // All rows of another moment of this kind, whose stride is at most this one's.
 void append(SweepMoment& moment, const SweepMoment& from);
+// What arrays larger than reserve() makes them have room for beyond their codes.
+[[nodiscard]] std::uint64_t idle_bytes(const SweepMoment& moment);
 // A row for every radial in every moment, none longer than the longest; what was reserved and is
 // not in use is given back.
 void make_whole(Sweep& sweep);

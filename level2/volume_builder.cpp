@@ -28,6 +28,13 @@ std::size_t expected_radials(float azimuth_spacing_deg) {
     return azimuth_spacing_deg == 0.5F ? radials_half_degree : radials_one_degree;
 }
 
+std::uint64_t held_by(const Sweep& sweep) {
+    std::uint64_t bytes = bytes_of(sweep);
+    for (const SweepMoment& moment : sweep.moments)
+        bytes += rows::idle_bytes(moment);
+    return bytes;
+}
+
 bool continues(int elevation_number, int message_type, const Sweep& next) {
     return !begins_sweep(next.radials.front()) && elevation_number == next.elevation_number &&
            message_type == next.message_type;
@@ -232,8 +239,12 @@ Volume VolumeBuilder::facts(const std::string& fallback_station) const {
 std::uint64_t VolumeBuilder::held_bytes() const {
     std::uint64_t bytes = 0;
     for (const Sweep& sweep : volume_.sweeps)
-        bytes += bytes_of(sweep);
+        bytes += held_by(sweep);
     return bytes;
+}
+
+std::uint64_t VolumeBuilder::open_sweep_bytes() const {
+    return sweep_is_open_ ? held_by(volume_.sweeps.back()) : 0;
 }
 
 std::size_t VolumeBuilder::closed_sweeps() const {

@@ -72,6 +72,8 @@ class VolumeBuilder {
     void put_back(std::size_t index, Sweep sweep) { volume_.sweeps.at(index) = std::move(sweep); }
     // What the arrays of the sweeps take that were not dropped.
     [[nodiscard]] std::uint64_t held_bytes() const;
+    // Of it the sweep that is open.
+    [[nodiscard]] std::uint64_t open_sweep_bytes() const;
     // The sweep behind these has had its last radial by its status; more may follow all the same.
     [[nodiscard]] bool last_has_ended() const { return sweep_is_open_ && previous_->ended_sweep; }
     [[nodiscard]] bool has_radials() const { return previous_.has_value(); }

@@ -67,7 +67,7 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
       options(std::move(its_options)),
       mosaics(store, options.domains, options.frames) {
     if (store != nullptr) site_grids.emplace(*store, options);
-    const LivingFile::Options follow{
+    LivingFile::Options follow{
         .selection = {moments_of(options), {}},
         .moment = options.moment,
         .fallback_station = {},
@@ -81,6 +81,7 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
     limits.count = options.living.count;
     limits.station_shelf_bytes = limits.shelf_bytes / 8;
     if (store != nullptr && options.living.make && !options.living.scratch.empty()) {
+        follow.open_sweep_limit_bytes = limits.station_held_bytes;
         living.emplace(follow, limits);
     }
     limits.held_bytes = most_held_chunk_bytes;

@@ -147,7 +147,9 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::follow(const fs::path& path
     if (!file->kept().facts.station.empty()) station = taken_station(file->kept().facts.station);
     const auto start = Clock::now();
     const auto may_read_on = [&] { return living->grew(path, *file, station); };
-    const bool has_ended = file->read_to(before.size_bytes, may_read_on) && file->has_ended();
+    const Status read = file->read_to(before.size_bytes, may_read_on);
+    if (!read && read.error().code == ErrorCode::over_budget) living->give_up(path);
+    const bool has_ended = read && file->has_ended();
     outcome.decode_s = seconds_since(start);
     outcome.given_up = living->take_given_up();
     if (!file->is_whole() || !living->grew(path, *file, station)) {

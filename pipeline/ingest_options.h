@@ -32,7 +32,7 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
 [[nodiscard]] inline std::uint64_t most_array_bytes(const level2::Selection& selection) {
     const std::uint64_t moments =
         selection.moments.empty() ? std::size(level2::all_moments) : selection.moments.size();
-    return (32 + 28 * moments) << 20;
+    return (16 + 28 * moments) << 20;
 }
 
 // Volumes that are gridded while they grow: each sweep as it closes, and the last volume's until

@@ -150,6 +150,7 @@ LivingFile::LivingFile(fs::path path, const Options& options)
       growing_(level2::DecodeOptions{.threads = 1,
                                      .output_limit_bytes = most_unpacked_bytes,
                                      .array_limit_bytes = most_array_bytes(options.selection),
+                                     .open_sweep_limit_bytes = options.open_sweep_limit_bytes,
                                      .selection = options.selection,
                                      .fallback_station = options.fallback_station}),
       kept_(std::make_unique<KeptVolume>()) {}

@@ -56,6 +56,8 @@ class LivingFile {
         std::filesystem::path scratch;
         std::filesystem::path beneath = {};  // where all files must lie (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
+        // Of the sweep that is open, within one stretch that is read; 0: see level2/decode.h.
+        std::uint64_t open_sweep_limit_bytes = 0;
     };
 
     // The start of a file that grows.

@@ -50,11 +50,21 @@ bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file
 }
 
 void LivingFiles::note_given_up() {
-    for (const std::filesystem::path& path : files_.take_given_up()) {
-        if (not_again_.size() >= most_not_again) not_again_.clear();
-        not_again_.insert(path);
-        ++given_up_;
-    }
+    for (const std::filesystem::path& path : files_.take_given_up())
+        note_given_up(path);
+}
+
+void LivingFiles::note_given_up(const std::filesystem::path& path) {
+    if (not_again_.size() >= most_not_again) not_again_.clear();
+    not_again_.insert(path);
+    ++given_up_;
+}
+
+void LivingFiles::give_up(const std::filesystem::path& path) {
+    const std::scoped_lock lock(mutex_);
+    if (!files_.find(path)) return;
+    files_.erase(path);
+    note_given_up(path);
 }
 
 void LivingFiles::drop_last_beyond_limits() {

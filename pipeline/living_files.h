@@ -39,6 +39,8 @@ class LivingFiles {
     [[nodiscard]] bool grew(const std::filesystem::path& path, const LivingFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
+    // It holds more than its share, and is not to be followed again.
+    void give_up(const std::filesystem::path& path);
 
     // The volume has ended.
     void keep_last(std::shared_ptr<const KeptVolume> volume);
@@ -50,6 +52,7 @@ class LivingFiles {
 
   private:
     void note_given_up();
+    void note_given_up(const std::filesystem::path& path);
     void drop_last_beyond_limits();
 
     LivingFile::Options options_;

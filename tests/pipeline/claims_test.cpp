@@ -214,6 +214,23 @@ TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
     EXPECT_GE(file->held_bytes(), 4'000'000U);
 }
 
+// All of it comes in one stretch: some kilobytes.
+TEST_F(LivingMemory, AnOpenSweepIsReadNoFurtherThanItsBound) {
+    options_.open_sweep_limit_bytes = 6'000'000;
+    LivingFiles files(options_);
+    const fs::path a = put("KTLX_a", endless_sweep("KTLX", 25));
+    const auto file = files.begin(a, "KTLX", "KTLX");
+    ASSERT_TRUE(file);
+    const Status read = file->read_to(fs::file_size(a), {});
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::over_budget);
+    EXPECT_LT(file->held_bytes(), 12'000'000U);
+    files.give_up(a);
+    EXPECT_EQ(files.take_given_up(), 1U);
+    EXPECT_EQ(files.count(), 0U);
+    EXPECT_FALSE(files.begin(a, "KTLX", "KTLX"));
+}
+
 TEST_F(LivingMemory, BeyondItsStationsBoundAFileIsGivenUpAndNotFollowedAgain) {
     LivingFiles files(options_, GrowingLimits{.station_held_bytes = 30'000'000});
     const fs::path a = put("KTLX_a", endless_sweep("KTLX", 25));
