@@ -137,6 +137,32 @@ TEST(GrowingVolume, BeyondTheLimitIsAnErrorThatStays) {
     EXPECT_EQ(volume.finish().error().code, ErrorCode::unsupported);
 }
 
+// A file with a large hole costs its sender nothing.
+TEST(GrowingVolume, WhatHoldsNothingKnownIsHeldNoFurtherThan16MiB) {
+    GrowingVolume volume;
+    const Bytes text(300, std::byte{'x'}), zeros(std::size_t{1} << 20);
+    Status taken = volume.append(text);
+    for (int i = 0; i < 40 && taken; ++i)
+        taken = volume.append(zeros);
+    ASSERT_FALSE(taken);
+    EXPECT_EQ(taken.error().code, ErrorCode::not_level2);
+    EXPECT_LE(volume.held_bytes(), std::uint64_t{33} << 20)
+        << "the array has room for as much more";
+}
+
+// Twenty megabytes of records behind a damaged start are read as decode() reads them.
+TEST(GrowingVolume, WhatIsDamagedAtItsStartIsHeldToItsEnd) {
+    Bytes bytes(300, std::byte{'x'});
+    const Bytes volume = wire::ldm_volume(3, 360);
+    bytes.insert(bytes.end(), volume.begin() + 24, volume.end());
+    bytes.resize(std::size_t{20} << 20);
+    const auto whole = decode(bytes), grown = grow(bytes, 1'000'000, 5);
+    ASSERT_TRUE(whole);
+    ASSERT_TRUE(grown) << grown.error().message;
+    EXPECT_EQ(grown->volume.radial_count(), whole->volume.radial_count());
+    EXPECT_EQ(whole->volume.radial_count(), 3U * 360U);
+}
+
 TEST(GrowingVolumeReal, RealFilesGrowToTheSame) {
     STORMCELLAR_NEED_DATA();
     for (const char* name : {"KCRP20170826_044114.trimmed.ar2v", "KTLX20170101_030027_V06",
