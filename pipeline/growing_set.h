@@ -5,6 +5,8 @@
 // some of the things are given up:
 //   a station's own bound   among its own
 //   the bound of all        of those that no known station claims first, then of any
+//   that of beginnings      of those of which no sweep has closed yet: a radar's volume is so for a
+//                           fifteenth of its time, and a sweep that never ends for ever
 // Of memory and disk the largest and least alive gives way: what it holds, times a weight that
 // grows by one for each minute in which nothing came of it. Of the number of things the least alive
 // of the station that has most.
@@ -31,6 +33,7 @@ namespace stormcellar::pipeline {
 struct GrowingLimits {
     std::size_t count = 320;  // each has a descriptor
     std::uint64_t held_bytes = std::uint64_t{192} << 20;
+    std::uint64_t beginnings_held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
     // Of one station, and of all together that no known station claims. A site's volume holds some
     // 3 MB of one moment, and two of its volumes may grow at once.
@@ -42,6 +45,7 @@ struct GrowingLimits {
     [[nodiscard]] static GrowingLimits of(std::size_t moments) {
         GrowingLimits limits;
         limits.held_bytes = (128 + 64 * moments) << 20;
+        limits.beginnings_held_bytes = limits.held_bytes / 4;
         limits.station_held_bytes = (8 + 8 * moments) << 20;
         return limits;
     }
@@ -104,8 +108,8 @@ class GrowingSet {
 
     void erase(const Key& key) { things_.erase(key); }
     [[nodiscard]] std::size_t count() const { return things_.size(); }
-    [[nodiscard]] std::uint64_t held_bytes() const { return held_by(nullptr).held; }
-    [[nodiscard]] std::uint64_t shelf_bytes() const { return held_by(nullptr).shelf; }
+    [[nodiscard]] std::uint64_t held_bytes() const { return sum_of(any).held; }
+    [[nodiscard]] std::uint64_t shelf_bytes() const { return sum_of(any).shelf; }
     // Those that were given up since the last call.
     [[nodiscard]] std::vector<Key> take_given_up() { return std::exchange(given_up_, {}); }
 
@@ -122,11 +126,14 @@ class GrowingSet {
         std::uint64_t held = 0, shelf = 0;
     };
 
-    // Null: of all.
-    [[nodiscard]] Sum held_by(const std::string* station) const {
+    static bool any(const Thing& /*thing*/) { return true; }
+    static bool has_no_sweep(const Thing& thing) { return !thing.growth.has_sweeps; }
+
+    template <class Which>
+    [[nodiscard]] Sum sum_of(const Which& which) const {
         Sum sum;
         for (const auto& [key, thing] : things_) {
-            if (station != nullptr && thing.station != *station) continue;
+            if (!which(thing)) continue;
             sum.held += thing.growth.held_bytes;
             sum.shelf += thing.growth.shelf_bytes;
         }
@@ -199,14 +206,15 @@ class GrowingSet {
     }
 
     enum class What { memory, disk };
-    // False where nothing holds any of it.
-    bool give_up_largest(const std::string* station, What what, Clock::time_point now) {
+    // Of those of which `which` is true. False where nothing holds any of it.
+    template <class Which>
+    bool give_up_largest(const Which& which, What what, Clock::time_point now) {
         Place chosen = things_.end();
         double most = 0;
         bool chosen_is_known = true;
         for (Place at = things_.begin(); at != things_.end(); ++at) {
             const Thing& thing = at->second;
-            if (station != nullptr && thing.station != *station) continue;
+            if (!which(thing)) continue;
             const auto bytes = static_cast<double>(what == What::memory ? thing.growth.held_bytes
                                                                         : thing.growth.shelf_bytes);
             const double idle_min = std::chrono::duration<double>(now - thing.grew_at).count() / 60;
@@ -225,14 +233,17 @@ class GrowingSet {
     }
 
     void keep_within(const std::string& station, Clock::time_point now) {
-        while (held_by(&station).held > limits_.station_held_bytes)
-            if (!give_up_largest(&station, What::memory, now)) break;
-        while (held_by(&station).shelf > limits_.station_shelf_bytes)
-            if (!give_up_largest(&station, What::disk, now)) break;
-        while (held_by(nullptr).held > limits_.held_bytes)
-            if (!give_up_largest(nullptr, What::memory, now)) break;
-        while (held_by(nullptr).shelf > limits_.shelf_bytes)
-            if (!give_up_largest(nullptr, What::disk, now)) break;
+        const auto of_station = [&](const Thing& thing) { return thing.station == station; };
+        while (sum_of(of_station).held > limits_.station_held_bytes)
+            if (!give_up_largest(of_station, What::memory, now)) break;
+        while (sum_of(of_station).shelf > limits_.station_shelf_bytes)
+            if (!give_up_largest(of_station, What::disk, now)) break;
+        while (sum_of(has_no_sweep).held > limits_.beginnings_held_bytes)
+            if (!give_up_largest(has_no_sweep, What::memory, now)) break;
+        while (sum_of(any).held > limits_.held_bytes)
+            if (!give_up_largest(any, What::memory, now)) break;
+        while (sum_of(any).shelf > limits_.shelf_bytes)
+            if (!give_up_largest(any, What::disk, now)) break;
     }
 
     GrowingLimits limits_;

@@ -121,6 +121,23 @@ TEST_F(GrowingSetTest, AtTheBoundOfAllMemoryWhatNobodyKnowsGivesWayFirst) {
     EXPECT_LE(set_.held_bytes(), limits().held_bytes);
 }
 
+// Sweeps that never end leave three quarters to the volumes that go on.
+TEST_F(GrowingSetTest, WhatHasClosedNoSweepHasABoundOfItsOwn) {
+    GrowingLimits limits = GrowingSetTest::limits();
+    limits.beginnings_held_bytes = 3 * mib;
+    Set set{limits};
+    const auto put = [&](const std::string& station, const Growth& growth) {
+        if (!set.find(station)) set.add(station, std::make_shared<Followed>(), station, now_);
+        return set.grew(station, set.find(station).get(), station, growth, now_);
+    };
+    ASSERT_TRUE(put("KTLX", {.held_bytes = 5 * mib, .has_sweeps = true}));
+    ASSERT_TRUE(put("KFWS", {.held_bytes = 2 * mib}));
+    EXPECT_FALSE(put("KINX", {.held_bytes = 2 * mib + 1}));
+    EXPECT_THAT(set.take_given_up(), ElementsAre("KINX"));
+    EXPECT_TRUE(put("KFWS", {.held_bytes = 4 * mib, .has_sweeps = true})) << "its sweep closed";
+    EXPECT_EQ(set.held_bytes(), 9 * mib);
+}
+
 TEST_F(GrowingSetTest, DiskIsBoundedByItself) {
     ASSERT_TRUE(add("a", "KTLX"));
     ASSERT_TRUE(add("b", "KTLX"));
