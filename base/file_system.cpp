@@ -152,7 +152,8 @@ Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem
     std::size_t filled = 0;
     for (;;) {
         if (filled == bytes.size()) {
-            bytes.resize(std::max<std::size_t>(bytes.capacity(), bytes.size() * 2 + 65536));
+            const std::size_t more = std::max(bytes.capacity(), bytes.size() * 2 + 65536);
+            bytes.resize(std::min<std::uint64_t>(more - 1, limit) + 1);
         }
         const ssize_t n = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
         if (n < 0 && errno == EINTR) continue;

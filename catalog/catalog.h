@@ -233,6 +233,8 @@ class Catalog {
     // Whether the row of the path is settled; none where it has no row.
     Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
                                              std::uint64_t size_bytes, std::int64_t modified_ns);
+    Result<int> mark_missing_of(const std::string& name, const std::filesystem::path& directory,
+                                const std::vector<std::filesystem::path>& paths);
     Status forget_elsewhere(const std::filesystem::path& path, const std::string& name);
     template <class Work>
     auto ask(std::string_view station, Work work);

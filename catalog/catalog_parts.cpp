@@ -231,13 +231,11 @@ void Catalog::Impl::expect_row(const fs::path& path, const std::string& name) {
     databases.lease(name)->strays = Strays::some;
 }
 
-std::vector<fs::path> Catalog::Impl::paths_below(StationDatabase& database, const fs::path& below,
-                                                 const std::string& name) {
+void Catalog::Impl::look_for_strays(StationDatabase& database, const std::string& name) {
     const OpenDatabases::Lease place = databases.lease(name);
     if (place->strays == Strays::unknown || place->strays == Strays::too_many_rows) {
         place->strays = *find_strays(database, name, std::numeric_limits<std::int64_t>::max());
     }
-    return database.paths_below(below);
 }
 
 bool Catalog::Impl::may_have_stray(const std::string& name, bool is_likely) {

@@ -131,10 +131,8 @@ struct Catalog::Impl {
     // that a new file is not looked for in every station's database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
-    // The paths of rows that are not gone. Looks for strays on the way where nobody could.
-    [[nodiscard]] std::vector<std::filesystem::path> paths_below(StationDatabase& database,
-                                                                 const std::filesystem::path& below,
-                                                                 const std::string& name);
+    // Where nobody could so far, as there are too many rows for a file to wait for it.
+    void look_for_strays(StationDatabase& database, const std::string& name);
     // Called before the row is written, with the slot's mutex held.
     void expect_row(const std::filesystem::path& path, const std::string& name);
 

@@ -22,25 +22,35 @@ Result<int> Catalog::mark_missing(const fs::path& directory, const std::function
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
-        const auto paths = impl_->with(name, false, [&](StationDatabase& database) {
-            return impl_->paths_below(database, directory, name);
-        });
-        if (step) step();
-        if (!paths) continue;
-        std::vector<fs::path> gone;
-        std::size_t looked_at = 0;
-        for (const fs::path& path : *paths) {
-            if (step && ++looked_at % files_a_step == 0) step();
-            const auto found = look_beneath(directory, path);
-            if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
+        StationDatabase::Paths rows{.paths = {}, .last = 0, .are_all = false};
+        while (!rows.are_all) {
+            auto next = impl_->with(name, false, [&](StationDatabase& database) {
+                impl_->look_for_strays(database, name);
+                return database.paths_below(directory, rows.last, files_a_step);
+            });
+            if (step) step();
+            if (!next) break;
+            rows = std::move(*next);
+            const auto here = mark_missing_of(name, directory, rows.paths);
+            if (!here && here.error().code == ErrorCode::no_space) return pass_on(here);
+            if (!here) break;
+            marked += *here;
         }
-        if (gone.empty()) continue;
-        const auto here = impl_->with(
-            name, false, [&](StationDatabase& database) { return database.mark_gone(gone); });
-        if (!here && here.error().code == ErrorCode::no_space) return pass_on(here);
-        marked += here.value_or(0);
     }
     return marked;
+}
+
+// Of these files of one station.
+Result<int> Catalog::mark_missing_of(const std::string& name, const fs::path& directory,
+                                     const std::vector<fs::path>& paths) {
+    std::vector<fs::path> gone;
+    for (const fs::path& path : paths) {
+        const auto found = look_beneath(directory, path);
+        if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
+    }
+    if (gone.empty()) return 0;
+    return impl_->with(name, false,
+                       [&](StationDatabase& database) { return database.mark_gone(gone); });
 }
 
 Result<int> Catalog::forget_gone(UtcTime before, const std::function<void()>& step) {
@@ -98,11 +108,15 @@ Result<Rolled> Catalog::roll(const std::function<void()>& step) {
         while (used[name] >= most && shrink(name)) {
         }
     }
+    // Rows that stand never go, so nobody's fill the place of another station's history: it keeps a
+    // fair share.
+    const std::uint64_t share = impl_->options.most_bytes / std::max<std::size_t>(1, names->size());
     while (rolled.used_bytes > impl_->options.most_bytes && !used.empty()) {
         const auto largest =
             std::max_element(used.begin(), used.end(),
                              [](const auto& a, const auto& b) { return a.second < b.second; });
         const std::string name = largest->first;
+        if (largest->second <= share) break;
         if (!shrink(name)) used.erase(name);
     }
     return rolled;

@@ -265,15 +265,22 @@ int StationDatabase::mark_gone(const std::vector<fs::path>& paths) {
     return marked;
 }
 
-std::vector<fs::path> StationDatabase::paths_below(const fs::path& directory) {
+StationDatabase::Paths StationDatabase::paths_below(const fs::path& directory, std::int64_t after,
+                                                    std::int64_t most) {
     const std::string start = directory.native() + "/";
-    SQLite::Statement rows(database_, "SELECT path FROM file WHERE state <> 'gone'");
-    std::vector<fs::path> paths;
-    while (rows.executeStep()) {
-        const std::string_view path = bytes_of(rows.getColumn(0));
-        if (path.starts_with(start)) paths.emplace_back(path);
+    LentStatement rows =
+        prepared("SELECT id, path FROM file WHERE id > ? AND state <> 'gone' ORDER BY id LIMIT ?");
+    rows->bind(1, after);
+    rows->bind(2, most);
+    Paths found;
+    while (rows->executeStep()) {
+        found.last = rows->getColumn(0).getInt64();
+        const std::string_view path = bytes_of(rows->getColumn(1));
+        if (path.starts_with(start)) found.paths.emplace_back(path);
+        --most;
     }
-    return paths;
+    found.are_all = most > 0;
+    return found;
 }
 
 void StationDatabase::forget(const fs::path& path) {

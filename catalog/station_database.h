@@ -74,8 +74,15 @@ class StationDatabase {
     void restore_gone(const std::vector<SalvagedFile>& files);
     // In one transaction; gives how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);
-    // Of the rows that are not gone.
-    std::vector<std::filesystem::path> paths_below(const std::filesystem::path& directory);
+    // Of the rows that are not gone those with a number above `after`: `most` rows at once, as a
+    // database may hold more paths than memory.
+    struct Paths {
+        std::vector<std::filesystem::path> paths;
+        std::int64_t last = 0;  // the number of the last row that was looked at
+        bool are_all = true;    // there is none behind it
+    };
+    Paths paths_below(const std::filesystem::path& directory, std::int64_t after,
+                      std::int64_t most);
     void forget(const std::filesystem::path& path);
     // The rows' numbers of files that are gone and were last registered before that time.
     std::vector<std::int64_t> gone_before(UtcTime before);

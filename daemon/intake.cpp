@@ -22,6 +22,13 @@ std::string volume_of(const std::filesystem::path& path) {
     return chunk ? std::move(chunk->key) : path.native();
 }
 
+// Something has come of it. Of whose station it is the file's name has said before.
+bool is_good(const Finished& finished) {
+    return finished.taken && (finished.taken->ingest.result == pipeline::IngestResult::gridded ||
+                              finished.taken->ingest.result == pipeline::IngestResult::registered ||
+                              finished.taken->ingest.goes_on);
+}
+
 }  // namespace
 
 Clock real_clock() {
@@ -65,7 +72,7 @@ void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
         going_on_.erase(volume_of(path));
         return;
     }
-    if (going_on_.size() >= most_going_on) going_on_.clear();
+    if (going_on_.size() >= most_going_on) going_on_.erase(going_on_.begin());
     going_on_.insert(volume_of(path));
 }
 
@@ -236,7 +243,7 @@ void Intake::job_failed(const Finished& finished) {
 
 void Intake::job_ended(const Finished& finished) {
     const std::filesystem::path& path = finished.job.path;
-    schedule_.worked(path, finished.ended - finished.started, finished.ended);
+    schedule_.worked(path, finished.ended - finished.started, finished.ended, is_good(finished));
     if (!finished.taken) return job_failed(finished);
     SteadyTime again{};
     followed_.erase(path);

@@ -56,6 +56,7 @@ class Intake final : public WatchListener {
     void file_gone(const std::filesystem::path& path) override;
     void directory_gone(const std::filesystem::path& path, bool deleted) override;
     void entry_left_out(const std::filesystem::path& path, std::string_view kind) override;
+    void directory_unread() override { lost_ = true; }
     void entry_unseen() override;
     void events_lost() override;
     void drop_vanished() override;

@@ -91,12 +91,23 @@ void* ReadyJobs::take_of_round(const MayBegin& may_begin) {
     return nullptr;
 }
 
-void* ReadyJobs::take_next(const MayBegin& may_begin) {
+void* ReadyJobs::take_any_live(const MayBegin& may_begin) {
     if (void* job = take_of_round(may_begin)) return job;
     for (std::size_t i = 0; i < live_.size(); ++i)
         live_.at(i).left = turns_a_round.at(i);
-    if (void* job = take_of_round(may_begin)) return job;
+    return take_of_round(may_begin);
+}
+
+void* ReadyJobs::take_next(const MayBegin& may_begin) {
+    if (live_since_old_ < live_between_old) {
+        if (void* job = take_any_live(may_begin)) {
+            live_since_old_ += backlog_.empty() ? 0 : 1;
+            return job;
+        }
+    }
+    live_since_old_ = 0;
     if (void* job = take_old(backlog_, may_begin)) return job;
+    if (void* job = take_any_live(may_begin)) return job;
     return take_old(others_backlog_, may_begin);
 }
 

@@ -6,12 +6,13 @@
 //   fresh      all else of a known station                                   4
 //   others     of no station that is known                                   1
 // The backlog of known stations, then that of others, each newest first, has its turn when nothing
-// live waits. So a flood of beginnings delays no volume that goes on, one of names that nobody
-// knows delays no known station, and none of them stands still. In a class stations take turns, the
-// one that was served longest ago (or has waited longest) first, so that no station can hold up
-// another, however much it sends. Of one station what goes on is served oldest first (the end of a
-// volume before the next volume's sweeps: it is little, and would else wait as long as new chunks
-// come), all else newest first. Pure bookkeeping. Thread contract: one thread.
+// live waits, and that of known stations one turn in seventeen else. So a flood of beginnings
+// delays no volume that goes on, one of names that nobody knows delays no known station, and none
+// of them stands still. In a class stations take turns, the one that was served longest ago (or has
+// waited longest) first, so that no station can hold up another, however much it sends. Of one
+// station what goes on is served oldest first (the end of a volume before the next volume's sweeps:
+// it is little, and would else wait as long as new chunks come), all else newest first. Pure
+// bookkeeping. Thread contract: one thread.
 #pragma once
 
 #include <array>
@@ -87,8 +88,11 @@ class ReadyJobs {
     void* take_live(Turns& turns, const MayBegin& may_begin);
     void* take_old(Backlog& backlog, const MayBegin& may_begin);
     void* take_of_round(const MayBegin& may_begin);
+    void* take_any_live(const MayBegin& may_begin);
 
+    static constexpr int live_between_old = 16;
     std::size_t count_ = 0;
+    int live_since_old_ = 0;  // taken while a backlog waited
     std::uint64_t next_turn_ = 0;
     std::array<Turns, 3> live_;
     Backlog backlog_, others_backlog_;  // of known stations, and of all else

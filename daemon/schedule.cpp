@@ -167,11 +167,11 @@ std::optional<Job> Schedule::next(SteadyTime now) {
     return entry->job;
 }
 
-void Schedule::worked(const std::filesystem::path& path, SteadyTime::duration took,
-                      SteadyTime now) {
+void Schedule::worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now,
+                      bool is_good) {
     const auto found = entries_.find(path.native());
     if (found == entries_.end() || !std::exchange(found->second.has_worker, false)) return;
-    shares_.ended(found->second.job.station, took, now);
+    shares_.ended(found->second.job.station, took, is_good, now);
     shares_looked_at_ = SteadyTime{};
 }
 

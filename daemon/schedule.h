@@ -71,7 +71,9 @@ class Schedule {
     // wait so already, and it is forgotten.
     [[nodiscard]] bool retry(Job job, SteadyTime now);
     // Of a job that next() gave: its worker is free again. Before finished() or retry().
-    void worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now);
+    // `is_good`: something of its station was gridded or shown.
+    void worked(const std::filesystem::path& path, SteadyTime::duration took, SteadyTime now,
+                bool is_good = false);
     void set_workers(int workers) { shares_.set_workers(workers); }
     // Those that had to give their places to others since the last call.
     [[nodiscard]] std::vector<std::filesystem::path> take_displaced() {

@@ -1,7 +1,6 @@
 #include "daemon/tree_walk.h"
 
 #include <cerrno>
-#include <climits>
 #include <memory>
 #include <string_view>
 #include <system_error>
@@ -85,8 +84,9 @@ void walk_entry(int descriptor, const char* name, const std::filesystem::path& d
         return;
     }
     std::filesystem::path path = directory / name;
-    if (path.native().size() >= PATH_MAX) {
-        problem.say(fmt::format("holds paths of more than {} bytes, left out", PATH_MAX - 1));
+    if (path.native().size() >= most_path_bytes) {
+        problem.say(
+            fmt::format("holds paths of more than {} bytes, left out", most_path_bytes - 1));
     } else if (S_ISREG(facts.st_mode)) {
         visitor.file(path, stamp_of(facts));
     } else if (S_ISDIR(facts.st_mode)) {

@@ -3,9 +3,10 @@
 // Walks by descriptors (openat, no symbolic link is followed), so a directory that is swapped for a
 // link while the walk runs cannot lead it out of the tree. Temporary names are left out
 // (pipeline/drop_names.h), files and directories alike. Depth is bounded: max_walk_depth; so are
-// paths, which the system takes up to 4095 bytes long.
+// paths: each takes memory in the queue, in the watcher and in the catalog.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -16,6 +17,7 @@
 namespace stormcellar::daemon {
 
 inline constexpr int max_walk_depth = 16;
+inline constexpr std::size_t most_path_bytes = 1024;  // and a path is shorter
 inline constexpr int entries_a_step = 128;
 
 struct WalkVisitor {

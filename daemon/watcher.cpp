@@ -1,6 +1,7 @@
 #include "daemon/watcher.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -16,10 +17,14 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int events_a_step = 32;
+// What directories that came or went have taken of the thread, and a tenth of the time is paid
+// back. Beyond it they are left to the next scan, which rests as long after each look.
+constexpr double most_owed_s = 0.2;
+constexpr double paid_back_each_second = 0.1;
 
-bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
-    const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
-    return end.first == directory.end();
+double seconds_between(std::chrono::steady_clock::time_point from,
+                       std::chrono::steady_clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
 }
 
 }  // namespace
@@ -29,7 +34,10 @@ Watcher::Watcher(std::filesystem::path drop, EventSource& events, WatchListener&
 
 Status Watcher::scan() {
     unwatched_ = silent_ = 0;
+    saw_all_ = true;
+    ++scan_;
     Status scanned = scan_below(drop_);
+    if (scanned && saw_all_) forget_unseen();
     told_unwatched_ = told_unwatched_ && unwatched_ > 0;
     told_silent_ = told_silent_ && silent_ > 0;
     return scanned;
@@ -49,7 +57,11 @@ Status Watcher::scan_below(const std::filesystem::path& directory) {
                  [this](const std::filesystem::path& path, mode_t mode) {
                      listener_.entry_left_out(path, kind_of_file(mode));
                  },
-                 [this] { listener_.entry_unseen(); }, [this] { step(); }},
+                 [this] {
+                     saw_all_ = false;
+                     listener_.entry_unseen();
+                 },
+                 [this] { step(); }},
                 static_cast<int>(depth));
 }
 
@@ -75,21 +87,33 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
         return;
     }
     // One directory under a new name keeps its watch, and one name may have a new directory.
-    if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second != directory) {
-        watch_of_.erase(old->second);
+    const std::string& path = directory.native();
+    if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second.path != path) {
+        watch_of_.erase(old->second.path);
     }
-    if (const auto old = watch_of_.find(directory);
-        old != watch_of_.end() && old->second != *watch) {
+    if (const auto old = watch_of_.find(path); old != watch_of_.end() && old->second != *watch) {
         path_of_.erase(old->second);
     }
-    path_of_[*watch] = directory;
-    watch_of_[directory] = *watch;
+    path_of_[*watch] = {path, scan_};
+    watch_of_[path] = *watch;
+}
+
+// Directories that were moved away, or went while their events were lost.
+void Watcher::forget_unseen() {
+    std::vector<int> watches;
+    for (const auto& [watch, directory] : path_of_) {
+        if (directory.scan != scan_) watches.push_back(watch);
+    }
+    for (const int watch : watches) {
+        events_.unwatch(watch);
+        forget_watch(watch);
+    }
 }
 
 void Watcher::forget_watch(int watch) {
     const auto found = path_of_.find(watch);
     if (found == path_of_.end()) return;
-    if (const auto entry = watch_of_.find(found->second);
+    if (const auto entry = watch_of_.find(found->second.path);
         entry != watch_of_.end() && entry->second == watch) {
         watch_of_.erase(entry);
     }
@@ -98,8 +122,11 @@ void Watcher::forget_watch(int watch) {
 
 void Watcher::unwatch_tree(const std::filesystem::path& directory) {
     std::vector<int> watches;
-    for (auto entry = watch_of_.lower_bound(directory);
-         entry != watch_of_.end() && is_within(entry->first, directory); ++entry) {
+    if (const auto itself = watch_of_.find(directory.native()); itself != watch_of_.end())
+        watches.push_back(itself->second);
+    const std::string below = directory.native() + "/";
+    for (auto entry = watch_of_.lower_bound(below);
+         entry != watch_of_.end() && entry->first.starts_with(below); ++entry) {
         watches.push_back(entry->second);
     }
     for (const int watch : watches) {
@@ -130,7 +157,7 @@ void Watcher::handle(const DirectoryEvent& event) {
     }
     const auto found = path_of_.find(event.watch);
     if (found == path_of_.end()) return;  // an event from before its watch was taken away
-    const std::filesystem::path directory = found->second;
+    const std::filesystem::path directory = found->second.path;
     if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
         unwatch_tree(drop_);
         listener_.drop_vanished();
@@ -142,6 +169,7 @@ void Watcher::handle(const DirectoryEvent& event) {
     }
     if (pipeline::is_temporary_name(event.name)) return;
     const std::filesystem::path path = directory / event.name;
+    if (path.native().size() >= most_path_bytes) return;  // scans say so
     if ((event.mask & IN_ISDIR) != 0) {
         handle_directory(event, path);
     } else {
@@ -150,16 +178,23 @@ void Watcher::handle(const DirectoryEvent& event) {
 }
 
 void Watcher::handle_directory(const DirectoryEvent& event, const std::filesystem::path& path) {
+    const auto began = Clock::now();
+    owed_s_ = std::max(0.0, owed_s_ - paid_back_each_second * seconds_between(owed_at_, began));
+    owed_at_ = began;
+    const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        unwatch_tree(path);
+        // Otherwise its watches go with the next scan, or with the directory.
+        if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {
+        if (!has_time) return listener_.directory_unread();
         const Status scanned = scan_below(path);
         if (!scanned && scanned.error().code != ErrorCode::not_found) {
             listener_.directory_problem(scanned.error());
             if (scanned.error().cause() == Cause::system) listener_.entry_unseen();
         }
     }
+    owed_s_ += seconds_between(began, Clock::now());
 }
 
 void Watcher::handle_file(const DirectoryEvent& event, const std::filesystem::path& path) {

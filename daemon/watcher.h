@@ -10,6 +10,8 @@
 // Thread contract: one thread; the listener is called from within read_events() and scan().
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -46,6 +48,9 @@ class WatchListener {
     virtual void directory_gone(const std::filesystem::path& /*path*/, bool /*deleted*/) {}
     // Neither file nor directory: `kind` says what ("a FIFO"). Said again by each scan.
     virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
+    // Directories come or go faster than they can be read: this one was left to a scan, which is
+    // needed.
+    virtual void directory_unread() {}
     // What an event told of, or a directory of a scan, could not be looked at now, as when
     // descriptors run out; a scan is needed, and there is no use in one at once.
     virtual void entry_unseen() {}
@@ -79,6 +84,7 @@ class Watcher {
     void handle_directory(const DirectoryEvent& event, const std::filesystem::path& path);
     void handle_file(const DirectoryEvent& event, const std::filesystem::path& path);
     void forget_watch(int watch);
+    void forget_unseen();
     void unwatch_tree(const std::filesystem::path& directory);
     void add_watch(const std::filesystem::path& directory);
     void look_for_silence(const std::filesystem::path& directory);
@@ -90,9 +96,19 @@ class Watcher {
     void step();
     std::function<void()> step_;
     bool is_reading_ = false;  // events
-    std::unordered_map<int, std::filesystem::path> path_of_;
-    std::map<std::filesystem::path, int> watch_of_;  // sorted: a tree is one run of entries
-    std::size_t unwatched_ = 0, silent_ = 0;         // directories, of the last scan and since
+    // Paths as text, which takes a quarter of the memory.
+    struct Watched {
+        std::string path;
+        std::uint64_t scan = 0;  // that saw it last
+    };
+    std::unordered_map<int, Watched> path_of_;
+    std::map<std::string, int> watch_of_;  // sorted: what lies below a directory is one run
+    std::uint64_t scan_ = 0;
+    bool saw_all_ = true;  // that scan
+    using Clock = std::chrono::steady_clock;
+    double owed_s_ = 0;  // see most_owed_s, at owed_at_
+    Clock::time_point owed_at_{};
+    std::size_t unwatched_ = 0, silent_ = 0;  // directories, of the last scan and since
     bool told_unwatched_ = false, told_silent_ = false;
 };
 

@@ -164,17 +164,19 @@ std::optional<BzipBlocks::Block> BzipBlocks::next(std::size_t limit) {
     const std::uint64_t begin = mark_->bit;
     const std::optional<Mark> nearest = find_mark(begin + 1);
     std::optional<Mark> end = nearest;
+    std::uint64_t wasted_bytes = 0;
     for (int joined = 0; joined < most_joined; ++joined) {
         const std::uint64_t end_bit = end ? end->bit : all_bits;
         const auto position = static_cast<std::size_t>(begin / 8);
         const auto compressed = static_cast<std::size_t>((end_bit - begin) / 8);
         const bunzip::Status status = unpack(begin, end_bit, limit);
-        if (status == bunzip::Status::too_large) return Block{status, {}, position, compressed};
+        if (status == bunzip::Status::too_large) return Block{status, {}, position, compressed, 0};
         if (status == bunzip::Status::whole) {
             mark_ = end;
             const auto data = std::span<const std::byte>{output_}.first(output_bytes_);
-            return Block{status, data, position, compressed};
+            return Block{status, data, position, compressed, wasted_bytes};
         }
+        wasted_bytes += waste_of(output_bytes_);
         if (!end) break;
         end = find_mark(end->bit + 1);
     }
@@ -184,7 +186,8 @@ std::optional<BzipBlocks::Block> BzipBlocks::next(std::size_t limit) {
     return Block{bunzip::Status::corrupt,
                  {},
                  static_cast<std::size_t>(begin / 8),
-                 static_cast<std::size_t>((end_bit - begin) / 8)};
+                 static_cast<std::size_t>((end_bit - begin) / 8),
+                 wasted_bytes};
 }
 
 }  // namespace stormcellar::level2

@@ -6,6 +6,7 @@
 // Thread contract: functions are pure; a BzipBlocks belongs to one thread.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -36,7 +37,15 @@ class BzipBlocks {
         std::span<const std::byte> data;                // valid until the next call
         std::size_t position = 0;                       // in `bytes`, rounded down
         std::size_t compressed_bytes = 0;
+        // What was unpacked in vain, in all that was tried for this block: half of it, as damage
+        // costs several tries where a good block costs one. It took time all the same.
+        std::uint64_t wasted_bytes = 0;
     };
+    static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;
+    // What a try that failed is to count for.
+    [[nodiscard]] static std::uint64_t waste_of(std::uint64_t unpacked_bytes) {
+        return std::max(unpacked_bytes, least_try_bytes) / 2;
+    }
     // None after the last, or after max_bad_blocks bad ones. A block of more than
     // `limit` bytes is too_large; its data are not given.
     static constexpr int max_bad_blocks = 1000;

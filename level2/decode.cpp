@@ -240,6 +240,7 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
         const auto block = blocks.next(static_cast<std::size_t>(builder_.output_left()));
         builder_.report_data().decompress_s += thread_cpu_s() - begin_s;
         if (!block) break;
+        if (Status counted = builder_.count_output(block->wasted_bytes); !counted) return counted;
         if (block->status == bunzip::Status::too_large) {
             return builder_.too_much_output();
         }

@@ -38,9 +38,10 @@ struct Fragment {
     std::uint16_t vcp = 0;  // the first that a radial names
     // Offsets count from where the fragment begins, LDM records from 1.
     DecodeReport report;
-    std::uint64_t output_bytes = 0;  // decompressed, whether messages or not
-    std::uint64_t array_bytes = 0;   // what radials, rows and patterns take, see ArrayRoom
-    bool cut = false;                // the input ends too early
+    // Decompressed, whether messages or not, and half of what was in vain (BzipBlocks::Block).
+    std::uint64_t output_bytes = 0;
+    std::uint64_t array_bytes = 0;  // what radials, rows and patterns take, see ArrayRoom
+    bool cut = false;               // the input ends too early
     enum class Failure : std::uint8_t { none, no_memory, too_much_output, too_large_arrays };
     Failure failure = Failure::none;  // the fragment is not whole, for want of room
 };

@@ -45,7 +45,7 @@ double thread_cpu_s() {
 }
 
 std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom& room,
-                                                 bool& is_cut) {
+                                                 Damage& damage) {
     const bool large = part.bytes.size() > large_record_bytes;
     FragmentBuilder builder{room, large ? rows_of_a_sweep : rows_of_a_record, selection_};
     MessageReader reader{builder};
@@ -61,7 +61,8 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
         const std::size_t made = stream.read(std::span{buffer_}.subspan(held));
         cpu_s += thread_cpu_s() - begin_s;
         if (stream.status() != bunzip::Status::whole) {
-            is_cut = part.cut || stream.status() == bunzip::Status::truncated;
+            damage.is_cut = part.cut || stream.status() == bunzip::Status::truncated;
+            damage.wasted_bytes = BzipBlocks::waste_of(output_bytes + made);
             return std::nullopt;
         }
         output_bytes += made;
@@ -90,19 +91,21 @@ std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom&
 }
 
 // A record that is damaged: its blocks have checksums of their own.
-Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_cut) {
+Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, const Damage& damage) {
     FragmentBuilder builder{room, rows_of_a_record, selection_};
     MessageReader reader{builder};
     MessageFeed feed{reader};
     BzipBlocks blocks{part.bytes, workspace_};
     auto failure = Fragment::Failure::none;
-    std::uint64_t output_bytes = 0;
+    std::uint64_t output_bytes = damage.wasted_bytes;
     bool all_good = true;
     const double begin_s = thread_cpu_s();
     while (failure == Fragment::Failure::none) {
-        const auto block = blocks.next(static_cast<std::size_t>(limit_bytes_ - output_bytes));
+        const std::uint64_t left = limit_bytes_ - std::min(limit_bytes_, output_bytes);
+        const auto block = blocks.next(static_cast<std::size_t>(left));
         if (!block) break;
-        if (block->status == bunzip::Status::too_large) {
+        output_bytes += block->wasted_bytes;
+        if (block->status == bunzip::Status::too_large || output_bytes > limit_bytes_) {
             failure = Fragment::Failure::too_much_output;
         } else if (block->status == bunzip::Status::whole) {
             output_bytes += block->data.size();
@@ -111,10 +114,10 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_
         } else {
             all_good = false;
             feed.end();
-            add_record_damage(
-                builder, is_cut ? "truncated_record" : "corrupt_record",
-                fmt::format("{} at its byte {}", is_cut ? "cut" : "damaged", block->position),
-                reader.offset(), block->compressed_bytes);
+            add_record_damage(builder, damage.is_cut ? "truncated_record" : "corrupt_record",
+                              fmt::format("{} at its byte {}", damage.is_cut ? "cut" : "damaged",
+                                          block->position),
+                              reader.offset(), block->compressed_bytes);
             reader.lose_sync();
         }
     }
@@ -125,16 +128,16 @@ Fragment PartDecoder::read_blocks(const LdmPart& part, ArrayRoom& room, bool is_
     Fragment fragment = builder.take();
     fragment.failure = failure;
     fragment.output_bytes += output_bytes;
-    fragment.cut = is_cut;
+    fragment.cut = damage.is_cut;
     fragment.report.decompress_s = thread_cpu_s() - begin_s;
     return fragment;
 }
 
 Fragment PartDecoder::decode_record(const LdmPart& part, ArrayRoom& room) {
-    bool is_cut = false;
-    if (auto fragment = read_record(part, room, is_cut)) return std::move(*fragment);
+    Damage damage;
+    if (auto fragment = read_record(part, room, damage)) return std::move(*fragment);
     room.clear();
-    if (room.ask_for_more()) return read_blocks(part, room, is_cut);
+    if (room.ask_for_more()) return read_blocks(part, room, damage);
     Fragment fragment;
     fragment.failure = Fragment::Failure::too_large_arrays;
     return fragment;

@@ -36,10 +36,14 @@ class PartDecoder {
   private:
     [[nodiscard]] Fragment decode_kind(const LdmPart& part, ArrayRoom& room);
     [[nodiscard]] Fragment decode_record(const LdmPart& part, ArrayRoom& room);
-    // None where the record is damaged; `is_cut` says whether its end is missing.
+    struct Damage {
+        bool is_cut = false;             // the end is missing
+        std::uint64_t wasted_bytes = 0;  // see BzipBlocks::Block
+    };
+    // None where the record is damaged.
     [[nodiscard]] std::optional<Fragment> read_record(const LdmPart& part, ArrayRoom& room,
-                                                      bool& is_cut);
-    [[nodiscard]] Fragment read_blocks(const LdmPart& part, ArrayRoom& room, bool is_cut);
+                                                      Damage& damage);
+    [[nodiscard]] Fragment read_blocks(const LdmPart& part, ArrayRoom& room, const Damage& damage);
 
     std::uint64_t limit_bytes_;
     const Selection& selection_;

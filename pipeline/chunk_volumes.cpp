@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 
 // No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
+// Of chunks that are read in the name of another. What is left comes in its own name.
+constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
+constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
 constexpr std::chrono::seconds between_catching_up{1};
 // Beyond it all are forgotten, and read again with their next chunk.
@@ -81,12 +84,22 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
     if (known != files_.end() && known->second.stamp == stamp) {
         return known->second.is_whole ? Added::added : Added::unfinished;
     }
+    const auto refused = refused_.find(chunk.path);
+    if (refused != refused_.end() && refused->second == stamp) return Added::not_ours;
+    const auto added = read_and_add(chunk, stamp);
+    if (added && *added == Added::not_ours) refused_.insert_or_assign(chunk.path, stamp);
+    return added;
+}
+
+Result<ChunkVolume::Added> ChunkVolume::read_and_add(const ChunkPath& chunk,
+                                                     const FileStamp& stamp) {
     const auto bytes = read_beneath(beneath_, chunk.path, most_chunk_bytes);
     if (!bytes) {
         const ErrorCode code = bytes.error().code;
         if (code == ErrorCode::io || is_shortage(code)) return pass_on(bytes);
         return Added::not_ours;
     }
+    read_bytes_ += bytes->size();
     File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
     const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
     if (!added) {
@@ -106,7 +119,13 @@ Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileSt
     return Added::added;
 }
 
+bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
+    return volume.read_bytes_ - read_bytes > most_read_at_once ||
+           volume.refused_.size() - refused >= most_refused_at_once;
+}
+
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
+    const InOneJob before{read_bytes_, refused_.size()};
     waiter_ = of.path;
     const auto found = chunks_beside(of, beneath_);
     if (!found) {
@@ -116,6 +135,7 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
     }
     Status all;
     for (const ChunkPath& chunk : *found) {
+        if (before.is_enough(*this)) break;
         const auto stamp = stamp_of(chunk.path, beneath_);
         if (!stamp && stamp.error().code != ErrorCode::not_found) all = pass_on(stamp);
         if (!stamp || !stamp->regular) continue;
@@ -139,7 +159,9 @@ void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     const auto found = chunks_beside(of, beneath_);
     if (!found) return;
     const fs::path waiter = waiter_, former = former_waiter_;
+    const InOneJob before{read_bytes_, refused_.size()};
     for (const ChunkPath& chunk : *found) {
+        if (before.is_enough(*this)) break;
         if (files_.contains(chunk.path)) continue;
         const auto stamp = stamp_of(chunk.path, beneath_);
         if (stamp && stamp->regular) (void)add(chunk, *stamp);

@@ -91,6 +91,13 @@ class ChunkVolume {
     bool is_finished = false;  // nothing more can be added: to be found anew
 
   private:
+    // What had been read when a job began.
+    struct InOneJob {
+        std::uint64_t read_bytes = 0;
+        std::size_t refused = 0;
+        [[nodiscard]] bool is_enough(const ChunkVolume& volume) const;
+    };
+    Result<Added> read_and_add(const ChunkPath& chunk, const FileStamp& stamp);
     [[nodiscard]] level2::LiveOptions with_depot(level2::LiveOptions live) const;
     void shelve(const level2::Sweep& sweep);
     void shelve_new_sweeps();
@@ -101,6 +108,9 @@ class ChunkVolume {
     std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
+    std::uint64_t read_bytes_ = 0;
+    // What was read and is no chunk of this volume, as it was then.
+    std::map<std::filesystem::path, FileStamp> refused_;
     std::filesystem::path waiter_, former_waiter_;
     LivingNews news_;
     std::optional<level2::LiveVolume::Clock::time_point> fails_since_;
@@ -147,7 +157,7 @@ class ChunkVolumes {
     struct GivenUp {
         bool was_read_at_end = false;
     };
-    std::map<std::string, GivenUp> not_again_;  // until they are quiet
+    std::map<std::string, GivenUp> not_again_;              // until they are quiet
     std::map<std::string, std::filesystem::path> waiters_;  // of those that found no place
     std::uint64_t given_up_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "pipeline/file_facts.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/beneath.h"
 #include "level2/volume_checks.h"
@@ -16,6 +17,13 @@ Result<FileStamp> stamp_of(const std::filesystem::path& path,
     };
     return FileStamp{static_cast<std::uint64_t>(facts->st_size), nanoseconds(facts->st_mtim),
                      S_ISREG(facts->st_mode), facts->st_mode & S_IFMT, nanoseconds(facts->st_ctim)};
+}
+
+std::int64_t believed_ns(std::int64_t modified_ns) {
+    const std::int64_t now_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                    std::chrono::system_clock::now().time_since_epoch())
+                                    .count();
+    return std::min(modified_ns, now_ns);
 }
 
 catalog::VolumeFacts facts_of(const level2::Volume& volume) {

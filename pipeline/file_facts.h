@@ -34,6 +34,10 @@ struct FileStamp {
 [[nodiscard]] Result<FileStamp> stamp_of(const std::filesystem::path& path,
                                          const std::filesystem::path& beneath = {});
 
+// When a file was written, as it counts against other files of its volume: its own time, and no
+// later than now. What claims to be of the future would be the newest for good.
+[[nodiscard]] std::int64_t believed_ns(std::int64_t modified_ns);
+
 [[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume);
 
 // The gravest problem in one line, with how many there are; empty when there are none that count.

@@ -26,6 +26,10 @@ using Clock = std::chrono::steady_clock;
 // Nearly all of a volume of chunks lies on the shelf.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
+// A radar's file holds one; joined by hand, an hour of a terminal radar. Each is gridded in one
+// job.
+constexpr std::size_t most_volumes = 64;
+
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {
     return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
                        [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
@@ -157,7 +161,7 @@ Status Ingestor::Impl::keep_mosaics(const FileFacts& facts, const level2::Volume
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
                                   antenna->altitude_m};
     VolumeSource source{volume, site, facts.path.filename().string()};
-    source.modified_ns = facts.modified_ns;
+    source.modified_ns = believed_ns(facts.modified_ns);
     source.partial = reading.damaged || !level2::is_complete(volume);
     source.radar_troubles = reading.troubles_of(site.icao);
     if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
@@ -197,8 +201,8 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
             (void)SiteGrids::has_place(volume, outcome);
         } else if (has_moment(volume, options.moment)) {
             const bool partial = reading.damaged || !level2::is_complete(volume);
-            const GridSource source{facts.path.filename().string(), facts.modified_ns, partial,
-                                    reading.troubles_of(volume.station)};
+            const GridSource source{facts.path.filename().string(), believed_ns(facts.modified_ns),
+                                    partial, reading.troubles_of(volume.station)};
             const Status gridded =
                 site_grids->keep(volume, source, share_of(options.grid_threads), outcome);
             if (!gridded) {
@@ -229,6 +233,11 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         reading.troubles = level2::rda_troubles(*decoded.report.rda_status);
     }
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    if (volumes.size() > most_volumes) {
+        const std::string reason = fmt::format("holds {} volumes, and a raw file may hold {}",
+                                               volumes.size(), most_volumes);
+        return reject(facts, {ErrorCode::unsupported, reason}, std::move(outcome));
+    }
     for (const level2::Volume& volume : volumes) {
         facts.volumes.push_back(facts_of(volume));
         outcome.newest_radial = std::max(outcome.newest_radial, facts.volumes.back().end_time);

@@ -42,6 +42,24 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
     return std::nullopt;
 }
 
+void keep_to_an_hours_volumes(const cache::Store& store, const std::string& domain,
+                              level2::Moment moment, UtcTime time) {
+    constexpr std::chrono::minutes around{30};
+    auto near = store.list(domain, moment, time - around, time + around);
+    if (!near || near->size() <= most_volumes_an_hour) return;
+    std::erase_if(
+        *near, [&](const cache::StoreEntry& entry) { return entry.pinned || entry.time == time; });
+    const auto written = [](const cache::StoreEntry& entry) {
+        std::error_code error;
+        const auto at = std::filesystem::last_write_time(entry.path, error);
+        return error ? std::filesystem::file_time_type::max() : at;
+    };
+    const auto oldest =
+        std::min_element(near->begin(), near->end(),
+                         [&](const auto& a, const auto& b) { return written(a) < written(b); });
+    if (oldest != near->end()) (void)store.remove(*oldest);
+}
+
 void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file) {
     const auto chunk = level2::parse_chunk_name(source_file);

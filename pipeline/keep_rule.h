@@ -3,6 +3,7 @@
 // Inside the pipeline room only.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,6 +24,14 @@ inline constexpr std::string_view living_note = "living: ";
 // made otherwise always is.
 [[nodiscard]] std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
                                                         const cache::GridDescription& made);
+
+// A radar begins no more volumes than that within an hour: the fastest pattern takes three minutes.
+inline constexpr std::size_t most_volumes_an_hour = 120;
+// Where more stand within half an hour of this grid, the one that was written longest ago goes, so
+// that files which claim to be of one station push out little of the others' history. Pinned grids
+// and this one stay.
+void keep_to_an_hours_volumes(const cache::Store& store, const std::string& domain,
+                              level2::Moment moment, UtcTime time);
 
 // Takes away what stands under another time of the same volume: a volume of chunks is named by its
 // first radial until the chunk with its header comes. A volume without its header takes nothing

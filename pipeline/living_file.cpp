@@ -232,9 +232,20 @@ Status LivingFile::shelve_new_sweeps() {
 }
 
 Status LivingFile::is_as_followed() const {
-    const auto bytes = read_beneath(beneath_, path_);
-    if (!bytes) return pass_on(bytes);
-    if (bytes->size() != read_bytes_ || xxh3_64(*bytes) != hash_.value()) {
+    const OpenFile file(path_, beneath_);
+    if (!file.is_open()) return tl::unexpected<Error>(file.failure());
+    Xxh3Stream hash;
+    std::vector<std::byte> buffer(stretch_bytes);
+    std::uint64_t done = 0;
+    // One byte more than was read shows that it has grown.
+    while (done <= read_bytes_) {
+        const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), read_bytes_ + 1 - done);
+        const std::size_t got = file.read(done, std::span{buffer}.first(wanted));
+        if (got == 0) break;
+        hash.append(std::span{buffer}.first(got));
+        done += got;
+    }
+    if (done != read_bytes_ || hash.value() != hash_.value()) {
         return fail(ErrorCode::corrupt, "{}: is not the file that it was", path_.native());
     }
     return {};

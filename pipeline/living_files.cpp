@@ -10,6 +10,7 @@ using Clock = std::chrono::steady_clock;
 
 // Beyond it all are forgotten, and may be followed once more.
 constexpr std::size_t most_not_again = 4096;
+constexpr std::chrono::minutes farthest_ahead{10};  // of a clock that is fast
 
 }  // namespace
 
@@ -95,6 +96,8 @@ void LivingFiles::forget(const std::filesystem::path& path) {
 
 void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {
     if (!volume || volume->facts.station.empty()) return;
+    // Nothing would take the place of what claims to be of the future.
+    if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
     const std::scoped_lock lock(mutex_);
     auto& last = last_[volume->facts.station];
     if (last && last->facts.start_time() > volume->facts.start_time()) return;

@@ -57,7 +57,7 @@ std::optional<std::int64_t> settled_as_it_is(catalog::Catalog& catalog, const fs
     if (!stamp || !stamp->regular) return std::nullopt;
     const auto settled = catalog.is_settled(path, stamp->size_bytes, stamp->modified_ns);
     if (!settled || !*settled) return std::nullopt;
-    return stamp->modified_ns;
+    return believed_ns(stamp->modified_ns);
 }
 
 bool may_have_a_grid(const CatalogEntry& entry) {

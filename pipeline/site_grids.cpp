@@ -129,6 +129,8 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
         note_not_kept(volume.station, outcome);
     } else {
         remove_other_times(store_, volume.station, options_.moment, volume, source.file);
+        keep_to_an_hours_volumes(store_, volume.station, options_.moment,
+                                 volume.start_time().value_or(UtcTime{}));
         outcome.grids.push_back(std::move(*path));
     }
     return {};

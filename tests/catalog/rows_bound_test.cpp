@@ -131,6 +131,26 @@ TEST_F(RowsBound, RollingDeletesTheOldestRowsOfTheLargestDatabase) {
     EXPECT_FALSE(*catalog.is_known(path(5999)));
 }
 
+// 2026-11-25: rubbish under one station's name took the rows of another station's files that went.
+TEST_F(RowsBound, RowsThatStandTakeNoOtherStationsHistory) {
+    CatalogOptions options;
+    {
+        auto catalog = open(options);
+        std::vector<FileFacts> standing, history;
+        for (int k = 0; k < 4000; ++k)
+            standing.push_back(file(path(k), {}));
+        for (int k = 10'000; k < 10'100; ++k)
+            history.push_back(file("/e/" + std::to_string(k), {}, "KOUN"));
+        ASSERT_TRUE(catalog.register_files("KTLX", standing));
+        ASSERT_TRUE(catalog.register_files("KOUN", history));
+        ASSERT_EQ(*catalog.mark_missing("/e"), 100);
+        options.most_bytes = catalog.roll()->used_bytes * 3 / 4;
+    }
+    auto catalog = open(options);
+    EXPECT_EQ(catalog.roll()->rows, 0);
+    EXPECT_EQ(catalog.list("KOUN", {{}, {}, true})->size(), 100U);
+}
+
 TEST_F(RowsBound, OfAFileWithVeryManyVolumesTheFirstGetRows) {
     auto catalog = open({});
     FileFacts facts = unknown(1);

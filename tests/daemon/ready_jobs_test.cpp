@@ -47,6 +47,20 @@ TEST_F(ReadyJobsTest, WhatIsLiveGoesBeforeTheBacklogWhichIsNewestFirst) {
     EXPECT_EQ(all(), "live newer older older-too");
 }
 
+// Under a flood of live files what stood there before a restart would wait for its end.
+TEST_F(ReadyJobsTest, TheBacklogOfKnownStationsDoesNotStandStill) {
+    add(backlog(50, "KTLX"), "old");
+    add(backlog(50), "others");
+    for (int i = 0; i < 40; ++i)
+        add(live("KAAA", 100 + i), "live");
+    for (int i = 0; i < 16; ++i)
+        ASSERT_EQ(next(), "live") << i;
+    EXPECT_EQ(next(), "old");
+    for (int i = 16; i < 40; ++i)
+        ASSERT_EQ(next(), "live") << i;
+    EXPECT_EQ(next(), "others");
+}
+
 TEST_F(ReadyJobsTest, StationsTakeTurnsHoweverMuchOneSends) {
     for (int i = 0; i < 4; ++i)
         add(live("KAAA", 10 + i), "a" + std::to_string(i));

@@ -201,6 +201,10 @@ TEST(Schedule, FilesThatTakeLongLeaveAWorkerToOthers) {
     ASSERT_EQ(next_path(schedule, t0), "a");
     schedule.worked("a", seconds{8}, t0 + seconds{8});
     schedule.finished("a");
+    schedule.offer(job_of("good", "KTLX"));
+    ASSERT_EQ(next_path(schedule, t0), "good");
+    schedule.worked("good", milliseconds{90}, t0, true);
+    schedule.finished("good");
     const auto now = t0 + seconds{8};
     for (const char* path : {"b", "c"})
         schedule.offer(job_of(path, ""));

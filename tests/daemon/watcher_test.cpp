@@ -37,6 +37,7 @@ class Notes final : public WatchListener {
     void directory_gone(const fs::path& path, bool deleted) override {
         note(deleted ? "deleted" : "moved", path);
     }
+    void directory_unread() override { said.emplace_back("unread"); }
     void entry_left_out(const fs::path& path, std::string_view kind) override {
         note(std::string{kind} + ":", path);
     }
@@ -116,6 +117,27 @@ TEST_F(RealWatcher, WhatComesDuringAScanIsSeenBeforeItsEnd) {
     const auto closed = std::find(notes_.said.begin(), notes_.said.end(), "closed new");
     ASSERT_NE(closed, notes_.said.end());
     EXPECT_GT(notes_.said.end() - closed, count / 2) << "half of the scan came after it";
+}
+
+// 2026-11-25: a tree of 10,000 directories that was renamed again and again took all of the thread.
+TEST_F(RealWatcher, DirectoriesThatComeAndGoTooFastAreLeftToTheNextScan) {
+    for (int i = 0; i < 5000; ++i)
+        fs::create_directories(drop() / "tree0" / std::to_string(i));
+    ASSERT_TRUE(watcher_->scan());
+    for (int i = 0; i < 200 && !notes_.has("unread"); ++i) {
+        fs::rename(drop() / ("tree" + std::to_string(i)),
+                   drop() / ("tree" + std::to_string(i + 1)));
+        settle();
+    }
+    ASSERT_TRUE(notes_.has("unread"));
+    ASSERT_TRUE(watcher_->scan());
+    EXPECT_EQ(watcher_->directory_count(), 5002U) << "the watches of what went are forgotten";
+    std::string name;
+    for (const auto& entry : fs::directory_iterator(drop()))
+        name = entry.path().filename().native();
+    write_file(drop() / name / "17/a", "1");
+    settle();
+    EXPECT_TRUE(notes_.has("closed " + name + "/17/a"));
 }
 
 TEST_F(RealWatcher, SeesAFileMadeAndClosed) {

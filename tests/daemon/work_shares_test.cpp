@@ -9,28 +9,67 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using Time = WorkShares::Time;
 
-TEST(WorkShares, AStationWhoseFilesAreQuickHasAllWorkers) {
+void run(WorkShares& shares, const std::string& station, WorkShares::Time::duration took,
+         bool is_good, Time now) {
+    shares.begun(station, now);
+    shares.ended(station, took, is_good, now);
+}
+
+TEST(WorkShares, StationsWhoseFilesAreQuickAndGoodHaveAllWorkers) {
     WorkShares shares;
     shares.set_workers(2);
-    for (int file = 0; file < 100; ++file) {
+    run(shares, "KTLX", milliseconds{90}, true, t0);
+    run(shares, "KOKX", milliseconds{90}, true, t0);
+    for (int file = 1; file < 100; ++file) {
         const auto now = t0 + seconds{file};
-        EXPECT_TRUE(shares.may_begin("KTLX", now));
+        ASSERT_TRUE(shares.may_begin("KTLX", now)) << file;
         shares.begun("KTLX", now);
-        EXPECT_TRUE(shares.may_begin("KTLX", now)) << file;
-        shares.begun("KTLX", now);
-        shares.ended("KTLX", milliseconds{90}, now);
-        shares.ended("KTLX", milliseconds{90}, now);
+        ASSERT_TRUE(shares.may_begin("KOKX", now)) << file;
+        shares.begun("KOKX", now);
+        shares.ended("KTLX", milliseconds{90}, true, now);
+        shares.ended("KOKX", milliseconds{90}, true, now);
     }
+}
+
+// What its second file costs is not known before it has ended.
+TEST(WorkShares, NoStationHasAllWorkersAlone) {
+    WorkShares shares;
+    shares.set_workers(3);
+    run(shares, "KTLX", milliseconds{90}, true, t0);
+    for (int file = 0; file < 2; ++file) {
+        ASSERT_TRUE(shares.may_begin("KTLX", t0)) << file;
+        shares.begun("KTLX", t0);
+    }
+    EXPECT_FALSE(shares.may_begin("KTLX", t0));
+    EXPECT_TRUE(shares.may_begin("KOKX", t0)) << "of which nothing good has come, but alone";
+}
+
+// 2026-11-25: 141 files of 1.4 kB, each of another station, kept a real one waiting for 15 s.
+TEST(WorkShares, StationsOfWhichNothingGoodHasComeLeaveOneWorkerToTheOthers) {
+    WorkShares shares;
+    shares.set_workers(2);
+    run(shares, "KTLX", milliseconds{90}, true, t0);
+    run(shares, "KOKX", milliseconds{90}, false, t0);
+    EXPECT_TRUE(shares.may_begin("KBGM", t0));
+    shares.begun("KBGM", t0);
+    for (const char* station : {"KOKX", "KENX", ""})
+        EXPECT_FALSE(shares.may_begin(station, t0)) << station;
+    EXPECT_TRUE(shares.may_begin("KTLX", t0));
+    const auto later = t0 + WorkShares::good_for + seconds{1};
+    EXPECT_FALSE(shares.may_begin("KTLX", later)) << "that was long ago";
+    shares.ended("KBGM", milliseconds{90}, true, later);
+    EXPECT_TRUE(shares.may_begin("KTLX", later));
 }
 
 TEST(WorkShares, HeavyStationsLeaveOneWorkerToTheOthers) {
     WorkShares shares;
     shares.set_workers(3);
-    for (const char* station : {"KTLX", "KOKX", ""}) {
-        shares.begun(station, t0);
-        shares.ended(station, seconds{8}, t0);
-    }
+    for (const char* station : {"KTLX", "KOKX"})
+        run(shares, station, seconds{8}, true, t0);
+    run(shares, "KBGM", milliseconds{90}, true, t0);
+    run(shares, "", seconds{8}, false, t0);
     shares.begun("KTLX", t0);
     EXPECT_TRUE(shares.may_begin("", t0));
     shares.begun("", t0);
@@ -45,8 +84,7 @@ TEST(WorkShares, HeavyStationsLeaveOneWorkerToTheOthers) {
 TEST(WorkShares, OneWorkerIsForAll) {
     WorkShares shares;
     shares.set_workers(1);
-    shares.begun("KTLX", t0);
-    shares.ended("KTLX", seconds{60}, t0);
+    run(shares, "KTLX", seconds{60}, false, t0);
     EXPECT_TRUE(shares.may_begin("KTLX", t0));
 }
 

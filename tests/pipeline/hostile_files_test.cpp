@@ -140,6 +140,51 @@ TEST_F(Hostile, HugeSparseFilesAreRefusedUnread) {
     }
 }
 
+// 2026-11-25: 61 kB were 16,389 volumes, and one job of a minute.
+TEST_F(Hostile, AFileOfManyVolumesIsRefused) {
+    const wire::Bytes one = wire::ldm_volume(1, 4);
+    wire::Bytes many;
+    for (int i = 0; i < 65; ++i)
+        many.insert(many.end(), one.begin(), one.end());
+    EXPECT_EQ(take(put(drop() / "KTLX_many", many)),
+              "rejected: holds 65 volumes, and a raw file may hold 64");
+    many.resize(many.size() - one.size());
+    EXPECT_EQ(take(put(drop() / "KTLX_fewer", many)), "gridded");
+}
+
+// 2026-11-25: 3,000 volumes of one station took nearly all grids of the others.
+TEST_F(Hostile, AStationHasNoMoreGridsOfAnHourThanARadarMakes) {
+    wire::Bytes bytes = wire::ldm_volume(1, 4);
+    const auto set_second = [&](std::uint32_t second) {
+        wire::Bytes time = wire::Writer{}.u32(1000 * second).bytes;
+        std::copy(time.begin(), time.end(), bytes.begin() + 16);
+    };
+    for (std::uint32_t i = 0; i < 130; ++i) {
+        set_second(10 * i);
+        ASSERT_EQ(take(put(drop() / ("KTLX_" + std::to_string(i)), bytes)), "gridded") << i;
+    }
+    const auto grids = store_.list("KTLX", level2::Moment::ref, std::nullopt, std::nullopt);
+    ASSERT_TRUE(grids);
+    EXPECT_EQ(grids->size(), 120U);
+    EXPECT_EQ(grids->back().time - grids->front().time, std::chrono::seconds{1190})
+        << "those that were written first have gone";
+}
+
+// 2026-11-25: all of what it had become was read at once, 1 GiB of zeros, and twice as it grew.
+TEST_F(Hostile, AFollowedFileThatGrowsAsItEndsIsReadNoFurther) {
+    const wire::Bytes whole = wire::ldm_volume(3, 360);
+    const fs::path path = put(drop() / "KTLX_grows", whole);
+    LivingFile::Options follow;
+    follow.scratch = directory_.path();
+    auto file = LivingFile::begin(path, follow);
+    ASSERT_TRUE(file);
+    ASSERT_TRUE((*file)->read_to(whole.size()));
+    fs::resize_file(path, (std::uintmax_t{1} << 40) - 1);
+    const auto finished = (*file)->finish();
+    ASSERT_FALSE(finished);
+    EXPECT_EQ(finished.error().code, ErrorCode::corrupt);
+}
+
 TEST_F(Hostile, AFollowedFileThatBecomesHugeIsGivenUp) {
     const auto record = two_records()[0];
     const fs::path path =

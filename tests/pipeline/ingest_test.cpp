@@ -229,6 +229,16 @@ TEST_F(IngestTest, APartIsReplacedByTheWholeVolume) {
     EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_whole");
 }
 
+// 2026-11-25: nothing took the place of a file of 2096.
+TEST_F(IngestTest, AFileOfTheFutureIsAsOldAsItsReading) {
+    const auto bytes = level2::wire::ldm_volume(3, 360);
+    const fs::path future = put("KTLX_future", bytes);
+    fs::last_write_time(future, fs::file_time_type::clock::now() + std::chrono::hours(600'000));
+    ASSERT_EQ(ingestor_.ingest(future, false)->result, IngestResult::gridded);
+    ASSERT_EQ(ingestor_.ingest(put("KTLX_real", bytes), false)->result, IngestResult::gridded);
+    EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_real");
+}
+
 TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheNewerOneCounts) {
     const auto bytes = level2::wire::ldm_volume(3, 360);
     const fs::path older = put("KTLX_older", bytes);

@@ -174,6 +174,33 @@ TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
     expect_same_cells(house_);
 }
 
+// 2026-11-25: a hundred siblings that were none kept a worker for minutes, and more than once.
+TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
+    const fs::path directory = directory_ / "others";
+    fs::create_directories(directory);
+    append_to(directory / names_[0], parts_[0]);
+    const std::vector<std::byte> rubbish(5000, std::byte{'x'});
+    for (std::size_t i = 1; i <= 10; ++i)
+        append_to(directory / names_[i], rubbish);
+    append_to(directory / names_[11], parts_[11]);
+    LivingFile::Options options;
+    options.scratch = directory_ / "living";
+    ChunkVolumes volumes(options);
+    const auto first = ChunkPath::of(directory / names_[0]).value();
+    const auto volume = volumes.find(first, "A");
+    ASSERT_TRUE(volume->add(first, stamp_of(first.path).value()));
+    ASSERT_TRUE(volume->add_siblings(first));
+    EXPECT_EQ(volume->files().size(), 1U) << "after four that are none the rest is left";
+    const auto later = ChunkPath::of(directory / names_[11]).value();
+    EXPECT_EQ(volume->add(later, stamp_of(later.path).value()).value(), ChunkVolume::Added::added)
+        << "it comes in its own name";
+    const auto refused = ChunkPath::of(directory / names_[1]).value();
+    fs::permissions(refused.path, fs::perms::none);  // for whoever is not root
+    EXPECT_EQ(volume->add(refused, stamp_of(refused.path).value()).value(),
+              ChunkVolume::Added::not_ours)
+        << "without reading it again";
+}
+
 // 2026-11-22: what was put aside of chunks had no bound on disk.
 TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     const auto grow = [&](ChunkVolumes& volumes, const std::string& site) {

@@ -224,6 +224,11 @@ TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
     EXPECT_FALSE(files.last_of("KBBB"));
     EXPECT_TRUE(files.last_of("KAAA") && files.last_of("KCCC"));
     EXPECT_EQ(files.take_given_up(), 0U);
+
+    // 2026-11-25: no real volume took the place of one of 2040.
+    const auto years = std::chrono::duration_cast<std::chrono::minutes>(std::chrono::years{25});
+    files.keep_last(last_of("KAAA", static_cast<int>(years.count())));
+    EXPECT_EQ(files.last_of("KAAA"), a);
 }
 
 TEST_F(Living, GrowthIsToldByTheRecords) {
