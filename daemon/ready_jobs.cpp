@@ -4,7 +4,8 @@ namespace stormcellar::daemon {
 
 ReadyJobs::Class ReadyJobs::class_of(const Key& key) {
     if (key.station.empty()) return Class::others;
-    return key.is_begun ? Class::going_on : Class::fresh;
+    if (key.is_begun) return Class::going_on;
+    return key.is_told ? Class::fresh : Class::found;
 }
 
 ReadyJobs::Rank ReadyJobs::rank_of(const Key& key) {

@@ -1,9 +1,10 @@
 // daemon/ready_jobs.h -- which of the jobs that may run is the next.
 //
 // LIVE is what changed while we watched, or less than ten minutes ago; BACKLOG is all else. Of the
-// live jobs there are three classes; in a round each has so many turns as stand behind it:
+// live jobs there are four classes; in a round each has so many turns as stand behind it:
 //   going on   of a known station, of a volume of which sweeps have closed   8
-//   fresh      all else of a known station                                   4
+//   fresh      all else of a known station of which an event told            4
+//   found      all else of a known station, found by a look: a scan, a poll  1
 //   others     of no station that is known                                   1
 // The backlog of known stations, then that of others, each newest first, has its turn when nothing
 // live waits, and that of known stations one turn in seventeen else. So a flood of beginnings
@@ -36,6 +37,7 @@ class ReadyJobs {
         std::int64_t newest_ns = 0;  // since the epoch
         std::uint64_t sequence = 0;  // tells all jobs apart; equal ones go by it
         std::string station;         // whose turn it takes; empty: that of all unknown ones
+        bool is_told = true;         // an event told of it; live jobs alone
     };
 
     void add(const Key& key, void* job);
@@ -68,8 +70,8 @@ class ReadyJobs {
         std::map<std::uint64_t, std::string> turns;
         int left = 0;  // in this round
     };
-    enum class Class : std::size_t { going_on, fresh, others };
-    static constexpr std::array<int, 3> turns_a_round = {8, 4, 1};
+    enum class Class : std::size_t { going_on, fresh, found, others };
+    static constexpr std::array<int, 4> turns_a_round = {8, 4, 1, 1};
     struct OldJob {
         void* job = nullptr;
         std::string station;
@@ -94,7 +96,7 @@ class ReadyJobs {
     std::size_t count_ = 0;
     int live_since_old_ = 0;  // taken while a backlog waited
     std::uint64_t next_turn_ = 0;
-    std::array<Turns, 3> live_;
+    std::array<Turns, 4> live_;
     Backlog backlog_, others_backlog_;  // of known stations, and of all else
 };
 

@@ -24,8 +24,8 @@ void Schedule::merge(Job& into, const Job& job) {
 }
 
 ReadyJobs::Key Schedule::key_of(const Entry& entry) {
-    return {entry.job.urgency, entry.job.is_begun, entry.job.newest_ns, entry.sequence,
-            entry.job.station};
+    return {entry.job.urgency, entry.job.is_begun, entry.job.newest_ns,
+            entry.sequence,    entry.job.station,  entry.job.closed_at.has_value()};
 }
 
 // A job with a time to wait for starts among the delayed, and joins the ready when it has come.

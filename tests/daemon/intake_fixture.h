@@ -22,6 +22,7 @@ class IntakeTest : public ::testing::Test {
   protected:
     static Config config() {
         Config made;
+        made.workers = 100;  // the tests end few of their jobs
         made.quiet = std::chrono::seconds{30};
         made.reread = std::chrono::milliseconds{500};
         made.queue_limit = 4;

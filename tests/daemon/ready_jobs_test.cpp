@@ -47,6 +47,20 @@ TEST_F(ReadyJobsTest, WhatIsLiveGoesBeforeTheBacklogWhichIsNewestFirst) {
     EXPECT_EQ(all(), "live newer older older-too");
 }
 
+// Of what had to give its place in the queue a scan tells again and again.
+TEST_F(ReadyJobsTest, WhatAnEventToldOfGoesBeforeWhatALookFound) {
+    for (int i = 0; i < 10; ++i) {
+        ReadyJobs::Key found = live("KAAA", 1000 + i);
+        found.is_told = false;
+        add(found, "found");
+    }
+    for (int i = 0; i < 10; ++i)
+        add(live("KAAA", i), "told");
+    EXPECT_EQ(all(),
+              "told told told told found told told told told found told told "
+              "found found found found found found found found");
+}
+
 // Under a flood of live files what stood there before a restart would wait for its end.
 TEST_F(ReadyJobsTest, TheBacklogOfKnownStationsDoesNotStandStill) {
     add(backlog(50, "KTLX"), "old");
