@@ -43,14 +43,20 @@ void Schedule::enqueue(Entry& entry) {
     shares_looked_at_ = SteadyTime{};
 }
 
+Schedule::Worth Schedule::worth_of(const Job& job, std::uint64_t place) {
+    int kind = 0;
+    if (job.urgency == Urgency::live) kind = job.is_begun ? 3 : job.closed_at ? 2 : 1;
+    return {kind, job.newest_ns, ~place};  // of equal ones the last gives way
+}
+
 void Schedule::claim(const Entry& entry) {
-    if (!entry.is_retrying) claims_[entry.job.station].insert(entry.place);
+    if (!entry.is_retrying) claims_[entry.job.station].insert(worth_of(entry.job, entry.place));
 }
 
 void Schedule::unclaim(const Entry& entry) {
     const auto own = claims_.find(entry.job.station);
     if (own == claims_.end()) return;
-    own->second.erase(entry.place);
+    own->second.erase(worth_of(entry.job, entry.place));
     if (own->second.empty()) claims_.erase(own);
 }
 
@@ -65,7 +71,6 @@ void Schedule::drop_waiting(Entry& entry) {
     entries_.erase(entry.job.path.native());
 }
 
-// Of its own station only what is no news gives way, and only to what is.
 bool Schedule::make_room_for(const Job& job) {
     const auto largest = std::max_element(
         claims_.begin(), claims_.end(),
@@ -73,10 +78,11 @@ bool Schedule::make_room_for(const Job& job) {
     if (largest == claims_.end()) return false;
     const auto own = claims_.find(job.station);
     const std::size_t own_count = own == claims_.end() ? 0 : own->second.size();
-    Entry& last = *waiting_.at(*largest->second.rbegin());
-    const bool is_news = job.urgency == Urgency::live && last.job.urgency == Urgency::backlog;
-    if (largest->second.size() <= own_count + 1 && !is_news) return false;
-    drop_waiting(last);
+    const bool has_fewer = largest->second.size() > own_count + 1;
+    if (!has_fewer && own == claims_.end()) return false;
+    const Worth least = *(has_fewer ? largest : own)->second.begin();
+    if (!has_fewer && worth_of(job, next_place_) <= least) return false;
+    drop_waiting(*waiting_.at(~std::get<2>(least)));
     return true;
 }
 

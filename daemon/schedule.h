@@ -7,10 +7,12 @@
 // What has waited for `register_after` is to be written into the catalog without being read
 // (next_unregistered()): however far behind we are, what is there can be asked for.
 // Memory is bounded by `limit` entries, and a quarter as many of those to be tried again. At the
-// bound what comes takes the place of what was offered last of the station that has most, where it
-// has fewer itself; else it is refused. The caller finds what had to go again by a scan, once there
-// is room. Pure bookkeeping: the caller says what time it is.
-// Thread contract: one thread.
+// bound what comes takes the place of what is worth least of the station that has most, where it
+// has fewer itself, or is worth more than something of its own; else it is refused. Worth least is
+// what would be served last: the backlog, then what a look found, then what an event told of, each
+// the oldest first, and what goes on after all. The caller finds what had to go again by a scan,
+// once there is room. Pure bookkeeping: the caller says what time it is. Thread contract: one
+// thread.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +24,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -115,6 +118,9 @@ class Schedule {
     };
     using DelayedKey = std::pair<SteadyTime, std::uint64_t>;
 
+    // Of a job among those of its station: least is what gives its place first.
+    using Worth = std::tuple<int, std::int64_t, std::uint64_t>;
+    static Worth worth_of(const Job& job, std::uint64_t place);
     static ReadyJobs::Key key_of(const Entry& entry);
     void enqueue(Entry& entry);
     void wait_again(Entry& entry, const Job& job);
@@ -135,8 +141,8 @@ class Schedule {
     std::map<DelayedKey, Entry*> delayed_;
     std::map<std::uint64_t, Entry*> waiting_;       // by place: all that wait
     std::map<std::uint64_t, Entry*> unregistered_;  // the same, those alone
-    // Places of those that wait, but for those to be tried again, by station.
-    std::unordered_map<std::string, std::set<std::uint64_t>> claims_;
+    // Those that wait, but for those to be tried again, by station.
+    std::unordered_map<std::string, std::set<Worth>> claims_;
     std::size_t retrying_ = 0;
     WorkShares shares_;
     SteadyTime shares_looked_at_{};  // nothing that is ready may begin before, unless more comes

@@ -185,6 +185,32 @@ TEST(Schedule, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_EQ(schedule.waiting_count(), 6U);
 }
 
+// 2026-11-25: at the bound a flood in the names of all stations left none but old jobs of each:
+// what had just come gave its place to the next.
+TEST(Schedule, AtTheBoundWhatWouldBeServedLastGivesWay) {
+    Schedule schedule(4);
+    const auto job_at = [](const char* path, std::int64_t newest_ns, bool is_begun = false) {
+        Job made = job_of(path, "KTLX");
+        made.newest_ns = newest_ns;
+        made.closed_at = t0;
+        made.is_begun = is_begun;
+        return made;
+    };
+    schedule.offer(job_at("going-on", 1, true));
+    schedule.offer(job_at("fresh2", 2));
+    Job found = job_of("found", "KTLX");
+    found.newest_ns = 9;
+    schedule.offer(found);
+    schedule.offer(job_at("fresh3", 3));
+    EXPECT_EQ(schedule.offer(job_at("fresh4", 4)), Offered::queued);
+    EXPECT_EQ(schedule.offer(job_at("fresh1", 1)), Offered::refused);
+    EXPECT_EQ(schedule.offer(job_at("fresh5", 5)), Offered::queued);
+    EXPECT_EQ(schedule.offer(job_of("okx", "KOKX")), Offered::queued);
+    using Paths = std::vector<std::filesystem::path>;
+    EXPECT_EQ(schedule.take_displaced(), (Paths{"found", "fresh2", "fresh3"}));
+    EXPECT_EQ(next_path(schedule, t0), "going-on");
+}
+
 TEST(Schedule, NewsOfAStationGoesBeforeItsOwnBacklog) {
     Schedule schedule(3);
     for (int i = 0; i < 3; ++i)
@@ -243,10 +269,23 @@ TEST(Schedule, AgreesWithAPlainListUnderRandomUse) {
         if (random() % 3 != 0 && !runs) {
             const Job offered = job(path, random() % 5);
             const auto known = find(waiting, path);
-            const Offered expected = known != waiting.end()                 ? Offered::merged
-                                     : waiting.size() + running.size() >= 8 ? Offered::refused
-                                                                            : Offered::queued;
+            const auto least = std::min_element(
+                waiting.begin(), waiting.end(),
+                [](const Job& a, const Job& b) { return a.newest_ns < b.newest_ns; });
+            const bool is_full = waiting.size() + running.size() >= 8;
+            const bool is_worth_more =
+                least != waiting.end() && offered.newest_ns > least->newest_ns;
+            const Offered expected = known != waiting.end()      ? Offered::merged
+                                     : is_full && !is_worth_more ? Offered::refused
+                                                                 : Offered::queued;
             ASSERT_EQ(schedule.offer(offered), expected);
+            if (is_full && expected == Offered::queued) {
+                const auto displaced = schedule.take_displaced();
+                ASSERT_EQ(displaced.size(), 1U);
+                const auto gone = find(waiting, displaced.front());
+                ASSERT_EQ(gone->newest_ns, least->newest_ns);
+                waiting.erase(gone);
+            }
             if (expected == Offered::merged) {
                 const std::int64_t newest = std::max(known->newest_ns, offered.newest_ns);
                 waiting.erase(known);
