@@ -227,8 +227,8 @@ TEST(Memory, BytesThatAreNoRecordsAreNotHeldWithoutEnd) {
     int taken = 0;
     while (taken < 200 && growing.append(noise))
         ++taken;
-    EXPECT_GT(taken, 60);
-    EXPECT_LT(taken, 70);
+    EXPECT_GT(taken, 30);
+    EXPECT_LT(taken, 36);
     EXPECT_EQ(growing.finish().error().code, ErrorCode::unsupported);
 }
 
