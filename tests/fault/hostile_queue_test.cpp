@@ -110,8 +110,8 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
     std::printf("%d chunks, opened %zu times\n", volumes * chunks, opened);
     EXPECT_GT(opened, static_cast<std::size_t>(volumes * chunks) / 2)
         << "they were not seen at all";
-    // As it comes, beside the first of its volume, and once more when the end of a volume comes that
-    // was given up; each look at what it is opens it, too.
+    // As it comes, beside the first of its volume, and once more when the end of a volume comes
+    // that was given up; each look at what it is opens it, too.
     EXPECT_LT(opened, static_cast<std::size_t>(5 * volumes * chunks));
     stop();
 }
