@@ -14,9 +14,8 @@ namespace stormcellar {
 void keep_freed_memory();
 
 // Gives all freed memory back where more than so many bytes of it are resident, in whatever pieces;
-// says whether it did. Takes 0.2 ms to look, and some 30 ms to give back 200 MB. For a program that
-// runs for long: memory that many small things have used stays otherwise. Nothing happens where the
-// C library is another one.
+// says whether it did. For a program that runs for long: memory that many small things have used
+// stays otherwise. Nothing happens where the C library is another one.
 bool give_back_freed_memory(std::size_t most_kept_bytes);
 
 // Asks the system for large pages where memory is touched from now on: 2 MiB at once instead of 4

@@ -1,7 +1,7 @@
 // catalog/path_filter.h -- which paths were added, in a fixed amount of memory.
 //
-// A Bloom filter of 2 MiB: a path that was added is always found; of others, one in 400 is found
-// as well when a million were added, one in 6 at four million. Nothing is taken out again.
+// A Bloom filter of 2 MiB: a path that was added is always found; of others, one in 500 is found
+// as well when a million were added, one in 7 at four million. Nothing is taken out again.
 // Inside the catalog room only. Thread contract: any thread.
 #pragma once
 

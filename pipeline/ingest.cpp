@@ -26,8 +26,7 @@ using Clock = std::chrono::steady_clock;
 // Nearly all of a volume of chunks lies on the shelf.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
-// A radar's file holds one; joined by hand, an hour of a terminal radar. Each is gridded in one
-// job.
+// A radar's file holds one, and one that somebody joined some hours. All are gridded in one job.
 constexpr std::size_t most_volumes = 64;
 
 bool has_moment(const level2::Volume& volume, level2::Moment moment) {

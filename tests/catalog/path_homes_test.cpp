@@ -45,7 +45,7 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_c"), 1);
 }
 
-// To ask all of them took a millisecond of each file that came.
+// To ask all of them took most of the time of each file that came.
 TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));

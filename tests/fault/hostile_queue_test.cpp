@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace wire = level2::wire;
-using nlohmann::json;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::slow_down;
@@ -78,6 +77,7 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
     const auto put_chunk = [&](int volume, int chunk) {
         Claims claims = claims_of("KTLX", time + seconds{volume % 100});
         claims.radials = 90;
+        claims.sweeps = chunks + 1;  // so that none of them ends
         claims.is_varied = true;
         Bytes bytes = wire::ldm_record(sweep_messages(claims, static_cast<unsigned>(chunk)));
         if (chunk == 0) bytes = wire::join({file_header(claims), bytes});
@@ -101,18 +101,10 @@ TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
         }
     }
     expect_gridded("KFWS", put_good("KFWS"), 2 * prompt_s);
-    comes_true(30 * slow_down, [&] {
-        openings.count();
-        const json now = daemon_.status();
-        return !now.is_null() && now["pending"]["waiting"] == 0 && now["pending"]["growing"] == 0;
-    });
     const std::size_t opened = openings.count();
     std::printf("%d chunks, opened %zu times\n", volumes * chunks, opened);
-    EXPECT_GT(opened, static_cast<std::size_t>(volumes * chunks) / 2)
-        << "they were not seen at all";
-    // Before 2026-11-25 each was read with each chunk that came. Three openings of each were enough
-    // once; 4.0 to 4.9 were measured since, and why is not known yet.
-    EXPECT_LT(opened, static_cast<std::size_t>(7 * volumes * chunks));
+    EXPECT_GE(opened, 16U * chunks / 2) << "not even those that have a place were followed";
+    EXPECT_LE(opened, static_cast<std::size_t>(volumes * chunks)) << "once each at most";
     stop();
 }
 

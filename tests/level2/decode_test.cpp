@@ -13,6 +13,27 @@
 namespace stormcellar::level2 {
 namespace {
 
+// Salvage tries each damaged block several times: what that counts leaves a real volume its room.
+TEST(DecodeLimits, AVolumeOfWhichNearlyAllIsDamagedStaysWithinThem) {
+    STORMCELLAR_NEED_DATA();
+    wire::Bytes bytes = *read_file(*testing::data_directory() / "volumes/KLBB20160601_150025_V06");
+    std::size_t records = 0;
+    for (std::size_t at = 24; at + 4 < bytes.size(); ++records) {
+        std::uint32_t word = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            word = word << 8U | std::to_integer<std::uint32_t>(bytes[at + i]);
+        const auto length = static_cast<std::size_t>(std::abs(static_cast<std::int32_t>(word)));
+        if (records >= 2) bytes[at + 4 + length / 2] ^= std::byte{1};
+        at += 4 + length;
+    }
+    EXPECT_GT(records, 40U);
+    DecodeOptions options;
+    options.output_limit_bytes = std::uint64_t{256} << 20;
+    const auto decoded = decode(bytes, options);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    EXPECT_GT(decoded->report.errors, 40U);
+}
+
 // 2026-11-25: 11 kB of records with a wrong checksum took 20 s, as what was unpacked in vain
 // counted for nothing.
 TEST(DecodeLimits, WhatIsUnpackedInVainCounts) {

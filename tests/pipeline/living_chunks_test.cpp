@@ -50,12 +50,7 @@ TEST_F(LivingChunks, MayComeInAnyOrder) {
 TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
     for (std::size_t i = 0; i < 30; ++i)
         take(house_, i);
-    house_.ingestor.reset();
-    IngestOptions options;
-    options.spacing_m = 4000;
-    options.nx = options.ny = 115;
-    options.living.scratch = directory_ / "living";
-    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    begin_again_with(most_put_aside_bytes);
     for (std::size_t i = 30; i < names_.size(); ++i)
         take(house_, i);
     expect_same_cells(house_);
@@ -254,13 +249,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
 
 // 2026-11-25: its grid waited until the volume had been quiet.
 TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
-    house_.ingestor.reset();
-    IngestOptions options;
-    options.spacing_m = 4000;
-    options.nx = options.ny = 115;
-    options.living.scratch = directory_ / "living";
-    options.living.put_aside_bytes = 4'000'000;
-    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    begin_again_with(4'000'000);
     std::uint64_t given_up = 0;
     for (std::size_t i = 0; i + 1 < names_.size(); ++i)
         given_up += take(house_, i).given_up;
@@ -271,20 +260,13 @@ TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
 }
 
 TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
-    house_.ingestor.reset();
-    IngestOptions options;
-    options.spacing_m = 4000;
-    options.nx = options.ny = 115;
-    options.living.scratch = directory_ / "living";
-    const std::uint64_t ample = std::exchange(options.living.put_aside_bytes, 4'000'000);
-    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    begin_again_with(4'000'000);
     std::uint64_t given_up = 0;
     std::size_t next = 0;
     for (; next < 20; ++next)
         given_up += take(house_, next).given_up;
     EXPECT_EQ(given_up, 1U) << "once: after that nothing of it is read until it is quiet";
-    options.living.put_aside_bytes = ample;
-    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    begin_again_with(most_put_aside_bytes);
     for (; next < names_.size(); ++next)
         EXPECT_EQ(take(house_, next).given_up, 0U);
     expect_same_cells(house_);
@@ -334,12 +316,7 @@ TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
         << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
 #endif
     take(house_, 0);  // opens the database
-    house_.ingestor.reset();
-    IngestOptions options;
-    options.spacing_m = 4000;
-    options.nx = options.ny = 115;
-    options.living.scratch = directory_ / "living";
-    house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    begin_again_with(most_put_aside_bytes);
     for (std::size_t i = 1; i < names_.size(); ++i)
         append_to(drop_ / names_[i], parts_[i]);
     rlimit before{};

@@ -114,6 +114,16 @@ class LivingChunks : public Living {
         append_to(file, bytes_);
         ASSERT_EQ(whole_.ingestor->ingest(file, false)->result, IngestResult::gridded);
     }
+    // As another process would, with so much room for what is put aside.
+    void begin_again_with(std::uint64_t put_aside_bytes) {
+        house_.ingestor.reset();
+        IngestOptions options;
+        options.spacing_m = 4000;
+        options.nx = options.ny = 115;
+        options.living.scratch = directory_ / "living";
+        options.living.put_aside_bytes = put_aside_bytes;
+        house_.ingestor.emplace(*house_.catalog, *house_.store, options);
+    }
     IngestOutcome take(House& house, std::size_t i, bool finish_partial = false) {
         const fs::path path = drop_ / names_[i];
         if (!fs::exists(path)) {
