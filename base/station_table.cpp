@@ -259,10 +259,10 @@ std::span<const Station> all_stations() {
 }
 
 std::optional<Station> find_station(std::string_view icao) {
-    const auto found = std::ranges::lower_bound(stations, icao, {}, &Station::icao);
-    if (found != stations.end() && found->icao == icao) return *found;
+    const auto listed = std::ranges::lower_bound(stations, icao, {}, &Station::icao);
+    const bool is_listed = listed != stations.end() && listed->icao == icao;
     for (const AddedStation& one : added()) {
-        if (one.icao != icao) continue;
+        if (one.icao != icao || (is_listed && !one.instead_of_table)) continue;
         return Station{one.icao,
                        one.name,
                        "",
@@ -271,7 +271,15 @@ std::optional<Station> find_station(std::string_view icao) {
                        one.longitude_deg,
                        one.antenna_altitude_m};
     }
-    return std::nullopt;
+    if (!is_listed) return std::nullopt;
+    return *listed;
+}
+
+std::string station_in_name(std::string_view file_name) {
+    constexpr std::string_view of_ncei = "6500";
+    if (file_name.starts_with(of_ncei)) file_name.remove_prefix(of_ncei.size());
+    const auto icao = icao_of(file_name.substr(0, 4));
+    return icao && find_station(*icao) ? *icao : std::string{};
 }
 
 void set_added_stations(std::vector<AddedStation> stations_to_add) {
@@ -281,6 +289,15 @@ void set_added_stations(std::vector<AddedStation> stations_to_add) {
 bool is_icao(std::string_view text) {
     return text.size() == 4 && is_letter(text.front()) &&
            std::ranges::all_of(text.substr(1), is_letter_or_digit);
+}
+
+std::optional<std::string> icao_of(std::string_view text) {
+    std::string name{text};
+    for (char& c : name) {
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    }
+    if (!is_icao(name)) return std::nullopt;
+    return name;
 }
 
 }  // namespace stormcellar

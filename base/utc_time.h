@@ -14,6 +14,13 @@ using UtcTime = std::chrono::sys_time<std::chrono::milliseconds>;
 
 [[nodiscard]] UtcTime now_utc();
 
+// What claims to be of later than this is kept, and is nobody's newest: the clock of a radar, or of
+// this machine, is wrong.
+inline constexpr std::chrono::minutes tolerated_future{10};
+[[nodiscard]] inline bool is_believed(UtcTime time, UtcTime now) {
+    return time <= now + tolerated_future;
+}
+
 // Negative when `to` is the earlier one.
 [[nodiscard]] inline double seconds_between(UtcTime from, UtcTime to) {
     return std::chrono::duration<double>(to - from).count();

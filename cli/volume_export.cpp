@@ -5,6 +5,7 @@
 #include "base/file_system.h"
 #include "cli/problem_notes.h"
 #include "export/cfradial.h"
+#include "level2/volume_checks.h"
 
 namespace stormcellar::cli {
 
@@ -17,7 +18,7 @@ Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t num
     options.notes = notes_of(report);
     options.complete = report.complete;
     if (volumes.size() > 1) {
-        options.complete = level2::has_ended(volume);
+        options.complete = !report.damaged && level2::is_complete(volume);
         options.notes.insert(options.notes.begin(),
                              fmt::format("the file holds {} volumes; this is number {}",
                                          volumes.size(), number + 1));

@@ -26,16 +26,17 @@ constexpr double widest_beam_deg = 5.0;
 
 void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen,
                     Grid& grid) {
+    const std::optional<UtcTime> start = volume.start_time();
     std::optional<UtcTime> first, last;
     for (const ChosenSweep& sweep : chosen) {
         for (const std::uint32_t radial : sweep.radials) {
             const UtcTime time = volume.sweeps[sweep.sweep_index].radials[radial].time;
-            if (!level2::is_plausible(time)) continue;
+            if (!level2::is_time_of_volume(time, start)) continue;
             first = std::min(first.value_or(time), time);
             last = std::max(last.value_or(time), time);
         }
     }
-    grid.time = volume.start_time().value_or(UtcTime{});
+    grid.time = start.value_or(UtcTime{});
     grid.start_time = first.value_or(grid.time);
     grid.end_time = last.value_or(grid.time);
 }

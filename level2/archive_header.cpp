@@ -19,8 +19,7 @@ std::optional<VolumeHeader> read_archive_header(std::span<const std::byte> bytes
     std::replace_if(header.filename.begin(), header.filename.end(), unprintable, '?');
     header.date = reader.u32();
     header.ms = reader.u32();
-    const std::string_view icao = reader.text(4);
-    if (is_icao(icao)) header.icao = icao;
+    header.icao = icao_of(reader.text(4)).value_or("");
     return header;
 }
 

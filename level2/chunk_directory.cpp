@@ -63,8 +63,8 @@ Result<Found> find_chunks(const fs::path& directory) {
 std::string station_of(const fs::path& directory) {
     const fs::path path = directory.lexically_normal();
     for (const fs::path& part : {path.filename(), path.parent_path().filename()}) {
-        std::string name = part.string().substr(0, 4);
-        if (find_station(name)) return name;
+        std::string name = station_in_name(part.string());
+        if (!name.empty()) return name;
     }
     return {};
 }

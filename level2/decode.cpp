@@ -221,6 +221,7 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
                              position);
             return;
         case GzipEnd::bad_checksum:
+            builder_.set_incomplete();
             report_container(output, Severity::error, "gzip_checksum",
                              "the gzip file contradicts its checksum", position);
             return;
@@ -327,8 +328,7 @@ Result<Decoded> decode_file(const std::filesystem::path& path, const DecodeOptio
     if (!bytes) return pass_on(bytes);
     DecodeOptions with_station = options;
     if (with_station.fallback_station.empty()) {
-        const std::string name = path.filename().string().substr(0, 4);
-        if (find_station(name)) with_station.fallback_station = name;
+        with_station.fallback_station = station_in_name(path.filename().string());
     }
     auto decoded = decode(*bytes, with_station);
     if (!decoded) {

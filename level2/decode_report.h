@@ -25,8 +25,12 @@ struct Problem {
     // Into the message stream after the 24-byte header; for a damaged container into the file.
     std::optional<std::uint64_t> offset;
     std::optional<std::uint64_t> ldm_record;  // the number of the record that is bad, from 1
+    // How many messages it is true of, where the same is said of many: offset and record are then
+    // those of the first. 0: it is said of one place.
+    std::uint64_t count = 0;
+    std::uint64_t dropped_bytes = 0;  // of these messages together
 
-    // The message, behind the number of its record.
+    // The message, behind the number of its record, with how often it is true.
     [[nodiscard]] std::string text() const;
 };
 
@@ -37,7 +41,7 @@ struct DecodeReport {
     std::uint64_t message_bytes = 0;  // decompressed, behind the 24-byte header
     std::map<int, std::uint64_t> message_counts;
     std::uint64_t bytes_dropped = 0;  // of messages; of the file where a compressed part is lost
-    std::vector<Problem> problems;    // the first max_problems
+    std::vector<Problem> problems;    // the first max_problems, and those that have a count
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
     std::uint64_t errors = 0;  // problems of that severity, listed or not
@@ -48,9 +52,11 @@ struct DecodeReport {
         std::string reason;
     };
     std::optional<Corruption> corruption;
-    // The last radial ended its volume (status 4), nothing is missing, nothing was dropped, and no
-    // problem is an error.
+    // The last radial ended its volume (status 4), no volume before it was given up, nothing is
+    // missing, and up to that radial nothing was dropped and no problem is an error. What stands
+    // behind it does not count.
     bool complete = false;
+    bool damaged = false;               // before the last radial something was dropped or is wrong
     std::uint64_t sweeps_left_out = 0;  // whose cuts were not asked for
     std::uint64_t records_skipped =
         0;  // of these, not even decompressed; offsets do not count them

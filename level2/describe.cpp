@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "level2/moment_statistics.h"
+#include "level2/volume_checks.h"
 
 namespace stormcellar::level2 {
 namespace {
@@ -177,7 +178,8 @@ Json describe_problems(const DecodeReport& report) {
         problems.push_back({{"severity", severity_name(problem.severity)},
                             {"code", problem.code},
                             {"message", problem.text()},
-                            {"offset", or_null(problem.offset)}});
+                            {"offset", or_null(problem.offset)},
+                            {"count", std::max<std::uint64_t>(problem.count, 1)}});
     }
     return problems;
 }
@@ -281,6 +283,12 @@ Json describe(const Decoded& decoded, const FileFacts& file) {
         json["oddities"].push_back(problem.text());
     describe_times(json, volume);
     json["complete"] = report.complete;
+    json["volumes"] = Json::array();
+    for (const VolumePart& part : volumes_in(decoded)) {
+        json["volumes"].push_back({{"first_sweep", part.first_sweep},
+                                   {"n_sweeps", part.sweeps},
+                                   {"complete", part.complete}});
+    }
     json["bytes_dropped"] = report.bytes_dropped;
     json["further_volume_starts"] = report.further_volume_starts;
     json["rda_status"] = describe_status(report.rda_status);

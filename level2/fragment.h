@@ -41,7 +41,9 @@ struct Fragment {
     // Decompressed, whether messages or not, and half of what was in vain (BzipBlocks::Block).
     std::uint64_t output_bytes = 0;
     std::uint64_t array_bytes = 0;  // what radials, rows and patterns take, see ArrayRoom
-    bool cut = false;               // the input ends too early
+    // Of the errors in the report those behind the last radial; all where there is none.
+    std::uint64_t errors_behind = 0;
+    bool cut = false;  // the input ends too early
     enum class Failure : std::uint8_t { none, no_memory, too_much_output, too_large_arrays };
     Failure failure = Failure::none;  // the fragment is not whole, for want of room
 };

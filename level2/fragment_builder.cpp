@@ -67,7 +67,7 @@ bool FragmentBuilder::begin_piece(const RadialMessage& message) {
 }
 
 void FragmentBuilder::note_volume_facts(const RadialMessage& message) {
-    if (fragment_.station.empty() && is_icao(message.icao)) fragment_.station = message.icao;
+    if (fragment_.station.empty()) fragment_.station = icao_of(message.icao).value_or("");
     if (!fragment_.block && !message.volume_block.empty()) {
         fragment_.block = read_volume_block(message.volume_block);
     }
@@ -109,6 +109,7 @@ bool FragmentBuilder::add_rows(Sweep& sweep, const RadialMessage& message) {
 }
 
 bool FragmentBuilder::add(const RadialMessage& message) {
+    errors_at_last_radial_ = fragment_.report.errors;
     const bool begins = fragment_.pieces.empty() || begins_sweep_here(message);
     if (begins && !begin_piece(message)) return false;
     note_volume_facts(message);
@@ -126,6 +127,8 @@ bool FragmentBuilder::add(const RadialMessage& message) {
 Fragment FragmentBuilder::take() {
     Fragment fragment = std::exchange(fragment_, {});
     fragment.behind = std::exchange(marks_, {});
+    fragment.errors_behind =
+        fragment.report.errors - std::exchange(errors_at_last_radial_, std::uint64_t{0});
     fragment.array_bytes = room_.taken_bytes();
     room_.clear();
     return fragment;

@@ -42,6 +42,8 @@ class FragmentBuilder {
     [[nodiscard]] bool add_expanded(std::uint64_t bytes);
     void further_header(const VolumeHeader& header) { marks_.header = header; }
 
+    // That the fragment's first radials name; empty where none does.
+    [[nodiscard]] const std::string& station() const { return fragment_.station; }
     [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
     [[nodiscard]] DecodeReport& report_data() { return fragment_.report; }
 
@@ -61,6 +63,7 @@ class FragmentBuilder {
     std::size_t expected_rows_;
     const Selection& selection_;
     Fragment fragment_;
+    std::uint64_t errors_at_last_radial_ = 0;
     // Since the last piece began; a pattern in the midst of a sweep holds for those to come.
     FragmentMarks marks_;
 };

@@ -1,4 +1,6 @@
 // Message 1, digital radar data of the first RDA (ICD 2620002, table III; used until 2008).
+#include <array>
+
 #include "base/byte_reader.h"
 #include "level2/radial_message.h"
 
@@ -12,27 +14,36 @@ struct Gates {
     std::uint16_t count = 0;
 };
 
-// Adds one moment. A pointer of 0 means that the radial lacks it. False if it does not fit.
-bool add_moment(RadialMessage& message, Moment moment, const Gates& gates, std::uint16_t pointer,
-                float scale, float offset, float threshold_db, std::span<const std::byte> body) {
-    if (pointer == 0 || gates.count == 0) return true;
+constexpr std::size_t data_bytes = 100;  // before the gates
+
+// A moment's gates: where they begin and end in the message.
+struct Extent {
+    std::size_t begin = 0;  // 0: the radial lacks the moment
+    std::size_t end = 0;
+};
+
+// Adds one moment. False if it does not fit, or reaches into the gates of another.
+bool add_moment(RadialMessage& message, MomentBlock block, const Gates& gates,
+                const std::array<Extent, 3>& extents, std::size_t own,
+                std::span<const std::byte> body) {
+    const Extent& extent = extents.at(own);
+    if (extent.begin == 0) return true;
+    if (extent.begin < data_bytes) return false;
+    for (const Extent& other : extents) {
+        if (other.begin > extent.begin && other.begin < extent.end) return false;
+    }
     ByteReader reader{body};
-    reader.seek(pointer);
-    MomentBlock block;
-    block.moment = moment;
+    reader.seek(extent.begin);
     block.first_gate_m = gates.first_m;
     block.gate_spacing_m = gates.spacing_m;
     block.gates = gates.count;
-    block.scale = scale;
-    block.offset = offset;
-    block.folding_threshold_db = threshold_db;
     block.codes = reader.bytes(gates.count);
     return !reader.failed() && message.add(block);
 }
 
 }  // namespace
 
-RadialResult read_message_1(std::span<const std::byte> body) {
+RadialResult read_message_1(std::span<const std::byte> body, Framing framing) {
     ByteReader reader{body};
     RadialMessage message;
     message.message_type = 1;
@@ -55,10 +66,10 @@ RadialResult read_message_1(std::span<const std::byte> body) {
     surveillance.count = reader.u16();
     doppler.count = reader.u16();
     radial.cut_sector = static_cast<std::uint8_t>(reader.u16());
-    reader.skip(4);  // calibration constant: not the dBZ0 of message 31
-    const std::uint16_t ref_pointer = reader.u16();
-    const std::uint16_t vel_pointer = reader.u16();
-    const std::uint16_t sw_pointer = reader.u16();
+    reader.skip(4);                           // calibration constant: not the dBZ0 of message 31
+    std::array<std::uint16_t, 3> pointers{};  // REF, VEL, SW
+    for (std::uint16_t& pointer : pointers)
+        pointer = reader.u16();
     const std::uint16_t velocity_resolution = reader.u16();
     message.vcp = reader.u16();
     reader.skip(14);
@@ -70,12 +81,32 @@ RadialResult read_message_1(std::span<const std::byte> body) {
 
     // Velocity comes in steps of 0.5 m/s (resolution 2) or 1 m/s (4).
     const float velocity_scale = velocity_resolution == 4 ? 1.0F : 2.0F;
-    const bool fits =
-        add_moment(message, Moment::ref, surveillance, ref_pointer, 2, 66, threshold_db, body) &&
-        add_moment(message, Moment::vel, doppler, vel_pointer, velocity_scale, 129, threshold_db,
-                   body) &&
-        add_moment(message, Moment::sw, doppler, sw_pointer, 2, 129, threshold_db, body);
-    if (!fits) return tl::unexpected(std::string_view{"gates reach beyond the end of message 1"});
+    std::array<MomentBlock, 3> blocks;
+    blocks[0].moment = Moment::ref;
+    blocks[1].moment = Moment::vel;
+    blocks[2].moment = Moment::sw;
+    blocks[0].scale = 2;
+    blocks[0].offset = 66;
+    blocks[1].scale = velocity_scale;
+    blocks[1].offset = 129;
+    blocks[2].scale = 2;
+    blocks[2].offset = 129;
+    std::array<Extent, 3> extents;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const std::size_t gates = i == 0 ? surveillance.count : doppler.count;
+        if (pointers.at(i) != 0 && gates != 0) {
+            extents.at(i) = {pointers.at(i), pointers.at(i) + gates};
+        }
+    }
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        blocks.at(i).folding_threshold_db = threshold_db;
+        const Gates& gates = i == 0 ? surveillance : doppler;
+        if (add_moment(message, blocks.at(i), gates, extents, i, body)) continue;
+        constexpr std::string_view reason = "gates do not lie in message 1, or in one another";
+        if (framing == Framing::unproven) return tl::unexpected(reason);
+        message.lost_moments.push_back({reason, gates.count});
+    }
+    if (message.has_lost_all()) return tl::unexpected(message.lost_moments.front().reason);
     return message;
 }
 

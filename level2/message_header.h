@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
+#include <vector>
 
 namespace stormcellar::level2 {
 
@@ -51,6 +53,14 @@ inline constexpr std::size_t sure_message_bytes = 128;  // it never looks farthe
 
 // Whether a radial's body (message 1 or 31) agrees with its header in time and range of numbers.
 [[nodiscard]] bool is_credible_radial(const MessageHeader& header, std::span<const std::byte> body);
+// What is odd about a radial that is not credible, each in a few words.
+[[nodiscard]] std::vector<std::string_view> oddities_of(const MessageHeader& header,
+                                                        std::span<const std::byte> body);
+
+// Whether the message at the start of `bytes` is a radial that says where its gates lie as chance
+// does not: for message 31 its pointers lie inside it, for message 1 counts and pointers fit into
+// its frame. Name, date, time, numbers and angles do not count.
+[[nodiscard]] bool places_its_gates(const MessageHeader& header, std::span<const std::byte> bytes);
 // As above, and the length is beyond doubt: a frame's, or the one that message 31 itself gives
 // (all that are known do). `message` is as long as the header says.
 [[nodiscard]] bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message);

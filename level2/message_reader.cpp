@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/station_table.h"
 #include "level2/archive_header.h"
 #include "level2/message_5.h"
 #include "level2/radial_compression.h"
@@ -31,6 +32,24 @@ bool surely_follows(std::span<const std::byte> next, bool last, bool after_radia
 
 bool is_radial(const MessageHeader& header) {
     return header.type == 1 || header.type == 31;
+}
+
+// Whether what stands behind a message can be what follows it, seen that no message begins inside
+// it: as above, or a radial whatever is odd about it, or zeros.
+bool plausibly_follows(std::span<const std::byte> next, bool last) {
+    if (next.size() < message_header_bytes) return last && all_zero(next);
+    if (all_zero(next.first(message_header_bytes)) || read_archive_header(next)) return true;
+    return is_surely_message(next) || places_its_gates(read_message_header(next), next);
+}
+
+// Whether these bytes can be a message's header though a field of it is impossible. What follows
+// the message must bear it out.
+bool may_be_odd(const MessageHeader& header, std::span<const std::byte> bytes) {
+    if (is_radial(header)) return places_its_gates(header, bytes);
+    return header.type != 0 && !header.has_own_length() && is_known_message_type(header.type) &&
+           header.size_halfwords >= 8 &&
+           header.size_halfwords <= (frame_bytes - terminal_manager_bytes) / 2 &&
+           all_zero(bytes.first(terminal_manager_bytes));
 }
 
 std::size_t longest(int type) {
@@ -76,7 +95,8 @@ std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (all_zero(rest.first(message_header_bytes))) return read_fill(rest, last);
     const MessageHeader header = read_message_header(rest.first(message_header_bytes));
     const std::size_t length = header.length_bytes();
-    if (!is_plausible(header) || length < message_header_bytes || length > longest(header.type)) {
+    const bool may_be = is_plausible(header) || may_be_odd(header, rest);
+    if (!may_be || length < message_header_bytes || length > longest(header.type)) {
         return resynchronise(rest, 1, last, "no message header where one is due");
     }
     return read_message(header, rest, last);
@@ -120,8 +140,13 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             return resynchronise(rest, *next, last, {});
         }
     }
+    const bool framed = firm || ((!is_radial(header) || places_its_gates(header, message)) &&
+                                 plausibly_follows(rest.subspan(length), last));
+    if (!framed && !is_plausible(header)) {
+        return resynchronise(rest, 1, last, "no message header where one is due");
+    }
     close_damage();
-    take(header, rest.first(length));
+    take(header, message, framed ? Framing::proven : Framing::unproven);
     builder_.report_data().message_bytes += length;
     return length;
 }
@@ -162,26 +187,33 @@ void MessageReader::close_damage() {
     open_damage_.reset();
 }
 
-void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message) {
+void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message,
+                         Framing framing) {
     if (is_radial(header)) {
-        take_radial(header, message);
+        take_radial(header, message, framing);
         return;
     }
+    if (!is_plausible(header)) {
+        builder_.report().oddity(Severity::note, "odd_message",
+                                 "messages other than radials have an impossible header", offset_);
+    }
     if (!is_known_message_type(header.type)) {
-        builder_.report().add(Severity::note, "unknown_message",
-                              fmt::format("message of unknown type {} skipped", header.type),
-                              offset_);
+        builder_.report().oddity(Severity::note, "unknown_message",
+                                 fmt::format("message of unknown type {} skipped", header.type),
+                                 offset_);
         return;
     }
     ++builder_.report_data().message_counts[header.type];
+    // What stands behind its own length only fills the frame.
+    const std::size_t own_bytes = terminal_manager_bytes + std::size_t{2} * header.size_halfwords;
+    const auto body =
+        message.first(std::min(message.size(), own_bytes)).subspan(message_header_bytes);
     if (header.type == 2) {
-        const auto body = message.subspan(message_header_bytes);
         // A frame of zeros says nothing.
         auto status = all_zero(body) ? std::nullopt : read_rda_status(header, body);
         if (status) builder_.report_data().rda_status = std::move(*status);
     }
     if (header.type == 5 || header.type == 7) {
-        const auto body = message.subspan(message_header_bytes);
         auto vcp = read_vcp(header.type, body);
         if (vcp) {
             if (!builder_.add_pattern(std::move(*vcp))) {
@@ -196,39 +228,79 @@ void MessageReader::take(const MessageHeader& header, std::span<const std::byte>
     }
 }
 
-void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message) {
+void MessageReader::refuse_radial(std::string_view reason, std::size_t bytes) {
+    builder_.report().refuse("bad_radial", reason, offset_, bytes);
+}
+
+std::optional<std::span<const std::byte>> MessageReader::expand(std::span<const std::byte> message,
+                                                                std::vector<std::byte>& store) {
+    const auto body = message.subspan(message_header_bytes);
+    auto whole = expand_message_31(body);
+    // What is damaged took time, too.
+    if (!builder_.add_expanded(whole ? whole->size() : longest_expanded_bytes)) {
+        failure_ = Fragment::Failure::too_much_output;
+        return std::nullopt;
+    }
+    if (!whole) {
+        refuse_radial(whole.error(), message.size());
+        return std::nullopt;
+    }
+    store = std::move(*whole);
+    return store;
+}
+
+void MessageReader::note_oddities(const MessageHeader& header, std::span<const std::byte> message,
+                                  const RadialMessage& radial) {
+    const auto body = message.subspan(message_header_bytes);
+    const auto note = [&](std::string_view oddity) {
+        builder_.report().oddity(Severity::note, "odd_radials", oddity, offset_);
+    };
+    if (!builder_.station().empty() && !radial.icao.empty() && radial.icao != builder_.station()) {
+        const auto name = icao_of(radial.icao);
+        if (name && *name != builder_.station())
+            note("radials name another station than the first");
+    }
+    if (!is_plausible(header) || !is_credible_radial(header, body)) {
+        for (const std::string_view oddity : oddities_of(header, body))
+            note(oddity);
+    }
+    for (const std::string_view oddity : radial.oddities)
+        note(oddity);
+    for (const RadialMessage::LostMoment& lost : radial.lost_moments)
+        builder_.report().refuse("lost_moment", lost.reason, offset_, lost.bytes);
+}
+
+void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message,
+                                Framing framing) {
     auto body = message.subspan(message_header_bytes);
-    if (!is_credible_radial(header, body)) {
-        builder_.report().damage("bad_radial", "a radial contradicts its header", offset_,
-                                 message.size());
+    if (framing == Framing::unproven && !is_credible_radial(header, body)) {
+        refuse_radial("a radial contradicts its header", message.size());
         return;
     }
-    std::vector<std::byte> expanded;
     const bool is_31 = header.type == 31;
     const int compression = is_31 ? message_31_compression(body) : 0;
+    std::vector<std::byte> expanded;
     if (compression != 0) {
-        auto whole = expand_message_31(body);
-        // What is damaged took time, too.
-        if (!builder_.add_expanded(whole ? whole->size() : longest_expanded_bytes)) {
-            failure_ = Fragment::Failure::too_much_output;
-            return;
+        // It may also not be compressed though it says so.
+        const bool is_plain = framing == Framing::proven && read_message_31(body).has_value();
+        if (is_plain) {
+            builder_.report().oddity(Severity::note, "odd_radials",
+                                     "radials say that they are compressed and are not", offset_);
+        } else {
+            const auto whole = expand(message, expanded);
+            if (!whole) return;
+            body = *whole;
         }
-        if (!whole) {
-            builder_.report().damage("bad_radial", std::string{whole.error()}, offset_,
-                                     message.size());
-            return;
-        }
-        expanded = std::move(*whole);
-        body = expanded;
     }
-    const RadialResult radial = is_31 ? read_message_31(body) : read_message_1(body);
+    const RadialResult radial =
+        is_31 ? read_message_31(body, framing) : read_message_1(body, framing);
     if (!radial) {
-        builder_.report().damage("bad_radial", std::string{radial.error()}, offset_,
-                                 message.size());
+        refuse_radial(radial.error(), message.size());
         return;
     }
     ++builder_.report_data().message_counts[header.type];
     if (is_31) ++builder_.report_data().radial_compression[compression];
+    note_oddities(header, message, *radial);
     if (!builder_.add(*radial)) failure_ = Fragment::Failure::too_large_arrays;
 }
 

@@ -3,6 +3,8 @@
 // A message counts only when the next one begins where it ends (or the data end there). Where that
 // fails the reader searches for the next place at which a message surely begins; if that lies
 // inside the message before, bytes of it are lost, and it is dropped too: never half a radial.
+// Where it holds, a radial is kept whatever is odd about it, but for what makes its gates
+// unreadable (docs/level2.md has the table): strictness is for searching after damage.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +16,7 @@
 
 #include "level2/fragment_builder.h"
 #include "level2/message_header.h"
+#include "level2/radial_message.h"
 
 namespace stormcellar::level2 {
 
@@ -46,9 +49,17 @@ class MessageReader {
                              bool last);
     std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
                               std::string reason);
-    void take(const MessageHeader& header, std::span<const std::byte> message);
+    void take(const MessageHeader& header, std::span<const std::byte> message, Framing framing);
     [[nodiscard]] bool full() const { return failure_ != Fragment::Failure::none; }
-    void take_radial(const MessageHeader& header, std::span<const std::byte> message);
+    void take_radial(const MessageHeader& header, std::span<const std::byte> message,
+                     Framing framing);
+    // The message's body, expanded into `store` where it is compressed; none where that fails,
+    // which is in the report then.
+    std::optional<std::span<const std::byte>> expand(std::span<const std::byte> message,
+                                                     std::vector<std::byte>& store);
+    void refuse_radial(std::string_view reason, std::size_t bytes);
+    void note_oddities(const MessageHeader& header, std::span<const std::byte> message,
+                       const RadialMessage& radial);
     void close_damage();
 
     FragmentBuilder& builder_;

@@ -1,7 +1,8 @@
 // level2/radial_message.h -- one radial as a message gives it: message 31, or message 1 of old.
 //
 // The codes are views into the message; a RadialMessage lives no longer than the message's bytes.
-// Every length, pointer and count has been checked against the message, every angle is finite.
+// Every length, pointer and count has been checked against the message and against the blocks
+// beside it, every angle is finite.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -43,9 +45,20 @@ struct RadialMessage {
     std::span<const std::byte> volume_block;  // "RVOL" and what follows; empty where absent
     int unknown_blocks = 0;                   // blocks of a name that is not known, skipped
 
+    // A moment that the radial names and whose gates cannot be read.
+    struct LostMoment {
+        std::string_view reason;
+        std::size_t bytes = 0;
+    };
+    // Both are empty in a radial as the ICD has it.
+    std::vector<LostMoment> lost_moments;
+    std::vector<std::string_view> oddities;  // that cost no gate, each in a few words
+
     [[nodiscard]] std::span<const MomentBlock> moments() const {
         return {moment_store.data(), moment_count};
     }
+    // Its gates cannot be read, of no moment.
+    [[nodiscard]] bool has_lost_all() const { return moment_count == 0 && !lost_moments.empty(); }
     // False, and nothing done, when there is no room or the moment is there already.
     bool add(const MomentBlock& block);
 
@@ -56,9 +69,16 @@ struct RadialMessage {
 // The reason, in a few words, why a message holds no usable radial.
 using RadialResult = tl::expected<RadialMessage, std::string_view>;
 
-// `body` is the message after its 28 bytes of header.
-[[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body);
-[[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body);
+// Whether what stands around a message shows where it begins and where it ends. If not, a fault in
+// any of its blocks may mean that bytes are lost inside it.
+enum class Framing : std::uint8_t { unproven, proven };
+
+// `body` is the message after its 28 bytes of header. With unproven framing no moment is lost by
+// itself: the first fault refuses the radial.
+[[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body,
+                                          Framing framing = Framing::unproven);
+[[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body,
+                                           Framing framing = Framing::unproven);
 
 // The volume data block, from its "RVOL" on; none when it is too short.
 [[nodiscard]] std::optional<VolumeBlock> read_volume_block(std::span<const std::byte> block);

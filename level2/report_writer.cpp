@@ -1,7 +1,6 @@
 #include "level2/report_writer.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,22 +27,51 @@ std::string_view severity_name(Severity severity) {
 }
 
 std::string Problem::text() const {
-    return ldm_record ? fmt::format("LDM record {}: {}", *ldm_record, message) : message;
+    std::string text =
+        ldm_record ? fmt::format("LDM record {}: {}", *ldm_record, message) : message;
+    if (dropped_bytes > 0) text += fmt::format("; {} bytes dropped", dropped_bytes);
+    if (count > 1) text += fmt::format(" ({} times)", count);
+    return text;
 }
 
 void ReportWriter::add(Problem problem) {
+    if (problem.count > 0) {
+        add_counted(std::move(problem));
+        return;
+    }
     if (problem.severity == Severity::error) ++report_.errors;
     std::vector<Problem>& problems = report_.problems;
-    if (problems.size() >= DecodeReport::max_problems) {
+    const auto of_one_place = [](const Problem& p) { return p.count == 0; };
+    const auto many = std::count_if(problems.begin(), problems.end(), of_one_place);
+    if (static_cast<std::size_t>(many) >= DecodeReport::max_problems) {
         ++report_.problems_left_out;
         // The last of those that matter least makes room.
-        const auto least = std::min_element(
-            problems.rbegin(), problems.rend(),
-            [](const Problem& a, const Problem& b) { return a.severity < b.severity; });
+        auto least = problems.end();
+        for (auto p = problems.begin(); p != problems.end(); ++p) {
+            if (of_one_place(*p) && (least == problems.end() || p->severity <= least->severity)) {
+                least = p;
+            }
+        }
         if (least->severity >= problem.severity) return;
-        problems.erase(std::next(least).base());
+        problems.erase(least);
     }
     problems.push_back(std::move(problem));
+}
+
+// The kinds are few, whatever the input.
+void ReportWriter::add_counted(Problem problem) {
+    if (problem.severity == Severity::error) report_.errors += problem.count;
+    const auto same = [&](const Problem& other) {
+        return other.count > 0 && other.severity == problem.severity &&
+               other.code == problem.code && other.message == problem.message;
+    };
+    const auto there = std::ranges::find_if(report_.problems, same);
+    if (there == report_.problems.end()) {
+        report_.problems.push_back(std::move(problem));
+        return;
+    }
+    there->count += problem.count;
+    there->dropped_bytes += problem.dropped_bytes;
 }
 
 void ReportWriter::add(Severity severity, std::string_view code, std::string message,
@@ -56,6 +84,19 @@ void ReportWriter::damage(std::string_view code, std::string reason, std::uint64
     report_.bytes_dropped += dropped;
     if (!report_.corruption) report_.corruption = {found_at.value_or(stream_offset), reason};
     add(Severity::error, code, fmt::format("{}; {} bytes dropped", reason, dropped), stream_offset);
+}
+
+void ReportWriter::oddity(Severity severity, std::string_view code, std::string_view message,
+                          std::uint64_t stream_offset) {
+    add(Problem{severity, std::string{code}, std::string{message}, stream_offset, {}, 1});
+}
+
+void ReportWriter::refuse(std::string_view code, std::string_view reason,
+                          std::uint64_t stream_offset, std::uint64_t dropped) {
+    report_.bytes_dropped += dropped;
+    if (!report_.corruption) report_.corruption = {stream_offset, std::string{reason}};
+    add(Problem{
+        Severity::error, std::string{code}, std::string{reason}, stream_offset, {}, 1, dropped});
 }
 
 void ReportWriter::append(DecodeReport next) {

@@ -23,12 +23,22 @@ class ReportWriter {
     // the damage showed.
     void damage(std::string_view code, std::string reason, std::uint64_t stream_offset,
                 std::uint64_t dropped, std::optional<std::uint64_t> found_at = std::nullopt);
+    // Something that is odd about a message, of which nothing is lost for it: each kind is one
+    // problem, with a count.
+    void oddity(Severity severity, std::string_view code, std::string_view message,
+                std::uint64_t stream_offset);
+    // As damage(), of a message or a part of one, for a reason that many may have: each is one
+    // problem, with a count.
+    void refuse(std::string_view code, std::string_view reason, std::uint64_t stream_offset,
+                std::uint64_t dropped);
     // The report of what follows in the stream: counts are added, offsets and record numbers go on.
     void append(DecodeReport next);
     // Says how many problems are not listed.
     void finish();
 
   private:
+    void add_counted(Problem problem);
+
     DecodeReport& report_;
 };
 

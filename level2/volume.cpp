@@ -1,5 +1,6 @@
 #include "level2/volume.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -70,7 +71,8 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
     AntennaPosition position = radar;
     if (step_deg > position_limit_deg) {
         position = position_of_station(station);
-    } else if (altitude_differs) {
+    } else if (altitude_differs && step_deg <= position_tolerance_deg) {
+        // Where the site has moved, its height is another one, too.
         position.altitude_m = station.antenna_altitude_m;
         position.from_table = true;
     }
@@ -81,6 +83,30 @@ AntennaPosition reconcile(const AntennaPosition& radar, const Station& station) 
             station.latitude_deg, station.longitude_deg, station.antenna_altitude_m);
     }
     return position;
+}
+
+// The time in the middle of those of the sweep's radials that are possible.
+std::optional<UtcTime> middle_of(const Sweep& sweep) {
+    std::vector<UtcTime> times;
+    for (const Radial& radial : sweep.radials) {
+        if (is_plausible(radial.time)) times.push_back(radial.time);
+    }
+    if (times.empty()) return std::nullopt;
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    return *middle;
+}
+
+// Of the first radial that others of its sweep bear out: a single one may have any time.
+std::optional<UtcTime> first_of(const std::vector<Sweep>& sweeps) {
+    for (const Sweep& sweep : sweeps) {
+        const auto middle = middle_of(sweep);
+        if (!middle) continue;
+        for (const Radial& radial : sweep.radials) {
+            if (std::chrono::abs(radial.time - *middle) <= header_tolerance) return radial.time;
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -143,22 +169,26 @@ bool is_plausible(UtcTime time) {
     return UtcTime{} <= time && time < UtcTime{sys_days{year{2150} / 1 / 1}};
 }
 
+bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start) {
+    constexpr std::chrono::hours longest{6};
+    return is_plausible(time) && (!start || std::chrono::abs(time - *start) <= longest);
+}
+
 RadialStatus status_of(const Radial& radial) {
     return static_cast<RadialStatus>(radial.status & 0x7FU);
 }
 
+bool has_ended(std::span<const Sweep> sweeps) {
+    if (sweeps.empty() || sweeps.back().radials.empty()) return false;
+    return status_of(sweeps.back().radials.back()) == RadialStatus::end_of_volume;
+}
+
 bool has_ended(const Volume& volume) {
-    if (volume.sweeps.empty() || volume.sweeps.back().radials.empty()) return false;
-    return status_of(volume.sweeps.back().radials.back()) == RadialStatus::end_of_volume;
+    return has_ended(std::span<const Sweep>{volume.sweeps});
 }
 
 std::optional<UtcTime> Volume::start_time() const {
-    std::optional<UtcTime> first;
-    for (const Sweep& sweep : sweeps) {
-        for (const Radial& radial : sweep.radials) {
-            if (!first && is_plausible(radial.time)) first = radial.time;
-        }
-    }
+    const std::optional<UtcTime> first = first_of(sweeps);
     if (!header || !is_plausible(header->time())) return first;
     if (first && std::chrono::abs(header->time() - *first) > header_tolerance) return first;
     return header->time();

@@ -190,15 +190,16 @@ enum class VcpSource : std::uint8_t { none, message_5, message_7, radial };
 
 struct Volume {
     std::optional<VolumeHeader> header;
-    std::string station;  // ICAO from message 31, else the header, else the file name; or empty
+    std::string station;  // ICAO from the header, else message 31, else the file name; or empty
     std::optional<VolumeBlock> block;
     std::optional<Vcp> vcp_message;
     std::optional<int> vcp;
     VcpSource vcp_source = VcpSource::none;
     std::vector<Sweep> sweeps;  // file order
 
-    // Start of the volume: the header's time, else the first radial's, of those that are plausible.
-    // A header that is more than an hour off its radials is not believed.
+    // Start of the volume: the header's time, else the first radial's, of those that are plausible
+    // and that others of the sweep bear out. A header that is more than an hour off its radials is
+    // not believed.
     [[nodiscard]] std::optional<UtcTime> start_time() const;
     [[nodiscard]] std::size_t radial_count() const;
 };
@@ -206,15 +207,21 @@ struct Volume {
 // Whether a radar can have meant this time: 1970 to 2149, the years that messages can say. A day
 // number of 0 stands for no time.
 [[nodiscard]] bool is_plausible(UtcTime time);
+// Whether a radial's time is possible in a volume that starts then. A volume takes minutes, but a
+// single radial may carry any time, or that of another day.
+[[nodiscard]] bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start);
 
 // Without the top bit, which marks bad data.
 [[nodiscard]] RadialStatus status_of(const Radial& radial);
 // The last radial is marked as the volume's last.
 [[nodiscard]] bool has_ended(const Volume& volume);
+[[nodiscard]] bool has_ended(std::span<const Sweep> sweeps);
 
 // Where the antenna stands (DESIGN section 5): altitude = site height + tower height of message
-// 31; where the two are equal (TDWR) the site height alone. More than 30 m from the station table,
-// or without a position, the table wins. None when neither knows the site.
+// 31; where the two are equal (TDWR) the site height alone. Where the radar stands within 0.01
+// degrees of the station table and its height is more than 30 m off, the height is the table's; a
+// site that moved by up to 1 degree has its own position and height; farther off, or without a
+// position, the table wins. None when neither knows the site.
 struct AntennaPosition {
     double latitude_deg = 0;
     double longitude_deg = 0;

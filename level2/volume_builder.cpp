@@ -73,7 +73,12 @@ void VolumeBuilder::note_facts(const Fragment& fragment) {
 }
 
 void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
-    if (report_.message_station.empty()) report_.message_station = fragment.station;
+    if (report_.message_station.empty()) {
+        report_.message_station = fragment.station;
+    } else if (!fragment.station.empty() && fragment.station != report_.message_station) {
+        report().oddity(Severity::note, "odd_radials",
+                        "radials name another station than the first", report_.message_bytes);
+    }
     if (!volume_.block) volume_.block = fragment.block;
     if (!volume_.vcp && fragment.vcp != 0) {
         volume_.vcp = fragment.vcp;
@@ -220,9 +225,8 @@ bool VolumeBuilder::append_piece(Fragment::Piece piece) {
 }
 
 std::string VolumeBuilder::station(const std::string& fallback) const {
-    if (!report_.message_station.empty()) return report_.message_station;
     if (volume_.header && !volume_.header->icao.empty()) return volume_.header->icao;
-    return fallback;
+    return report_.message_station.empty() ? fallback : report_.message_station;
 }
 
 Volume VolumeBuilder::facts(const std::string& fallback_station) const {
@@ -295,6 +299,16 @@ bool VolumeBuilder::append_all(Fragment& fragment) {
     return note_marks(std::move(fragment.behind));
 }
 
+// What stands behind a volume's last radial takes nothing of it.
+void VolumeBuilder::count_errors(const Fragment& fragment) {
+    if (fragment.pieces.empty()) {
+        errors_behind_ += fragment.report.errors;
+        return;
+    }
+    errors_within_ += errors_behind_ + fragment.report.errors - fragment.errors_behind;
+    errors_behind_ = fragment.errors_behind;
+}
+
 Status VolumeBuilder::append(Fragment fragment) {
     switch (fragment.failure) {
         case Fragment::Failure::none:
@@ -311,6 +325,7 @@ Status VolumeBuilder::append(Fragment fragment) {
     }
     cut_ = cut_ || fragment.cut;
     note_volume_facts(fragment);
+    count_errors(fragment);
     if (fragment.failure == Fragment::Failure::too_large_arrays || !append_all(fragment)) {
         return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
                     array_limit_bytes_);
@@ -331,14 +346,19 @@ Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
             report_.corruption ? report_.corruption->reason : "neither radials nor metadata");
     }
     volume_.station = station(fallback_station);
+    if (!report_.message_station.empty() && volume_.station != report_.message_station) {
+        report().add(Severity::note, "station_disagrees",
+                     fmt::format("the radials name {}; the volume is that of its header, {}",
+                                 report_.message_station, volume_.station));
+    }
     const bool ended = volume_has_ended();
     const bool all_cuts = report_.sweeps_left_out == 0 && report_.records_skipped == 0;
     const VolumeFacts facts{
         previous_.has_value(), ended, all_cuts, last_is_newest, report_.further_volume_starts,
         report_.rda_status};
     const bool gaps = check_volume(volume_, facts, report());
-    report_.complete =
-        ended && !gaps && !incomplete_ && report_.bytes_dropped == 0 && report_.errors == 0;
+    report_.damaged = incomplete_ || errors_within_ > 0;
+    report_.complete = ended && !gaps && !report_.damaged;
     report().finish();
     return Decoded{std::move(volume_), std::move(report_)};
 }

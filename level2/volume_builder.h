@@ -57,7 +57,7 @@ class VolumeBuilder {
     [[nodiscard]] DecodeReport& report_data() { return report_; }
     void set_cut() { cut_ = true; }  // the input ends too early
     [[nodiscard]] bool is_cut() const { return cut_; }
-    // Something of the volume is known not to have come.
+    // Something of the volume is known to be missing or wrong.
     void set_incomplete() { incomplete_ = true; }
     // What there is up to now. The last sweep may go on, and its rows may be too few or too long.
     [[nodiscard]] const Volume& so_far() const { return volume_; }
@@ -99,6 +99,7 @@ class VolumeBuilder {
     [[nodiscard]] bool note_marks(FragmentMarks marks);
     void set_pattern(Vcp vcp);
     void note_volume_facts(const Fragment& fragment);
+    void count_errors(const Fragment& fragment);
     [[nodiscard]] bool append_piece(Fragment::Piece piece);
     [[nodiscard]] bool begins_sweep_here(const Fragment::Piece& piece) const;
     [[nodiscard]] bool begins_volume(const Fragment::Piece& piece) const;
@@ -115,6 +116,8 @@ class VolumeBuilder {
     std::uint64_t output_bytes_ = 0;
     bool cut_ = false;
     bool incomplete_ = false;
+    std::uint64_t errors_within_ = 0;  // before the last radial
+    std::uint64_t errors_behind_ = 0;
     Volume volume_;
     DecodeReport report_;
     std::optional<Previous> previous_;

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "level2/decoded.h"
 #include "level2/message_2.h"
 #include "level2/report_writer.h"
 #include "level2/volume.h"
@@ -32,8 +34,18 @@ struct VolumeFacts {
 // From its first cut to its last radial nothing of this one volume is missing, as far as the
 // radials show; bytes that were dropped without a trace in their numbers are in the report only.
 [[nodiscard]] bool is_complete(const Volume& volume);
+[[nodiscard]] bool is_complete(std::span<const Sweep> sweeps);
 
-// Radials of a sweep are numbered from 1; 0 stands for no number.
+// One of the volumes that a file holds.
+struct VolumePart {
+    std::size_t first_sweep = 0;
+    std::size_t sweeps = 0;
+    bool complete = false;  // nothing of it is missing, and nothing of the file is damaged
+};
+// In the order of the file; at least one.
+[[nodiscard]] std::vector<VolumePart> volumes_in(const Decoded& decoded);
+
+// Radials of a sweep are numbered from 1; 0, and more than 1000, stand for no number.
 struct RadialGaps {
     std::int64_t missing = 0;
     int first_missing = 0;

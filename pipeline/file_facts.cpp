@@ -26,17 +26,17 @@ std::int64_t believed_ns(std::int64_t modified_ns) {
     return std::min(modified_ns, now_ns);
 }
 
-catalog::VolumeFacts facts_of(const level2::Volume& volume) {
+catalog::VolumeFacts facts_of(const level2::Volume& volume, bool damaged) {
     catalog::VolumeFacts facts;
     facts.start_time = volume.start_time();
     if (volume.header) facts.volume_number = volume.header->volume_number();
     facts.vcp = volume.vcp;
     facts.sweep_count = static_cast<int>(volume.sweeps.size());
     facts.radial_count = static_cast<int>(volume.radial_count());
-    facts.complete = level2::is_complete(volume);
+    facts.complete = !damaged && level2::is_complete(volume);
     for (const level2::Sweep& sweep : volume.sweeps) {
         for (const level2::Radial& radial : sweep.radials) {
-            if (!level2::is_plausible(radial.time)) continue;
+            if (!level2::is_time_of_volume(radial.time, facts.start_time)) continue;
             facts.end_time = std::max(facts.end_time.value_or(radial.time), radial.time);
         }
     }

@@ -38,7 +38,7 @@ struct FileStamp {
 // later than now. What claims to be of the future would be the newest for good.
 [[nodiscard]] std::int64_t believed_ns(std::int64_t modified_ns);
 
-[[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume);
+[[nodiscard]] catalog::VolumeFacts facts_of(const level2::Volume& volume, bool damaged);
 
 // The gravest problem in one line, with how many there are; empty when there are none that count.
 [[nodiscard]] std::string reason_of(const level2::DecodeReport& report);

@@ -113,7 +113,6 @@ void require_well_formed_report(const Decoded& decoded) {
     const DecodeReport& report = decoded.report;
     require(report.bytes_dropped == 0 || !report.problems.empty(), "damage without a problem");
     require(!report.corruption || !report.problems.empty(), "corruption without a problem");
-    require(!report.complete || report.bytes_dropped == 0, "complete with bytes dropped");
     std::size_t previous = 0;
     for (const std::size_t start : report.further_volume_starts) {
         require(start > previous && start < decoded.volume.sweeps.size(), "volume start {}", start);

@@ -102,7 +102,7 @@ TEST(Decode, EveryContainerGivesTheSame) {
     }
 }
 
-TEST(Decode, TheStationIsTheRadialsElseTheHeadersElseTheFallback) {
+TEST(Decode, TheStationIsTheHeadersElseTheRadialsElseTheFallback) {
     const Bytes rays = wire::radial_messages(1, 2);
     const Bytes old_rays = wire::join({wire::message_1({}), wire::message_1({})});
     DecodeOptions options;
@@ -110,7 +110,9 @@ TEST(Decode, TheStationIsTheRadialsElseTheHeadersElseTheFallback) {
     const auto station = [&](const Bytes& header, const Bytes& messages) {
         return decode(wire::join({header, messages}), options).value().volume.station;
     };
-    EXPECT_EQ(station(wire::archive_header("AR2V0006.116", "KLOT"), rays), "KTLX");
+    EXPECT_EQ(station(wire::archive_header("AR2V0006.116", "KLOT"), rays), "KLOT");
+    EXPECT_EQ(station(wire::archive_header("AR2V0006.116", "klot"), rays), "KLOT");
+    EXPECT_EQ(station(wire::archive_header("ARCHIVE2.116", "    "), rays), "KTLX");
     EXPECT_EQ(station(wire::archive_header("AR2V0001.116", "KLOT"), old_rays), "KLOT");
     EXPECT_EQ(station(wire::archive_header("ARCHIVE2.116", "    "), old_rays), "KMPX");
 }

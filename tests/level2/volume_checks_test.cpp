@@ -51,11 +51,48 @@ TEST(VolumeChecks, LostRadialsAreCountedAndTheFirstIsNamed) {
 
 TEST(VolumeChecks, MissingRadialsAreCountedBeyond32Bits) {
     std::vector<int> numbers;
-    for (int i = 0; i < 80'000; ++i)
-        numbers.push_back(i % 2 == 0 ? 65'535 : 1);
+    for (int i = 0; i < 5'000'000; ++i)
+        numbers.push_back(i % 2 == 0 ? 1000 : 1);
     const Checked outcome = check(volume_of({numbers}), "missing_radials");
     EXPECT_TRUE(outcome.missing);
     EXPECT_EQ(outcome.messages.at(0).find('-'), std::string::npos) << outcome.messages.at(0);
+}
+
+TEST(VolumeChecks, NumbersThatNoRadarGivesAreNamedAndMissNothing) {
+    const Checked outcome = check(volume_of({{65'535, 1, 2, 1001, 4}}), "odd_numbers");
+    EXPECT_EQ(outcome.messages, std::vector<std::string>{"2 radials have a number above 1000"});
+    EXPECT_TRUE(outcome.missing) << "number 3";
+}
+
+TEST(VolumeChecks, AVolumeThatIsGivenUpInsideAFileIsPartial) {
+    Volume volume = volume_of({{1, 2}, {1, 2}, {1, 2}});
+    volume.sweeps[1].elevation_number = 1;
+    volume.sweeps[2].elevation_number = 2;
+    volume.sweeps[2].radials.back().status = 4;
+    DecodeReport report;
+    EXPECT_TRUE(check_volume(volume, {.volume_starts = {1}}, ReportWriter{report}));
+    Decoded decoded{volume, {}};
+    decoded.report.further_volume_starts = {1};
+    const std::vector<VolumePart> parts = volumes_in(decoded);
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_FALSE(parts[0].complete);
+    EXPECT_TRUE(parts[1].complete);
+    EXPECT_EQ(parts[1].first_sweep, 1U);
+}
+
+TEST(VolumeChecks, TimesThatRunBackByHoursAreNamed) {
+    Volume volume = volume_of({{1, 2, 3}, {1, 2, 3}});
+    for (Sweep& sweep : volume.sweeps) {
+        for (Radial& radial : sweep.radials)
+            radial.time = UtcTime{std::chrono::hours{100'000}};
+    }
+    EXPECT_TRUE(check(volume, "times_run_back").messages.empty());
+    volume.sweeps[1].radials[2].time -= std::chrono::minutes{59};
+    EXPECT_TRUE(check(volume, "times_run_back").messages.empty());
+    volume.sweeps[1].radials[2].time -= std::chrono::hours{3};
+    EXPECT_EQ(
+        check(volume, "times_run_back").messages,
+        std::vector<std::string>{"the radials' times run back by up to 4.0 hours inside sweep 1"});
 }
 
 TEST(VolumeChecks, RadialsWithoutANumberAreNotMissed) {
@@ -93,7 +130,8 @@ TEST(VolumeChecks, CutsThatAreMissingAreNamed) {
     volume.sweeps[3].elevation_number = 2;
     DecodeReport report;
     EXPECT_TRUE(check_volume(volume, {.volume_starts = {3}}, ReportWriter{report}));
-    ASSERT_EQ(report.problems.size(), 2U);
+    ASSERT_EQ(report.problems.size(), 3U);
+    EXPECT_EQ(report.problems[2].code, "given_up");
     EXPECT_EQ(report.problems[0].message, "before sweep 1, cut 2 is missing");
     EXPECT_EQ(report.problems[1].message, "before sweep 3, cut 1 is missing");
     EXPECT_FALSE(check_volume(volume, {.all_cuts = false}, ReportWriter{report}));

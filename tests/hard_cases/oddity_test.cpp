@@ -1,0 +1,314 @@
+// A field of a radial that is odd and leaves the structure whole costs no gate: each field of the
+// message header, of the headers of messages 1 and 31 and of the blocks is set alone, in one radial
+// and in all, to values that no radar sends, and every gate of the real volume is still there.
+//
+// Fields that say where bytes lie, or which sweep and azimuth they belong to, are apart: what comes
+// out is what the volume holds, and what does not is named. STORMCELLAR_MUTANTS=N takes 8 MiB of
+// each volume in place of its start and end.
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "base/byte_reader.h"
+#include "base/file_system.h"
+#include "level2/decode.h"
+#include "tests/hard_cases/unpacked_volume.h"
+#include "tests/testing/data.h"
+#include "tests/testing/test_name.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+using wire::Bytes;
+
+// What to do with the gates where a field is odd.
+enum class Rule { keep, name_what_is_lost };
+
+struct OddField {
+    std::string_view block;  // empty: the message
+    std::string_view name;
+    std::size_t at = 0;  // in the block, or the message with its 28 bytes of header
+    std::size_t width = 0;
+    Rule rule = Rule::keep;
+};
+
+constexpr auto apart = Rule::name_what_is_lost;
+
+constexpr std::array odd_header_fields = {
+    OddField{"", "terminal manager", 4, 4},
+    OddField{"", "size", 12, 2, apart},
+    OddField{"", "channel", 14, 1},
+    OddField{"", "type", 15, 1, apart},
+    OddField{"", "sequence", 16, 2},
+    OddField{"", "date of the header", 18, 2},
+    OddField{"", "time of the header", 20, 4},
+    OddField{"", "segments", 24, 2},
+    OddField{"", "segment", 26, 2},
+};
+
+constexpr std::array odd_fields_of_31 = {
+    OddField{"", "station", 28, 4},
+    OddField{"", "time", 32, 4},
+    OddField{"", "date", 36, 2},
+    OddField{"", "azimuth number", 38, 2},
+    OddField{"", "azimuth", 40, 4, apart},
+    OddField{"", "compression", 44, 1},
+    OddField{"", "spare", 45, 1},
+    OddField{"", "radial length", 46, 2},
+    OddField{"", "spacing", 48, 1},
+    OddField{"", "status", 49, 1, apart},
+    OddField{"", "elevation number", 50, 1, apart},
+    OddField{"", "sector", 51, 1},
+    OddField{"", "elevation", 52, 4, apart},
+    OddField{"", "spot blanking", 56, 1},
+    OddField{"", "azimuth indexing", 57, 1},
+    OddField{"", "number of blocks", 58, 2, apart},
+    OddField{"", "first pointer", 60, 4, apart},
+    OddField{"", "fourth pointer", 72, 4, apart},
+    OddField{"RVOL", "name", 0, 4, apart},
+    OddField{"RVOL", "size", 4, 2},
+    OddField{"RVOL", "version", 6, 2},
+    OddField{"RVOL", "latitude", 8, 4},
+    OddField{"RVOL", "longitude", 12, 4},
+    OddField{"RVOL", "height", 16, 2},
+    OddField{"RVOL", "tower", 18, 2},
+    OddField{"RVOL", "calibration", 20, 4},
+    OddField{"RVOL", "power", 24, 4},
+    OddField{"RVOL", "ZDR", 32, 4},
+    OddField{"RVOL", "phase", 36, 4},
+    OddField{"RVOL", "pattern", 40, 2},
+    OddField{"RVOL", "processing", 42, 2},
+    OddField{"RELV", "size", 4, 2},
+    OddField{"RELV", "attenuation", 6, 2},
+    OddField{"RELV", "calibration", 8, 4},
+    OddField{"RRAD", "size", 4, 2},
+    OddField{"RRAD", "range", 6, 2},
+    OddField{"RRAD", "noise", 8, 4},
+    OddField{"RRAD", "Nyquist", 16, 2},
+    OddField{"RRAD", "flags", 18, 2},
+    OddField{"DREF", "name", 0, 4, apart},
+    OddField{"DREF", "reserved", 4, 4},
+    OddField{"DREF", "gates", 8, 2, apart},
+    OddField{"DREF", "first gate", 10, 2},
+    OddField{"DREF", "gate spacing", 12, 2},
+    OddField{"DREF", "folding threshold", 14, 2},
+    OddField{"DREF", "signal threshold", 16, 2},
+    OddField{"DREF", "control flags", 18, 1},
+    OddField{"DREF", "word size", 19, 1, apart},
+    OddField{"DREF", "scale", 20, 4, apart},
+    OddField{"DREF", "offset", 24, 4, apart},
+};
+
+constexpr std::array odd_fields_of_1 = {
+    OddField{"", "time", 28, 4},
+    OddField{"", "date", 32, 2},
+    OddField{"", "range", 34, 2},
+    OddField{"", "azimuth", 36, 2, apart},
+    OddField{"", "azimuth number", 38, 2},
+    OddField{"", "status", 40, 2, apart},
+    OddField{"", "elevation", 42, 2, apart},
+    OddField{"", "elevation number", 44, 2, apart},
+    OddField{"", "first gate", 46, 2},
+    OddField{"", "first Doppler gate", 48, 2},
+    OddField{"", "gate spacing", 50, 2},
+    OddField{"", "Doppler spacing", 52, 2},
+    OddField{"", "surveillance gates", 54, 2, apart},
+    OddField{"", "Doppler gates", 56, 2, apart},
+    OddField{"", "sector", 58, 2},
+    OddField{"", "calibration", 60, 4},
+    OddField{"", "REF pointer", 64, 2, apart},
+    OddField{"", "VEL pointer", 66, 2, apart},
+    OddField{"", "resolution", 70, 2},
+    OddField{"", "pattern", 72, 2},
+    OddField{"", "spare", 74, 4},
+    OddField{"", "Nyquist", 88, 2},
+    OddField{"", "attenuation", 90, 2},
+    OddField{"", "threshold", 92, 2},
+    OddField{"", "spot blanking", 94, 2},
+};
+
+std::vector<std::uint32_t> odd_values(std::size_t width) {
+    if (width == 1) return {0, 1, 2, 3, 77, 127, 128, 255};
+    if (width == 2) return {0, 1, 2, 77, 7304, 40'001, 0x7FFF, 0x8000, 0xFFFF};
+    // Among them not a number, infinity, 1e30, lower case, no letters and the time after midnight.
+    return {0,          1,          0x7FFFFFFF, 0xFFFFFFFF, 0x7FC00000,
+            0x7F800000, 0x7149F2CA, 0x6B746C78, 0x2A2A2A2A, 90'000'000};
+}
+
+std::uint32_t number_at(std::span<const std::byte> bytes, std::size_t at, std::size_t width) {
+    ByteReader reader{bytes};
+    reader.skip(at);
+    return width == 1 ? reader.u8() : width == 2 ? reader.u16() : reader.u32();
+}
+
+void set_number(std::span<std::byte> bytes, std::size_t at, std::size_t width,
+                std::uint32_t number) {
+    for (std::size_t i = 0; i < width; ++i)
+        bytes[at + i] = static_cast<std::byte>(number >> (8 * (width - 1 - i)));
+}
+
+// Where the block of this name begins in a message 31; none where it has no such block.
+std::optional<std::size_t> block_at(std::span<const std::byte> message, std::string_view name) {
+    const std::uint32_t blocks = number_at(message, 58, 2);
+    for (std::uint32_t i = 0; i < blocks; ++i) {
+        const std::size_t at = 28 + number_at(message, 60 + 4 * i, 4);
+        const auto* text = reinterpret_cast<const char*>(message.data()) + at;
+        if (at > 28 && std::string_view{text, 4} == name) return at;
+    }
+    return std::nullopt;
+}
+
+// False where the radial lacks the field's block, or has the value already.
+bool set_field(std::span<std::byte> message, const OddField& field, std::uint32_t value) {
+    std::size_t at = field.at;
+    if (!field.block.empty()) {
+        const auto block = block_at(message, field.block);
+        if (!block) return false;
+        at += *block;
+    }
+    if (number_at(message, at, field.width) == value) return false;
+    set_number(message, at, field.width, value);
+    return true;
+}
+
+// The gates of a radial by the names of their moments.
+using Gates = std::map<Moment, std::vector<std::uint16_t>>;
+
+std::vector<Gates> gates_of(const Volume& volume) {
+    std::vector<Gates> all;
+    for (const Sweep& sweep : volume.sweeps) {
+        for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
+            Gates& gates = all.emplace_back();
+            for (const SweepMoment& moment : sweep.moments) {
+                const int count = moment.gate_counts[radial];
+                for (int gate = 0; gate < count; ++gate)
+                    gates[moment.moment].push_back(moment.code(radial, gate));
+            }
+        }
+    }
+    return all;
+}
+
+// Whether all that came out of a radial is its own: some moments may lack, or their last gates.
+bool is_part_of(const Gates& found, const Gates& own) {
+    return std::all_of(found.begin(), found.end(), [&](const auto& named) {
+        const auto whole = own.find(named.first);
+        const auto& gates = named.second;
+        return whole != own.end() && gates.size() <= whole->second.size() &&
+               std::equal(gates.begin(), gates.end(), whole->second.begin());
+    });
+}
+
+// What came out and is of no radial, in the order of the file; else empty.
+std::string invented(const std::vector<Gates>& found, const std::vector<Gates>& own) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        while (at < own.size() && !is_part_of(found[i], own[at]))
+            ++at;
+        if (at++ == own.size()) return fmt::format("radial {} is none of the volume's", i);
+    }
+    return {};
+}
+
+std::string said_twice(const DecodeReport& report) {
+    std::set<std::pair<std::string, std::string>> said;
+    for (const Problem& problem : report.problems) {
+        if (!said.emplace(problem.code, problem.message).second) return problem.text();
+    }
+    return {};
+}
+
+class OddityTest : public ::testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        const auto bytes = read_file(*testing::data_directory() / "volumes" / GetParam());
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        const bool long_form = std::getenv("STORMCELLAR_MUTANTS") != nullptr;
+        volume_ = short_stream(unpack(*bytes), long_form ? std::size_t{8} << 20 : 150'000);
+        const auto decoded = decode(volume_.plain_file());
+        ASSERT_TRUE(decoded) << decoded.error().message;
+        own_ = gates_of(decoded->volume);
+        ASSERT_EQ(own_.size(), volume_.radials);
+        own_problems_ = decoded->report.problems.size();
+    }
+
+    // The messages with the field set in the radial of this number, or in all. False: in none.
+    bool set(UnpackedVolume& odd, const OddField& field, std::uint32_t value,
+             std::optional<std::size_t> number) const {
+        bool any = false;
+        for (const StreamMessage& message : odd.messages) {
+            if (!message.radial || (number && *message.radial != *number)) continue;
+            const auto bytes = std::span{odd.stream}.subspan(message.offset, message.length);
+            any = set_field(bytes, field, value) || any;
+        }
+        return any;
+    }
+
+    void check(const OddField& field, std::uint32_t value, std::optional<std::size_t> number) {
+        UnpackedVolume odd = volume_;
+        if (!set(odd, field, value, number)) return;
+        ++tried_;
+        const std::string what =
+            fmt::format("{} {} {:#x} in {}", field.block, field.name, value,
+                        number ? fmt::format("radial {}", *number) : std::string{"all radials"});
+        const auto decoded = decode(odd.plain_file());
+        if (field.rule == Rule::keep) {
+            ASSERT_TRUE(decoded) << what << ": " << decoded.error().message;
+            EXPECT_TRUE(gates_of(decoded->volume) == own_) << what << ": gates are lost";
+            EXPECT_EQ(decoded->report.bytes_dropped, 0U) << what;
+        } else if (decoded) {
+            const std::vector<Gates> found = gates_of(decoded->volume);
+            EXPECT_EQ(invented(found, own_), "") << what;
+            if (found != own_) {
+                EXPECT_FALSE(decoded->report.problems.empty()) << what;
+            }
+        }
+        if (!decoded) return;
+        if (field.rule == Rule::keep) {
+            EXPECT_EQ(said_twice(decoded->report), "") << what;
+        }
+        const std::size_t most = field.rule == Rule::keep ? 8 : DecodeReport::max_problems;
+        EXPECT_LE(decoded->report.problems.size(), own_problems_ + most) << what;
+    }
+
+    void check(std::span<const OddField> fields) {
+        for (const OddField& field : fields) {
+            for (const std::uint32_t value : odd_values(field.width)) {
+                check(field, value, std::nullopt);
+                for (const std::size_t number : {std::size_t{0}, own_.size() / 2, own_.size() - 1})
+                    check(field, value, number);
+            }
+        }
+    }
+
+    UnpackedVolume volume_;
+    std::vector<Gates> own_;
+    std::size_t own_problems_ = 0;
+    std::size_t tried_ = 0;
+};
+
+TEST_P(OddityTest, CostsNoGate) {
+    const auto first = std::find_if(volume_.messages.begin(), volume_.messages.end(),
+                                    [](const StreamMessage& m) { return m.radial.has_value(); });
+    check(odd_header_fields);
+    if (first->type == 31) {
+        check(odd_fields_of_31);
+    } else {
+        check(odd_fields_of_1);
+    }
+    EXPECT_GT(tried_, 500U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Volumes, OddityTest,
+                         ::testing::Values("KLBB20160601_150025_V06", "KLOT20220317_000842_V06",
+                                           "Level2_TSTL_20220213_2357.ar2v",
+                                           "KTLX19990503_235621.gz", "KBBX20060113_170337.gz"),
+                         [](const auto& info) { return testing::test_name(info.param); });
+
+}  // namespace
+}  // namespace stormcellar::level2
