@@ -54,8 +54,9 @@ if(STORMCELLAR_PRECOMPILE)
   list(APPEND STORMCELLAR_TEST_BUILD -O0)
 endif()
 
-# Builds the module of videos with a program that may load it.
+# Builds the modules of videos and of fetching with a program that may load them.
 function(stormcellar_with_modules program)
+  add_dependencies(${program} stormcellar_fetch_module)
   if(STORMCELLAR_VIDEO)
     add_dependencies(${program} stormcellar_video)
   endif()

@@ -21,6 +21,8 @@ const std::map<std::string, Rooms> allowed = {
     {"base", {}},
     {"accuracy", {"base"}},
     {"bunzip", {}},
+    {"archive", {"base"}},
+    {"fetch", {"base"}},
     {"level2", {"base", "bunzip"}},
     {"catalog", {"base", "level2"}},
     {"grid", {"base", "accuracy", "level2"}},
@@ -28,11 +30,12 @@ const std::map<std::string, Rooms> allowed = {
     {"render", {"base", "accuracy", "grid", "cache", "level2"}},
     {"synth", {"base", "level2", "grid"}},
     {"export", {"base", "level2", "grid"}},
-    {"pipeline", {"base", "accuracy", "level2", "catalog", "grid", "cache"}},
-    {"daemon", {"base", "accuracy", "bunzip", "level2", "catalog", "grid", "cache", "pipeline"}},
+    {"pipeline", {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache"}},
+    {"daemon",
+     {"base", "accuracy", "archive", "bunzip", "level2", "catalog", "grid", "cache", "pipeline"}},
     {"cli",
-     {"base", "accuracy", "bunzip", "level2", "catalog", "grid", "cache", "render", "synth",
-      "export", "pipeline"}},
+     {"base", "accuracy", "archive", "bunzip", "fetch", "level2", "catalog", "grid", "cache",
+      "render", "synth", "export", "pipeline"}},
 };
 
 // The rooms that a source text includes, by its quoted includes.

@@ -1,0 +1,363 @@
+#include "archive/archive_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <functional>
+#include <system_error>
+#include <utility>
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace stormcellar::archive {
+namespace {
+
+constexpr std::size_t tar_block_bytes = 512;
+constexpr std::size_t read_block_bytes = std::size_t{256} << 10;
+constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_left_out = 100;  // that are named
+
+struct CloseArchive {
+    void operator()(::archive* archive) const { archive_read_free(archive); }
+};
+using Handle = std::unique_ptr<::archive, CloseArchive>;
+
+bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
+    return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+}
+
+// By the checksum, which every tar header has: the sum of its bytes, with blanks in its place.
+bool is_tar_header(std::span<const std::byte> bytes) {
+    constexpr std::size_t sum_at = 148;
+    constexpr std::size_t sum_bytes = 8;
+    if (bytes.size() < tar_block_bytes || bytes[0] == std::byte{0}) return false;
+    std::uint32_t sum = 0;
+    std::uint32_t claimed = 0;
+    for (std::size_t i = 0; i < tar_block_bytes; ++i) {
+        const bool is_sum = i >= sum_at && i < sum_at + sum_bytes;
+        sum += is_sum ? ' ' : std::to_integer<std::uint32_t>(bytes[i]);
+        const char c = std::to_integer<char>(bytes[i]);
+        if (is_sum && c >= '0' && c <= '7') claimed = 8 * claimed + static_cast<unsigned>(c - '0');
+    }
+    return claimed == sum;
+}
+
+bool is_packed(std::span<const std::byte> start) {
+    using namespace std::string_view_literals;
+    constexpr std::array<std::string_view, 5> magics = {"\x1F\x8B"sv, "BZh"sv,
+                                                        "\xFD"
+                                                        "7zXZ"sv,
+                                                        "\x28\xB5\x2F\xFD"sv, "\x1F\x9D"sv};
+    return std::ranges::any_of(magics, [&](std::string_view m) { return begins_with(start, m); });
+}
+
+// Whether it may be an archive, by its first 512 bytes. What is packed must be looked into.
+bool may_be_archive(std::span<const std::byte> start) {
+    return begins_with(start, "PK\x03\x04") || begins_with(start, "PK\x05\x06") ||
+           is_tar_header(start) || is_packed(start);
+}
+
+// No filter of these starts another program.
+Handle new_reader() {
+    Handle handle{archive_read_new()};
+    for (const auto support : {archive_read_support_filter_gzip, archive_read_support_filter_bzip2,
+                               archive_read_support_filter_xz, archive_read_support_filter_zstd,
+                               archive_read_support_filter_compress,
+                               archive_read_support_format_tar, archive_read_support_format_zip}) {
+        if (support(handle.get()) < ARCHIVE_WARN) return {};
+    }
+    return handle;
+}
+
+std::string text_of(::archive* handle) {
+    const char* text = archive_error_string(handle);
+    return text == nullptr ? "it is damaged" : text;
+}
+
+std::string name_of(::archive_entry* entry) {
+    const char* name = archive_entry_pathname_utf8(entry);
+    if (name == nullptr) name = archive_entry_pathname(entry);
+    return name == nullptr ? std::string{} : std::string{name};
+}
+
+// Why the entry is none of the files that are given; empty where it is one.
+std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
+    if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
+        return "is a link";
+    }
+    if (archive_entry_filetype(entry) != AE_IFREG) return "is no regular file";
+    if (archive_entry_is_encrypted(entry) != 0) return "is encrypted";
+    if (name.empty()) return "has no name";
+    const std::filesystem::path path{name};
+    const bool leads_out = path.is_absolute() || std::ranges::find(path, "..") != path.end();
+    return leads_out ? "names a place outside of the archive" : "";
+}
+
+}  // namespace
+
+struct ArchiveReader::Impl {
+    Limits limits;
+    Handle handle;
+    std::uint64_t source_bytes = 0;    // of the archive; 0: not known, what was read of it counts
+    ::archive_entry* first = nullptr;  // the header that opening has read
+    std::size_t members = 0;
+    std::uint64_t given_bytes = 0;
+    std::set<std::string> names;
+    std::vector<LeftOut> left_out;
+    bool is_cut = false;
+    bool at_end = false;
+    // The archive's last bytes; a tar that is not packed ends with blocks of zeros.
+    std::function<std::vector<std::byte>()> tail;
+    bool may_nest = true;
+    // An archive inside this one, while it is gone through.
+    std::string inner_name;
+    std::vector<std::byte> inner_bytes;
+    std::unique_ptr<Impl> inner;
+
+    // False where it is no archive.
+    bool begin() {
+        const int code = archive_read_next_header(handle.get(), &first);
+        if (code == ARCHIVE_EOF) {
+            at_end = true;
+            return archive_format(handle.get()) != ARCHIVE_FORMAT_EMPTY;
+        }
+        return code >= ARCHIVE_WARN;
+    }
+
+    void leave_out(std::string name, std::string reason) {
+        if (left_out.size() == most_left_out) {
+            left_out.push_back({{}, "more is left out than is named here"});
+        } else if (left_out.size() < most_left_out) {
+            left_out.push_back({std::move(name), std::move(reason)});
+        }
+    }
+    void end_with(std::string reason) {
+        leave_out({}, std::move(reason));
+        at_end = true;
+    }
+
+    ::archive_entry* next_entry() {
+        if (at_end) return nullptr;
+        if (first != nullptr) return std::exchange(first, nullptr);
+        ::archive_entry* entry = nullptr;
+        const int code = archive_read_next_header(handle.get(), &entry);
+        if (code >= ARCHIVE_WARN && code != ARCHIVE_EOF) return entry;
+        at_end = true;
+        if (code == ARCHIVE_EOF && has_its_end()) return nullptr;
+        if (code == ARCHIVE_EOF) {
+            is_cut = true;
+            leave_out({}, "the archive has no end");
+            return nullptr;
+        }
+        is_cut = true;
+        leave_out({}, "the archive is cut or damaged: " + text_of(handle.get()));
+        return nullptr;
+    }
+
+    // Of formats that mark their end the library sees whether it is there.
+    [[nodiscard]] bool has_its_end() const {
+        const bool is_plain_tar =
+            (archive_format(handle.get()) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_TAR &&
+            archive_filter_code(handle.get(), 0) == ARCHIVE_FILTER_NONE;
+        if (!is_plain_tar || !tail) return true;
+        const std::vector<std::byte> last = tail();
+        return last.size() == tar_block_bytes &&
+               std::ranges::all_of(last, [](std::byte b) { return b == std::byte{0}; });
+    }
+
+    // What may come out of the archive by its own size.
+    [[nodiscard]] std::uint64_t most_bytes() const {
+        const auto read = static_cast<std::uint64_t>(
+            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1)));
+        return std::min(limits.all_bytes,
+                        limits.unbounded_bytes + limits.expansion * std::max(source_bytes, read));
+    }
+
+    // The entry's data; none where they are not whole, which is named.
+    std::optional<std::vector<std::byte>> data_of(const std::string& name) {
+        std::vector<std::byte> bytes;
+        for (;;) {
+            const std::size_t at = bytes.size();
+            bytes.resize(at + piece_bytes);
+            const la_ssize_t got = archive_read_data(handle.get(), bytes.data() + at, piece_bytes);
+            if (got < 0) {
+                is_cut = is_cut || got == ARCHIVE_FATAL;
+                at_end = at_end || got == ARCHIVE_FATAL;
+                leave_out(name, "is cut or damaged: " + text_of(handle.get()));
+                return std::nullopt;
+            }
+            bytes.resize(at + static_cast<std::size_t>(got));
+            given_bytes += static_cast<std::uint64_t>(got);
+            if (given_bytes > most_bytes()) {
+                end_with(fmt::format("unpacks to more than {} bytes: the rest is not read",
+                                     most_bytes()));
+                return std::nullopt;
+            }
+            if (bytes.size() > limits.member_bytes) {
+                leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
+                return std::nullopt;
+            }
+            if (got == 0) return bytes;
+        }
+    }
+
+    // A second member of a name has a number behind it.
+    std::string own_name(const std::string& name) {
+        std::string own = name;
+        for (int number = 2; !names.insert(own).second; ++number)
+            own = fmt::format("{}#{}", name, number);
+        return own;
+    }
+
+    // Whether what the member holds is an archive, which is gone through next.
+    bool begin_inner(const std::string& name, std::vector<std::byte>& bytes) {
+        if (!may_nest) return false;
+        auto reader = make(bytes, limits);
+        if (!reader) return false;
+        reader->may_nest = false;
+        inner_name = name;
+        inner_bytes = std::move(bytes);
+        inner = std::move(reader);
+        return true;
+    }
+
+    std::optional<Member> next_inner() {
+        auto member = inner->next();
+        if (member) {
+            given_bytes += member->bytes.size();
+            member->name = inner_name + member_mark + member->name;
+            if (given_bytes > most_bytes()) {
+                inner.reset();
+                end_with("unpacks to too many bytes: the rest is not read");
+                return std::nullopt;
+            }
+            return member;
+        }
+        for (LeftOut& one : inner->left_out) {
+            leave_out(one.name.empty() ? inner_name : inner_name + member_mark + one.name,
+                      std::move(one.reason));
+        }
+        is_cut = is_cut || inner->is_cut;
+        inner.reset();
+        inner_bytes = {};
+        return std::nullopt;
+    }
+
+    std::optional<Member> next() {
+        for (;;) {
+            if (inner) {
+                if (auto member = next_inner()) return member;
+                continue;
+            }
+            ::archive_entry* const entry = next_entry();
+            if (entry == nullptr) return std::nullopt;
+            if (++members > limits.members) {
+                end_with(
+                    fmt::format("has more than {} members: the rest is not read", limits.members));
+                return std::nullopt;
+            }
+            const std::string name = name_of(entry);
+            if (archive_entry_filetype(entry) == AE_IFDIR) continue;
+            if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {
+                leave_out(name, std::string{refusal});
+                continue;
+            }
+            std::optional<UtcTime> modified;
+            if (archive_entry_mtime_is_set(entry) != 0) {
+                modified = UtcTime{std::chrono::seconds{archive_entry_mtime(entry)}};
+            }
+            auto bytes = data_of(name);
+            if (!bytes) continue;
+            if (begin_inner(name, *bytes)) continue;
+            return Member{own_name(name), modified, std::move(*bytes)};
+        }
+    }
+
+    static std::unique_ptr<Impl> make(std::span<const std::byte> bytes, const Limits& limits) {
+        if (!may_be_archive(bytes.first(std::min(bytes.size(), tar_block_bytes)))) return nullptr;
+        auto impl = std::make_unique<Impl>();
+        impl->limits = limits;
+        impl->handle = new_reader();
+        impl->source_bytes = bytes.size();
+        impl->tail = [bytes] {
+            const auto last = bytes.last(std::min(bytes.size(), tar_block_bytes));
+            return std::vector<std::byte>(last.begin(), last.end());
+        };
+        const bool opened =
+            impl->handle &&
+            archive_read_open_memory(impl->handle.get(), bytes.data(), bytes.size()) == ARCHIVE_OK;
+        if (!opened || !impl->begin()) return nullptr;
+        return impl;
+    }
+};
+
+ArchiveReader::ArchiveReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ArchiveReader::ArchiveReader(ArchiveReader&&) noexcept = default;
+ArchiveReader& ArchiveReader::operator=(ArchiveReader&&) noexcept = default;
+ArchiveReader::~ArchiveReader() = default;
+
+std::optional<ArchiveReader> ArchiveReader::open(std::span<const std::byte> bytes, Limits limits) {
+    auto impl = Impl::make(bytes, limits);
+    if (!impl) return std::nullopt;
+    return ArchiveReader(std::move(impl));
+}
+
+std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) {
+    std::array<std::byte, tar_block_bytes> start{};
+    const ssize_t got = ::pread(descriptor, start.data(), start.size(), 0);
+    if (got <= 0 || !may_be_archive(std::span{start}.first(static_cast<std::size_t>(got)))) {
+        return std::nullopt;
+    }
+    auto impl = std::make_unique<Impl>();
+    impl->limits = limits;
+    impl->handle = new_reader();
+    impl->tail = [descriptor] {
+        std::vector<std::byte> last(tar_block_bytes);
+        struct stat facts {};
+        const bool known = ::fstat(descriptor, &facts) == 0;
+        const off_t at = facts.st_size - static_cast<off_t>(tar_block_bytes);
+        const ssize_t count =
+            known && at >= 0 ? ::pread(descriptor, last.data(), last.size(), at) : 0;
+        last.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        return last;
+    };
+    ::lseek(descriptor, 0, SEEK_SET);
+    const bool opened = impl->handle && archive_read_open_fd(impl->handle.get(), descriptor,
+                                                             read_block_bytes) == ARCHIVE_OK;
+    if (!opened || !impl->begin()) return std::nullopt;
+    return ArchiveReader(std::move(impl));
+}
+
+std::optional<Member> ArchiveReader::next() {
+    return impl_->next();
+}
+
+const std::vector<LeftOut>& ArchiveReader::left_out() const {
+    return impl_->left_out;
+}
+
+bool ArchiveReader::is_cut() const {
+    return impl_->is_cut;
+}
+
+std::optional<MemberPath> member_path_of(const std::filesystem::path& path) {
+    const std::string& text = path.native();
+    std::error_code error;
+    if (text.find(member_mark) == std::string::npos || std::filesystem::exists(path, error)) {
+        return std::nullopt;
+    }
+    for (std::size_t at = text.find(member_mark); at != std::string::npos;
+         at = text.find(member_mark, at + 1)) {
+        std::filesystem::path archive = text.substr(0, at);
+        if (std::filesystem::is_regular_file(archive, error)) {
+            return MemberPath{std::move(archive), text.substr(at + 1)};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace stormcellar::archive

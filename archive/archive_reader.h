@@ -1,0 +1,80 @@
+// archive/archive_reader.h -- the members of tar and zip archives, one after the other.
+//
+// NCEI's orders come as tar files, and people send what they have as zip. Members are streamed into
+// memory, never unpacked under their own names. Links, devices, directories and encrypted members
+// are no files and left out, as are names that lead out of the archive. An archive in an archive is
+// gone through too, once. What the input can claim is bounded (Limits): at a bound the reader stops
+// and says so. Of a damaged archive it gives what is whole.
+// Formats: tar (also compressed: gzip, bzip2, xz, zstd, compress) and zip, by content, with
+// libarchive. Thread contract: one thread at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/utc_time.h"
+
+namespace stormcellar::archive {
+
+struct Limits {
+    std::size_t members = 100'000;                             // of any kind
+    std::uint64_t member_bytes = std::uint64_t{256} << 20;     // of one: twice any known volume
+    std::uint64_t all_bytes = std::uint64_t{256} << 30;        // of all together
+    std::uint64_t expansion = 200;                             // times the archive's own bytes
+    std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;  // that no expansion counts for
+};
+
+struct Member {
+    std::string name;  // as the archive has it; "INNER!NAME" where an archive lies in the archive
+    std::optional<UtcTime> modified;
+    std::vector<std::byte> bytes;
+};
+
+// Something of the archive that is not given, and why, for a person.
+struct LeftOut {
+    std::string name;  // of the member; empty: the archive
+    std::string reason;
+};
+
+class ArchiveReader {
+  public:
+    // None where the file is no archive. The descriptor must stay open; it is read from its start.
+    [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
+    // The bytes must outlive the reader.
+    [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
+                                                           Limits limits = {});
+    ArchiveReader(ArchiveReader&&) noexcept;
+    ArchiveReader& operator=(ArchiveReader&&) noexcept;
+    ~ArchiveReader();
+
+    // The next member that is a file; none at the end.
+    [[nodiscard]] std::optional<Member> next();
+    // Up to here.
+    [[nodiscard]] const std::vector<LeftOut>& left_out() const;
+    // The archive ends too early or is damaged, so members may be missing; it may still be growing.
+    [[nodiscard]] bool is_cut() const;
+
+  private:
+    struct Impl;
+    explicit ArchiveReader(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+// Whether a path names a member, and if so the archive and the member: "DIR/a.tar!KTLX..." where
+// DIR/a.tar is a file and the path itself is none.
+struct MemberPath {
+    std::filesystem::path archive;
+    std::string member;
+};
+inline constexpr char member_mark = '!';
+[[nodiscard]] std::optional<MemberPath> member_path_of(const std::filesystem::path& path);
+
+}  // namespace stormcellar::archive

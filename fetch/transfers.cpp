@@ -1,0 +1,192 @@
+#include "fetch/transfers.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/version.h"
+
+namespace stormcellar::fetch {
+namespace {
+
+constexpr int longest_poll_ms = 100;  // how often the flag is looked at
+constexpr long connect_timeout_s = 20;
+constexpr long most_redirects = 5;
+constexpr long http_ok = 200;
+constexpr long http_partial = 206;
+constexpr long http_range = 416;
+constexpr long http_too_many = 429;
+
+// Whether the same may go well later: what the network or the server's load does.
+bool is_passing(CURLcode code, long status) {
+    switch (code) {
+        case CURLE_OK:
+            return status >= 500 || status == http_too_many || status == 408;
+        case CURLE_COULDNT_RESOLVE_HOST:
+        case CURLE_COULDNT_CONNECT:
+        case CURLE_PARTIAL_FILE:
+        case CURLE_OPERATION_TIMEDOUT:
+        case CURLE_GOT_NOTHING:
+        case CURLE_SEND_ERROR:
+        case CURLE_RECV_ERROR:
+        case CURLE_SSL_CONNECT_ERROR:
+        case CURLE_HTTP2:
+        case CURLE_HTTP2_STREAM:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+struct Transfers::Running {
+    Transfer transfer;
+    CURL* easy = nullptr;
+    bool has_begun = false;
+    bool was_refused = false;
+    std::array<char, CURL_ERROR_SIZE> error{};
+
+    ~Running() {
+        if (easy != nullptr) curl_easy_cleanup(easy);
+    }
+    [[nodiscard]] long status() const {
+        long status = 0;
+        curl_easy_getinfo(easy, CURLINFO_RESPONSE_CODE, &status);
+        return status;
+    }
+    static std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* self) {
+        auto& running = *static_cast<Running*>(self);
+        const long status = running.status();
+        const std::size_t length = size * count;
+        // The body of an error is nobody's.
+        if (status != http_ok && status != http_partial) return length;
+        if (!running.has_begun) {
+            running.has_begun = true;
+            const std::uint64_t from = status == http_partial ? running.transfer.from_byte : 0;
+            running.was_refused = !running.transfer.begin(from);
+        }
+        running.was_refused =
+            running.was_refused ||
+            !running.transfer.take(reinterpret_cast<const std::byte*>(bytes), length);
+        return running.was_refused ? 0 : length;
+    }
+};
+
+Transfers::Transfers(TransferOptions options) : options_(options) {}
+
+Result<std::unique_ptr<Transfers>> Transfers::make(TransferOptions options) {
+    curl_global_init(CURL_GLOBAL_DEFAULT);
+    std::unique_ptr<Transfers> transfers(new Transfers(options));
+    transfers->multi_ = curl_multi_init();
+    if (transfers->multi_ == nullptr) return fail(ErrorCode::exhausted, "libcurl does not start");
+    return transfers;
+}
+
+Transfers::~Transfers() {
+    for (const auto& running : running_)
+        curl_multi_remove_handle(multi_, running->easy);
+    running_.clear();
+    if (multi_ != nullptr) curl_multi_cleanup(multi_);
+}
+
+void Transfers::add(Transfer transfer, std::chrono::milliseconds wait) {
+    waiting_.push_back({std::move(transfer), Clock::now() + wait});
+}
+
+bool Transfers::start(Transfer transfer) {
+    auto running = std::make_unique<Running>();
+    running->transfer = std::move(transfer);
+    running->easy = curl_easy_init();
+    if (running->easy == nullptr) return false;
+    CURL* const easy = running->easy;
+    const std::string range = fmt::format("{}-", running->transfer.from_byte);
+    const std::string agent = fmt::format("stormcellar/{}", software_version);
+    curl_easy_setopt(easy, CURLOPT_URL, running->transfer.url.c_str());
+    curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(easy, CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 1L);
+    curl_easy_setopt(easy, CURLOPT_MAXREDIRS, most_redirects);
+    curl_easy_setopt(easy, CURLOPT_USERAGENT, agent.c_str());
+    curl_easy_setopt(easy, CURLOPT_NOSIGNAL, 1L);
+    curl_easy_setopt(easy, CURLOPT_FILETIME, 1L);
+    curl_easy_setopt(easy, CURLOPT_CONNECTTIMEOUT, connect_timeout_s);
+    curl_easy_setopt(easy, CURLOPT_LOW_SPEED_LIMIT, 1L);
+    curl_easy_setopt(easy, CURLOPT_LOW_SPEED_TIME, static_cast<long>(options_.stall.count()));
+    curl_easy_setopt(easy, CURLOPT_ERRORBUFFER, running->error.data());
+    curl_easy_setopt(easy, CURLOPT_WRITEFUNCTION, &Running::take_body);
+    curl_easy_setopt(easy, CURLOPT_WRITEDATA, running.get());
+    curl_easy_setopt(easy, CURLOPT_PRIVATE, running.get());
+    if (running->transfer.from_byte > 0) curl_easy_setopt(easy, CURLOPT_RANGE, range.c_str());
+    if (curl_multi_add_handle(multi_, easy) != CURLM_OK) return false;
+    running_.push_back(std::move(running));
+    return true;
+}
+
+void Transfers::start_due() {
+    const auto now = Clock::now();
+    for (auto one = waiting_.begin();
+         one != waiting_.end() && running_.size() < static_cast<std::size_t>(options_.parallel);) {
+        if (one->due > now) {
+            ++one;
+            continue;
+        }
+        Transfer transfer = std::move(one->transfer);
+        one = waiting_.erase(one);
+        const auto ended = transfer.ended;
+        if (!start(std::move(transfer))) ended({false, true, "no transfer can be begun", {}});
+    }
+}
+
+void Transfers::finish_done() {
+    int left = 0;
+    while (const CURLMsg* const message = curl_multi_info_read(multi_, &left)) {
+        if (message->msg != CURLMSG_DONE) continue;
+        const CURLcode code = message->data.result;
+        const auto found = std::ranges::find_if(
+            running_, [&](const auto& one) { return one->easy == message->easy_handle; });
+        if (found == running_.end()) continue;
+        const std::unique_ptr<Running> running = std::move(*found);
+        running_.erase(found);
+        const long status = running->status();
+        Transfer::Outcome outcome;
+        outcome.good = code == CURLE_OK && (status == http_ok || status == http_partial);
+        if (outcome.good && !running->has_begun) outcome.good = running->transfer.begin(0);
+        curl_off_t modified = -1;
+        curl_easy_getinfo(running->easy, CURLINFO_FILETIME_T, &modified);
+        if (modified >= 0) outcome.modified = UtcTime{std::chrono::seconds{modified}};
+        if (!outcome.good) {
+            outcome.may_be_tried_again =
+                !running->was_refused && (is_passing(code, status) || status == http_range);
+            const char* const text =
+                running->error[0] != '\0' ? running->error.data() : curl_easy_strerror(code);
+            outcome.reason =
+                code == CURLE_OK ? fmt::format("the server answers {}", status) : std::string{text};
+        }
+        curl_multi_remove_handle(multi_, running->easy);
+        running->transfer.ended(outcome);
+    }
+}
+
+int Transfers::wait_ms() const {
+    if (!running_.empty() || waiting_.empty()) return longest_poll_ms;
+    const auto first = std::ranges::min_element(waiting_, {}, &Waiting::due);
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(first->due - Clock::now());
+    return std::clamp(static_cast<int>(left.count()) + 1, 1, longest_poll_ms);
+}
+
+void Transfers::run(const std::atomic<bool>* stop, const std::function<void()>& turn) {
+    while (!running_.empty() || !waiting_.empty()) {
+        if (stop != nullptr && *stop) return;
+        start_due();
+        int going = 0;
+        curl_multi_perform(multi_, &going);
+        finish_done();
+        if (turn) turn();
+        if (running_.empty() && waiting_.empty()) return;
+        curl_multi_poll(multi_, nullptr, 0, wait_ms(), nullptr);
+    }
+}
+
+}  // namespace stormcellar::fetch

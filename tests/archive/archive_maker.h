@@ -1,0 +1,23 @@
+// tests/archive/archive_maker.h -- tar and zip archives made by hand, for tests.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace stormcellar::archive {
+
+enum class Kind { tar, tar_gz, tar_bz2, tar_xz, tar_zst, zip };
+
+struct Put {
+    enum class What { file, symlink, hardlink, directory, fifo };
+    std::string name;
+    std::vector<std::byte> bytes = {};
+    What what = What::file;
+    std::string target = {};  // of a link
+};
+
+[[nodiscard]] std::vector<std::byte> make_archive(Kind kind, const std::vector<Put>& puts);
+[[nodiscard]] std::vector<std::byte> bytes_of(const std::string& text);
+
+}  // namespace stormcellar::archive

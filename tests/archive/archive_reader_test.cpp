@@ -1,0 +1,172 @@
+#include "archive/archive_reader.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "base/file_system.h"
+#include "tests/archive/archive_maker.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::archive {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> names_of(ArchiveReader& reader) {
+    std::vector<std::string> names;
+    while (const auto member = reader.next())
+        names.push_back(member->name);
+    return names;
+}
+
+const std::vector<Put> two = {{"a/KTLX_1", bytes_of("first")}, {"KTLX_2", bytes_of("second")}};
+
+class EveryKind : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(EveryKind, GivesItsMembersInTheirOrder) {
+    const auto bytes = make_archive(GetParam(), two);
+    auto reader = ArchiveReader::open(bytes);
+    ASSERT_TRUE(reader);
+    const auto first = reader->next();
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->name, "a/KTLX_1");
+    EXPECT_EQ(first->bytes, bytes_of("first"));
+    EXPECT_EQ(first->modified, UtcTime{std::chrono::seconds{1'600'000'000}});
+    EXPECT_EQ(reader->next()->bytes, bytes_of("second"));
+    EXPECT_FALSE(reader->next());
+    EXPECT_THAT(reader->left_out(), IsEmpty());
+    EXPECT_FALSE(reader->is_cut());
+}
+
+TEST_P(EveryKind, IsReadFromAFileToo) {
+    const testing::TemporaryDirectory directory;
+    const auto path = directory.path() / "archive";
+    ASSERT_TRUE(write_file_atomically(real_file_system(), path, make_archive(GetParam(), two)));
+    const int descriptor = ::open(path.c_str(), O_RDONLY);
+    auto reader = ArchiveReader::open(descriptor);
+    ASSERT_TRUE(reader);
+    EXPECT_THAT(names_of(*reader), ElementsAre("a/KTLX_1", "KTLX_2"));
+    ::close(descriptor);
+}
+
+// Of what is cut anywhere nothing comes out that was not in it, and that it is cut is said.
+TEST_P(EveryKind, CutAnywhereItGivesWhatIsWhole) {
+    const auto bytes = make_archive(GetParam(), two);
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 97) {
+        const auto cut = std::span{bytes}.first(size);
+        auto reader = ArchiveReader::open(cut);
+        if (!reader) continue;
+        std::size_t count = 0;
+        while (const auto member = reader->next()) {
+            ASSERT_LT(count, two.size());
+            EXPECT_EQ(member->bytes, two[count++].bytes) << size;
+        }
+        if (count < two.size()) {
+            EXPECT_TRUE(reader->is_cut()) << size;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
+                         ::testing::Values(Kind::tar, Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz,
+                                           Kind::tar_zst, Kind::zip));
+
+TEST(ArchiveReader, LevelTwoAndOthersAreNone) {
+    EXPECT_FALSE(ArchiveReader::open(bytes_of("")));
+    EXPECT_FALSE(ArchiveReader::open(bytes_of("AR2V0006.001")));
+    EXPECT_FALSE(ArchiveReader::open(std::vector<std::byte>(100'000)));
+}
+
+TEST(ArchiveReader, NoRealVolumeIsTakenForAnArchive) {
+    STORMCELLAR_NEED_DATA();
+    int seen = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(*testing::data_directory() / "volumes")) {
+        const auto bytes = read_file(entry.path());
+        ASSERT_TRUE(bytes);
+        EXPECT_FALSE(ArchiveReader::open(*bytes)) << entry.path();
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+}
+
+TEST(ArchiveReader, WhatIsNoFileIsLeftOutAndNamed) {
+    const auto bytes = make_archive(Kind::tar, {{"good", bytes_of("x")},
+                                                {"soft", {}, Put::What::symlink, "/etc/passwd"},
+                                                {"hard", {}, Put::What::hardlink, "good"},
+                                                {"pipe", {}, Put::What::fifo},
+                                                {"directory/", {}, Put::What::directory},
+                                                {"../out", bytes_of("x")},
+                                                {"/etc/absolute", bytes_of("x")},
+                                                {"a/../../b", bytes_of("x")},
+                                                {"good", bytes_of("again")}});
+    auto reader = ArchiveReader::open(bytes);
+    ASSERT_TRUE(reader);
+    EXPECT_THAT(names_of(*reader), ElementsAre("good", "good#2"));
+    std::vector<std::string> left_out;
+    for (const LeftOut& one : reader->left_out())
+        left_out.push_back(one.name + " " + one.reason);
+    EXPECT_THAT(left_out, ElementsAre("soft is a link", "hard is a link", "pipe is no regular file",
+                                      "../out names a place outside of the archive",
+                                      "/etc/absolute names a place outside of the archive",
+                                      "a/../../b names a place outside of the archive"));
+}
+
+TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {
+    const auto inner = make_archive(Kind::tar_gz, two);
+    const auto middle = make_archive(Kind::zip, {{"inner.tar.gz", inner}, {"c", bytes_of("c")}});
+    auto one = ArchiveReader::open(middle);
+    EXPECT_THAT(names_of(*one), ElementsAre("inner.tar.gz!a/KTLX_1", "inner.tar.gz!KTLX_2", "c"));
+    const auto outer = make_archive(Kind::tar, {{"middle.zip", middle}});
+    auto two_deep = ArchiveReader::open(outer);
+    // What lies deeper is given as it is: it is no volume, and says so when it is read.
+    EXPECT_THAT(names_of(*two_deep), ElementsAre("middle.zip!inner.tar.gz", "middle.zip!c"));
+}
+
+TEST(ArchiveReader, BombsStopAtTheLimits) {
+    const std::vector<std::byte> zeros(std::size_t{8} << 20);
+    Limits limits;
+    limits.unbounded_bytes = 1 << 20;
+    const auto bomb = make_archive(Kind::tar_gz, {{"a", zeros}, {"b", bytes_of("b")}});
+    auto reader = ArchiveReader::open(bomb, limits);
+    ASSERT_TRUE(reader);
+    EXPECT_THAT(names_of(*reader), IsEmpty());
+    EXPECT_THAT(reader->left_out().at(0).reason, HasSubstr("unpacks to more than"));
+
+    limits = {};
+    limits.member_bytes = 1 << 20;
+    auto large = ArchiveReader::open(bomb, limits);
+    EXPECT_THAT(names_of(*large), ElementsAre("b"));
+    EXPECT_THAT(large->left_out().at(0).reason, HasSubstr("has more than 1048576 bytes"));
+
+    limits = {};
+    limits.members = 3;
+    std::vector<Put> many(10, Put{"x", bytes_of("x")});
+    auto crowd_bytes = make_archive(Kind::tar, many);
+    auto crowd = ArchiveReader::open(crowd_bytes, limits);
+    EXPECT_EQ(names_of(*crowd).size(), 3U);
+    EXPECT_THAT(crowd->left_out().at(0).reason, HasSubstr("more than 3 members"));
+}
+
+TEST(MemberPath, IsOneWhereTheArchiveStandsAndThePathDoesNot) {
+    const testing::TemporaryDirectory directory;
+    const auto archive = directory.path() / "a!b.tar";
+    std::ofstream(archive) << "x";
+    const auto found = member_path_of(archive.native() + "!dir/KTLX!1");
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->archive, archive);
+    EXPECT_EQ(found->member, "dir/KTLX!1");
+    EXPECT_FALSE(member_path_of(archive));
+    EXPECT_FALSE(member_path_of(directory.path() / "none.tar!x"));
+}
+
+}  // namespace
+}  // namespace stormcellar::archive
