@@ -46,7 +46,6 @@ struct Protection {
 
 class Account {
   public:
-    static constexpr std::chrono::minutes tolerated_future{10};
     using IsKnown = std::function<bool(std::string_view group)>;
 
     explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
@@ -160,7 +159,7 @@ class Account {
     using Groups = std::map<std::string, Group, std::less<>>;
 
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
-    [[nodiscard]] bool believed(UtcTime time) const { return time <= now_ + tolerated_future; }
+    [[nodiscard]] bool believed(UtcTime time) const { return is_believed(time, now_); }
     // The newest believed; where none is, the newest of all.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;

@@ -45,6 +45,12 @@ Result<Store> Store::open_for_reading(fs::path directory) {
     return Store(nullptr, std::move(directory));
 }
 
+void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now) {
+    const auto first = std::ranges::find_if(
+        entries, [&](const StoreEntry& entry) { return !is_believed(entry.time, now); });
+    if (first != entries.begin()) entries.erase(first, entries.end());
+}
+
 Result<Store> Store::open_for_writing(FileSystem& file_system, fs::path directory,
                                       bool sweep_temporary) {
     std::error_code error;

@@ -71,6 +71,10 @@ struct StoreUsage {
     bool operator==(const StoreUsage&) const = default;
 };
 
+// Leaves out what lies in the future (is_believed()), unless all does: for who shows the newest.
+// `entries` are sorted by time.
+void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now);
+
 class Roller;
 
 // What a grid that has been committed survives.

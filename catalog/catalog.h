@@ -220,7 +220,8 @@ class Catalog {
     // Of all stations whose databases can be read.
     Result<std::vector<StationSummary>> stations();
     Result<std::vector<CatalogEntry>> list(std::string_view station, const Query& query);
-    // The entry with the latest or oldest start; none when the station has no volume.
+    // The entry with the latest or oldest start; none when the station has no volume. What lies in
+    // the future (is_believed()) is the latest only where all does.
     Result<std::optional<CatalogEntry>> latest(std::string_view station);
     Result<std::optional<CatalogEntry>> oldest(std::string_view station);
     // The row of a file in that station's database, without a volume; none where it has no row.

@@ -329,7 +329,9 @@ StationSummary StationDatabase::summary() {
     SQLite::Statement row(database_,
                           "SELECT (SELECT count(*) FROM volume), (SELECT count(*) FROM file WHERE "
                           "state = 'rejected'), (SELECT min(start_ms) FROM volume), "
-                          "(SELECT max(start_ms) FROM volume)");
+                          "(SELECT coalesce(max(CASE WHEN start_ms <= ? THEN start_ms END), "
+                          "max(start_ms)) FROM volume)");
+    row.bind(1, milliseconds(now_utc() + tolerated_future).value());
     row.executeStep();
     return {station_, row.getColumn(0).getInt64(), row.getColumn(1).getInt64(),
             optional_time(row.getColumn(2)), optional_time(row.getColumn(3))};
@@ -389,10 +391,15 @@ std::vector<CatalogEntry> StationDatabase::list(const Query& query) {
 std::optional<CatalogEntry> StationDatabase::first(bool latest) {
     const std::string order = latest ? "ORDER BY v.start_ms DESC, v.generation DESC, f.path DESC "
                                      : "ORDER BY v.start_ms, v.generation, f.path ";
-    SQLite::Statement rows(database_, std::string{entry_columns} + entry_join + order + "LIMIT 1");
-    std::vector<CatalogEntry> found = entries(rows);
-    if (found.empty()) return std::nullopt;
-    return std::move(found.front());
+    // What claims to be of the future is the latest only where there is nothing else.
+    for (const UtcTime until : {now_utc() + tolerated_future, UtcTime::max()}) {
+        SQLite::Statement rows(database_, std::string{entry_columns} + entry_join +
+                                              "WHERE v.start_ms <= ? " + order + "LIMIT 1");
+        rows.bind(1, milliseconds(until).value());
+        std::vector<CatalogEntry> found = entries(rows);
+        if (!found.empty()) return std::move(found.front());
+    }
+    return std::nullopt;
 }
 
 }  // namespace stormcellar::catalog

@@ -55,7 +55,7 @@ Result<Subject> load_subject(const AccuracyOptions& options, const GridRequest& 
     Subject subject;
     if (options.scene.empty()) {
         subject.name = options.grid.files.front();
-        auto source = load_volume(subject.name, request.moment, request.threads);
+        auto source = load_volume(subject.name, request);
         if (!source) return pass_on(source);
         subject.source = std::move(*source);
         return subject;
@@ -292,8 +292,15 @@ int run_comparison(const AccuracyOptions& options, const GridRequest& request) {
 
 int run_accuracy(AccuracyOptions options) {
     if (auto sound = check_options(options); !sound) return report_error(sound.error());
-    const auto request = parse_request(options.grid);
+    std::shared_ptr<InputFiles> inputs;
+    if (!options.grid.files.empty()) {
+        auto found = find_inputs(options.grid);
+        if (!found) return report_error(found.error());
+        inputs = std::move(*found);
+    }
+    auto request = parse_request(options.grid);
     if (!request) return report_error(request.error());
+    request->inputs = std::move(inputs);
     if (options.held_out) return run_held_out(options, *request);
     if (options.compare_sites) return run_comparison(options, *request);
     if (options.grid.files.size() > 1) return run_files(options, *request);

@@ -13,13 +13,13 @@
 
 #include "base/byte_size.h"
 #include "base/checksum.h"
-#include "base/station_table.h"
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/picture.h"
 #include "cli/progress.h"
 #include "grid/grid_window.h"
 #include "pipeline/mosaic_keeper.h"
+#include "pipeline/station_place.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -37,15 +37,24 @@ struct Plan {
     std::optional<Domain> mosaic;
     pipeline::ArchiveOptions fill;
     fs::path cache;
+    std::vector<pipeline::LeftOut> left_out;  // stations that nobody places
 };
 
-std::vector<grid::SitePosition> sites_of(const std::vector<std::string>& stations) {
+// Stations of which nobody says where they stand are left out.
+std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
+                                         const std::vector<std::string>& stations,
+                                         std::vector<pipeline::LeftOut>& left_out) {
     std::vector<grid::SitePosition> sites;
     for (const std::string& icao : stations) {
-        const auto station = find_station(icao);
-        if (!station) continue;
-        sites.push_back(
-            {icao, station->latitude_deg, station->longitude_deg, station->antenna_altitude_m});
+        if (icao.empty()) continue;  // of which nobody knows the station
+        if (auto site = pipeline::place_of_station(catalog, icao)) {
+            sites.push_back(std::move(*site));
+        } else {
+            left_out.push_back(
+                {{},
+                 fmt::format("{}: neither its files nor the station table say where it stands",
+                             icao)});
+        }
     }
     return sites;
 }
@@ -56,11 +65,12 @@ std::string mosaic_name(const ArchiveCall& call, const std::vector<std::string>&
     return fmt::format("{}{}", fmt::join(stations, "-"), stations.size() == 1 ? "-alone" : "");
 }
 
-Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog) {
+Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
+                         std::vector<pipeline::LeftOut>& left_out) {
     const ArchiveRequest& request = call.request;
     Domain domain;
     domain.stations = request.stations;
-    const auto sites = sites_of(domain.stations);
+    const auto sites = sites_of(catalog, domain.stations, left_out);
     if (sites.empty() && !request.bounds && !request.place.center_deg) {
         return fail(ErrorCode::bad_argument,
                     "where {} stands is not known: give --center or --bounds",
@@ -72,7 +82,7 @@ Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog) {
     if (domain.stations.empty()) {
         const auto names = catalog.station_names();
         if (!names) return pass_on(names);
-        for (const grid::SitePosition& site : sites_of(*names)) {
+        for (const grid::SitePosition& site : sites_of(catalog, *names, left_out)) {
             if (grid::site_window(domain.spec, site)) domain.stations.push_back(site.icao);
         }
     }
@@ -138,7 +148,7 @@ Result<Plan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
         plan.fill.ny = shape->ny;
         plan.fill.levels_m = shape->levels_m;
     } else {
-        auto mosaic = mosaic_of(call, catalog);
+        auto mosaic = mosaic_of(call, catalog, plan.left_out);
         if (!mosaic) return pass_on(mosaic);
         plan.stations = mosaic->stations;
         plan.mosaic = plan.fill.domain = std::move(*mosaic);
@@ -239,10 +249,11 @@ Status announce(const ArchiveCall& call, const Plan& plan, const pipeline::Archi
     if (!filling) return pass_on(filling);
     const std::uint64_t free = filling->capacity_bytes - filling->used_bytes;
     const std::string about = fmt::format(
-        "{} volumes of {}: {} stand in {}, {} to read ({}){}, which makes about {} of grids ({} "
-        "free)",
-        volumes.size(), fmt::join(stations_of(volumes), " "), volumes.size() - missing.size(),
-        plan.cache.native(), missing.size(), format_byte_size(raw_bytes),
+        "{} {} of {}: the grids of {} are in {} already, {} must be read ({}){}, which makes about "
+        "{} of grids ({} free)",
+        volumes.size(), plural(volumes.size(), "volume"), fmt::join(stations_of(volumes), " "),
+        volumes.size() - missing.size(), plan.cache.native(), missing.size(),
+        format_byte_size(raw_bytes),
         frames > 0 ? fmt::format(" and {} mosaics to make", frames) : "", format_byte_size(need),
         format_byte_size(free));
     if (need > free) {
@@ -382,11 +393,14 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
     if (auto said = announce(call, *plan, filling, *volumes, *missing, frames.missing); !said) {
         return pass_on(said);
     }
+    warn(plan->left_out, "left out: ");
     grids.report.volumes = volumes->size();
     grids.report.grids_found = volumes->size() - missing->size();
     if (auto filled = fill(call, filling, *missing, frames.instants, interrupt, grids); !filled) {
         return pass_on(filled);
     }
+    grids.report.left_out.insert(grids.report.left_out.begin(), plan->left_out.begin(),
+                                 plan->left_out.end());
     std::set<UtcTime> times(grids.report.frames.begin(), grids.report.frames.end());
     if (!plan->mosaic) {
         for (const ArchiveVolume& volume : *volumes)

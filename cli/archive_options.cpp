@@ -16,35 +16,6 @@ namespace {
 
 constexpr int most_cells_a_side = 1024;  // of a grid whose spacing nobody asked for
 
-Result<std::vector<std::string>> parse_stations(const std::string& text) {
-    std::set<std::string> names;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t to = std::min(text.find(',', from), text.size());
-        const std::string name = text.substr(from, to - from);
-        from = to + 1;
-        if (!is_icao(name)) {
-            return fail(ErrorCode::bad_argument,
-                        "--stations takes ICAOs with commas between them, as in KBGM,KENX, not "
-                        "'{}'",
-                        text);
-        }
-        names.insert(name);
-    }
-    return std::vector<std::string>(names.begin(), names.end());
-}
-
-Result<pipeline::Bounds> parse_bounds(const std::string& text) {
-    const auto given = parse_numbers(text, ',');
-    pipeline::Bounds bounds{};
-    if (given && given->size() == bounds.size()) {
-        std::copy(given->begin(), given->end(), bounds.begin());
-        if (pipeline::is_bounds(bounds)) return bounds;
-    }
-    return fail(ErrorCode::bad_argument,
-                "--bounds takes WEST,SOUTH,EAST,NORTH in degrees, as in -80,40,-72,45, not '{}'",
-                text);
-}
-
 // An option that only an archive has a use for; empty: none was given.
 std::string_view stray_option(const ArchiveOptions& options) {
     const GridOptions& place = options.place;
@@ -89,6 +60,35 @@ Result<grid::GridSpec> spec_over(const pipeline::Bounds& bounds, GridRequest req
 }
 
 }  // namespace
+
+Result<std::vector<std::string>> parse_stations(const std::string& text) {
+    std::set<std::string> names;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t to = std::min(text.find(',', from), text.size());
+        const std::string name = text.substr(from, to - from);
+        from = to + 1;
+        if (!is_icao(name)) {
+            return fail(ErrorCode::bad_argument,
+                        "--stations takes ICAOs with commas between them, as in KBGM,KENX, not "
+                        "'{}'",
+                        text);
+        }
+        names.insert(name);
+    }
+    return std::vector<std::string>(names.begin(), names.end());
+}
+
+Result<pipeline::Bounds> parse_bounds(const std::string& text) {
+    const auto given = parse_numbers(text, ',');
+    pipeline::Bounds bounds{};
+    if (given && given->size() == bounds.size()) {
+        std::copy(given->begin(), given->end(), bounds.begin());
+        if (pipeline::is_bounds(bounds)) return bounds;
+    }
+    return fail(ErrorCode::bad_argument,
+                "--bounds takes WEST,SOUTH,EAST,NORTH in degrees, as in -80,40,-72,45, not '{}'",
+                text);
+}
 
 void add_archive_options(CLI::App& app, ArchiveOptions& options) {
     const std::string group = "From an archive's raw files";

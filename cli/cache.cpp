@@ -123,6 +123,7 @@ void print_audit(const AuditedGrid& audited) {
 }
 
 int run_stat(const CacheOptions& options, const std::vector<StoreEntry>& entries) {
+    const UtcTime now = now_utc();
     std::vector<DomainTotal> totals;
     for (const StoreEntry& entry : entries) {
         if (totals.empty() || totals.back().domain != entry.domain) {
@@ -136,7 +137,9 @@ int run_stat(const CacheOptions& options, const std::vector<StoreEntry>& entries
             total.pinned_bytes += entry.bytes_on_disk;
         }
         total.oldest = std::min(total.oldest, entry.time);
-        total.latest = std::max(total.latest, entry.time);
+        if (is_believed(entry.time, now) || !is_believed(total.latest, now)) {
+            total.latest = std::max(total.latest, entry.time);
+        }
     }
     nlohmann::json document = nlohmann::json::array();
     for (const DomainTotal& total : totals) {

@@ -11,6 +11,7 @@
 #include "cli/catalog_get.h"
 #include "cli/commands.h"
 #include "cli/query_options.h"
+#include "level2/chunk_name.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -31,11 +32,19 @@ struct CatalogOptions {
     GetOptions get;
 };
 
+// Of the volume: one of a file that holds several may be whole though another is not.
+catalog::FileState state_of(const CatalogEntry& entry) {
+    using catalog::FileState;
+    const bool settled = entry.state == FileState::complete || entry.state == FileState::partial;
+    if (!settled || !entry.volume.start_time) return entry.state;
+    return entry.volume.complete ? FileState::complete : FileState::partial;
+}
+
 nlohmann::json to_json(const CatalogEntry& entry) {
     return {{"station", entry.station},
             {"path", entry.path.string()},
             {"size", entry.size_bytes},
-            {"state", catalog::file_state_name(entry.state)},
+            {"state", catalog::file_state_name(state_of(entry))},
             {"reason", entry.reason},
             {"start_time", json_time(entry.volume.start_time)},
             {"end_time", json_time(entry.volume.end_time)},
@@ -56,7 +65,7 @@ void print_entry(const CatalogEntry& entry) {
     fmt::print("{:<4}  {:<24}  VCP {:>3}  {:>3} sweeps  {:>6} radials  {:<8}  {}{}\n",
                entry.station.empty() ? "-" : printable(entry.station), start, vcp,
                entry.volume.sweep_count, entry.volume.radial_count,
-               catalog::file_state_name(entry.state), printable(entry.path.native()),
+               catalog::file_state_name(state_of(entry)), printable(entry.path.native()),
                entry.reason.empty() ? "" : "  (" + printable(entry.reason) + ")");
 }
 
@@ -108,12 +117,22 @@ int run_stations(const CatalogOptions& options) {
     return stations->empty() && status == exit_done ? report_nothing_matched() : status;
 }
 
+// The chunks of a volume but for the first, in whose row it stands, hold no volume of their own.
+bool is_part_of_a_volume(const CatalogEntry& entry) {
+    return !entry.volume.start_time && entry.state != catalog::FileState::rejected &&
+           level2::parse_chunk_name(entry.path.filename().native()).has_value();
+}
+
 // The entries that the options name, of one station or of all whose databases can be read.
 Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options, Catalog& catalog) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
     const catalog::Query query{range->from, range->to, options.rejected};
-    if (!options.station.empty()) return catalog.list(options.station, query);
+    if (!options.station.empty()) {
+        auto entries = catalog.list(options.station, query);
+        if (entries) std::erase_if(*entries, is_part_of_a_volume);
+        return entries;
+    }
 
     const auto stations = catalog.station_names();
     if (!stations) return pass_on(stations);
@@ -122,6 +141,7 @@ Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options, Catalo
         const auto entries = catalog.list(station, query);
         if (entries) all.insert(all.end(), entries->begin(), entries->end());
     }
+    std::erase_if(all, is_part_of_a_volume);
     return all;
 }
 
@@ -150,6 +170,7 @@ int run_one(const CatalogOptions& options, bool latest) {
     const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
     if (!entry) return report_query_error(entry.error(), options);
     if (!entry->has_value()) return report_nothing_matched();
+    if (latest && (*entry)->volume.start_time) warn_of_future(*(*entry)->volume.start_time);
     if (options.json) {
         print_json(to_json(**entry));
     } else {

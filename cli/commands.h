@@ -39,6 +39,7 @@ using Commands = std::vector<Command>;
 Command add_accuracy(CLI::App& app);
 Command add_cache(CLI::App& app);
 Command add_catalog(CLI::App& app);
+Command add_fetch(CLI::App& app);
 Command add_frame(CLI::App& app);
 Command add_grid(CLI::App& app);
 Command add_info(CLI::App& app);

@@ -12,9 +12,11 @@
 #include "base/version.h"
 #include "cache/store.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/picture.h"
 #include "cli/picture_metadata.h"
 #include "cli/picture_plan.h"
+#include "cli/query_options.h"
 #include "cli/scene_file.h"
 #include "cli/scene_options.h"
 #include "render/png_file.h"
@@ -48,9 +50,11 @@ Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
         if (!time) return pass_on(time);
         until = *time;
     }
-    const auto entries = store.list(options.domain, moment, std::nullopt, until);
+    auto entries = store.list(options.domain, moment, std::nullopt, until);
     if (!entries) return pass_on(entries);
+    if (!until) cache::leave_out_future(*entries, now_utc());
     if (entries->empty()) return std::optional<cache::StoreEntry>{};
+    if (!until) warn_of_future(entries->back().time);
     return std::optional{entries->back()};
 }
 
@@ -189,10 +193,7 @@ Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scen
                                                                  *done},
                                                                 file.description(), planned));
     if (!bytes) return pass_on(bytes);
-    if (auto written = write_file_atomically(real_file_system(), options.output, *bytes);
-        !written) {
-        return pass_on(written);
-    }
+    if (auto written = write_output(options.output, *bytes); !written) return pass_on(written);
     timing.total_s = seconds_since(start);
     timing.write_s = timing.total_s - timing.read_s - timing.render_s;
     return timing;
@@ -207,10 +208,7 @@ Status check_options(const FrameOptions& options) {
         if (probes) return {};
         return fail(ErrorCode::bad_argument, "nothing to do: -o, --probe or --probe-at is needed");
     }
-    if (!options.output.ends_with(".png")) {
-        return fail(ErrorCode::bad_argument, "{}: a frame is written as .png", options.output);
-    }
-    return check_target(options.output);
+    return check_output_file(options.output, {".png"}, "a frame is written as PNG", options.json);
 }
 
 int run_frame(FrameOptions options) {

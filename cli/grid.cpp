@@ -14,6 +14,7 @@
 #include "cli/grid_mosaic.h"
 #include "cli/grid_notes.h"
 #include "cli/grid_request.h"
+#include "cli/output_file.h"
 #include "cli/stopwatch.h"
 #include "cli/volume_source.h"
 #include "export/grid_netcdf.h"
@@ -98,9 +99,9 @@ Result<Made> grid_by_plan(const SourceVolume& source, const grid::GridSpec& spec
     return made;
 }
 
-Result<Made> grid_file(const std::filesystem::path& path, const GridRequest& request,
+Result<Made> grid_file(const std::string& path, const GridRequest& request,
                        const EffectRequest& effects, Timings& timings) {
-    auto source = load_volume(path, request.moment, request.threads);
+    auto source = load_volume(path, request);
     if (!source) return pass_on(source);
     timings.read_s = source->read_s;
     timings.decode_s = source->decode_s;
@@ -109,7 +110,7 @@ Result<Made> grid_file(const std::filesystem::path& path, const GridRequest& req
     const auto spec = spec_about(request, latitude_deg, longitude_deg);
     if (!spec) return pass_on(spec);
     const auto name_file = [&](const Error& error) -> Result<Made> {
-        return fail(error.code, "{}: {}", path.string(), error.message);
+        return fail(error.code, "{}: {}", path, error.message);
     };
     Made made;
     if (effects.needs_plan()) {
@@ -122,7 +123,7 @@ Result<Made> grid_file(const std::filesystem::path& path, const GridRequest& req
         made.grid = std::move(*grid);
     }
     grid::Provenance& provenance = made.grid.provenance;
-    provenance.source_files = {path.filename().string()};
+    provenance.source_files = {std::filesystem::path{path}.filename().string()};
     provenance.partial = source->partial;
     provenance.notes.insert(provenance.notes.begin(), source->notes.begin(), source->notes.end());
     return made;
@@ -191,40 +192,43 @@ nlohmann::ordered_json describe(const GridOptions& options, const grid::Grid& gr
 }
 
 void print_facts(const GridOptions& options, const grid::Grid& grid, const Timings& timings) {
+    std::FILE* const to = is_stdout(options.output) ? stderr : stdout;
     const auto counts = count_states(grid);
     const auto percent = [&](grid::CellStatus status) {
         return 100.0 * static_cast<double>(counts[static_cast<std::size_t>(status)]) /
                static_cast<double>(grid.status.size());
     };
     const bool in_degrees = grid.spec.projection == grid::Projection::latitude_longitude;
-    fmt::print("{}: {} {} of {}, {} x {} x {} cells at {:g} {}\n", printable(options.output),
+    fmt::print(to, "{}: {} {} of {}, {} x {} x {} cells at {:g} {}\n", printable(options.output),
                printable(fmt::format("{}", fmt::join(grid.provenance.stations, " "))),
                level2::moment_name(grid.moment), format_utc(grid.time), grid.spec.nx, grid.spec.ny,
                grid.spec.nz(), in_degrees ? grid.spec.spacing_deg : grid.spec.spacing_m / 1000,
                in_degrees ? "degrees" : "km");
-    fmt::print(
-        "  {:.1f} % with a value, {:.1f} % no echo, {:.1f} % range folded, {:.1f} % not "
-        "seen\n",
-        percent(grid::CellStatus::value), percent(grid::CellStatus::no_echo),
-        percent(grid::CellStatus::range_folded), percent(grid::CellStatus::not_seen));
+    fmt::print(to,
+               "  {:.1f} % with a value, {:.1f} % no echo, {:.1f} % range folded, {:.1f} % not "
+               "seen\n",
+               percent(grid::CellStatus::value), percent(grid::CellStatus::no_echo),
+               percent(grid::CellStatus::range_folded), percent(grid::CellStatus::not_seen));
     for (const std::string& note : grid.provenance.notes)
-        fmt::print("  note: {}\n", printable(note));
+        fmt::print(to, "  note: {}\n", printable(note));
     fmt::print(
+        to,
         "  read {:.3f} s, decode {:.3f} s, geometry {:.3f} s, grid {:.3f} s, merge {:.3f} s, "
         "write {:.3f} s\n",
         timings.read_s, timings.decode_s, timings.geometry_s, timings.grid_s, timings.merge_s,
         timings.write_s);
 }
 
-Status check_output(const GridOptions& options) {
-    for (const std::string& file : options.files) {
+Status check_output(const GridOptions& options, const InputFiles& inputs) {
+    for (const InputFile& file : inputs.files()) {
         std::error_code ignored;
-        if (std::filesystem::equivalent(file, options.output, ignored)) {
+        if (std::filesystem::equivalent(file.path, options.output, ignored)) {
             return fail(ErrorCode::bad_argument, "{}: is {} itself", options.output,
                         options.files.size() == 1 ? "the volume" : "one of the volumes");
         }
     }
-    return check_target(options.output);
+    return check_output_file(options.output, {".nc", ".nc4"}, "a grid is written as netCDF",
+                             options.json);
 }
 
 Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& mosaic,
@@ -240,11 +244,14 @@ Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& m
     return Made{std::move(made->grid), std::move(made->plan)};
 }
 
-int run_grid(const GridOptions& options, const EffectOptions& effect_options,
+int run_grid(GridOptions options, const EffectOptions& effect_options,
              const MosaicOptions& mosaic_options) {
     Stopwatch total;
-    const auto request = parse_request(options);
+    const auto inputs = find_inputs(options);
+    if (!inputs) return report_error(inputs.error());
+    auto request = parse_request(options);
     if (!request) return report_error(request.error());
+    request->inputs = *inputs;
     const bool is_mosaic = options.files.size() > 1;
     const auto mosaic =
         parse_mosaic(mosaic_options, effect_options, options.files.size(), *request);
@@ -253,19 +260,24 @@ int run_grid(const GridOptions& options, const EffectOptions& effect_options,
                                        is_mosaic ? std::optional(mosaic->overlap) : std::nullopt);
     if (!effects) return report_error(effects.error());
     Timings timings;
-    if (auto writable = check_output(options); !writable) return report_error(writable.error());
+    if (auto writable = check_output(options, **inputs); !writable)
+        return report_error(writable.error());
     const auto made = is_mosaic ? grid_files(options, *mosaic, *request, *effects, timings)
                                 : grid_file(options.files.front(), *request, *effects, timings);
     if (!made) return report_error(made.error());
     if (made->plan && effect_options.explain) {
-        fmt::print(options.json ? stderr : stdout, "{}", accuracy::explain(*made->plan));
+        const bool taken = options.json || is_stdout(options.output);
+        fmt::print(taken ? stderr : stdout, "{}", accuracy::explain(*made->plan));
     }
     if (made->plan && !made->plan->meets_budget) {
         return report_error({ErrorCode::not_found, made->plan->shortfall});
     }
     Stopwatch watch;
-    const auto written = netcdf::write_grid(real_file_system(), options.output, made->grid);
+    auto output = OutputFile::open(options.output);
+    if (!output) return report_error(output.error());
+    const auto written = netcdf::write_grid(real_file_system(), output->path(), made->grid);
     if (!written) return report_error(written.error());
+    if (Status done = output->finish(); !done) return report_error(done.error());
     timings.write_s = watch.lap_s();
     timings.total_s = total.lap_s();
     for (const std::string& note : notes_on(made->grid, *effects))

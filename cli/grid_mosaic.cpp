@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/commands.h"
 #include "cli/stopwatch.h"
 #include "grid/effects.h"
 #include "grid/projection.h"
@@ -15,6 +16,7 @@
 namespace stormcellar::cli {
 namespace {
 
+constexpr std::chrono::milliseconds greatest_gap = pipeline::FrameOptions{}.greatest_gap;
 constexpr double beyond_sites_m = 230'000;  // what a mosaic shows about its outermost sites
 
 // The middle of the box that holds the sites, by the shorter way round the earth.
@@ -70,7 +72,6 @@ pipeline::FrameOptions frame_options(const GridRequest& request, const grid::Mos
     options.overlap = overlap;
     options.overlap.averaging = effects.averaging;
     options.threads = request.threads;
-    if (!request.frame_time) options.greatest_gap = std::chrono::hours{24 * 365 * 100};
     return options;
 }
 
@@ -105,14 +106,31 @@ grid::Grid dense_of(const pipeline::MosaicFrame& frame) {
     return grid;
 }
 
-// Sites whose volumes are all too far from the instant.
-void note_missing(const std::vector<grid::SitePosition>& sites, const grid::Grid& grid,
-                  std::vector<std::string>& notes) {
-    for (const grid::SitePosition& site : sites) {
-        const auto is_it = [&](const grid::SitePosition& used) { return used.icao == site.icao; };
-        if (std::any_of(grid.sites.begin(), grid.sites.end(), is_it)) continue;
-        notes.push_back(fmt::format("{}: no volume within 15 minutes of {}, so it is left out",
-                                    site.icao, format_utc(grid.time)));
+// The time in the middle of what a volume shows.
+std::optional<UtcTime> middle_time(const level2::Volume& volume) {
+    const std::optional<UtcTime> start = volume.start_time();
+    if (!start) return std::nullopt;
+    UtcTime end = *start;
+    for (const level2::Sweep& sweep : volume.sweeps) {
+        for (const level2::Radial& radial : sweep.radials) {
+            if (level2::is_time_of_volume(radial.time, start)) end = std::max(end, radial.time);
+        }
+    }
+    return *start + (end - *start) / 2;
+}
+
+// Volumes that are too far from the instant.
+void note_left_out(const MosaicSources& sources, const grid::Grid& grid,
+                   std::vector<std::string>& notes) {
+    const auto& used = grid.provenance.source_files;
+    for (std::size_t i = 0; i < sources.volumes.size(); ++i) {
+        const std::string file = std::filesystem::path(sources.files[i]).filename().string();
+        if (std::ranges::find(used, file) != used.end()) continue;
+        const auto middle = middle_time(sources.volumes[i].volume);
+        if (!middle || std::chrono::abs(*middle - grid.time) <= greatest_gap) continue;
+        notes.push_back(fmt::format(
+            "{}: {} is left out: its middle, {}, is more than 15 minutes from {}",
+            sources.volumes[i].site.icao, file, format_utc(*middle), format_utc(grid.time)));
     }
 }
 
@@ -120,9 +138,12 @@ void note_missing(const std::vector<grid::SitePosition>& sites, const grid::Grid
 
 Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                    GridRequest request) {
-    const auto center = request.center_deg.value_or(middle_of(sites));
+    if (sites.empty() && !request.center_deg) {
+        return fail(ErrorCode::bad_argument, "no station says where the grid lies: give --center");
+    }
+    const auto center = request.center_deg ? *request.center_deg : middle_of(sites);
     const bool in_km = request.extent_unit == SizeUnit::km && request.spacing_unit == SizeUnit::km;
-    if (!request.extent_given && in_km) {
+    if (!request.extent_given && in_km && !sites.empty()) {
         request.extent = extent_km_of(sites, center, request.spacing);
     }
     return spec_about(request, center[0], center[1]);
@@ -190,13 +211,22 @@ std::size_t MosaicSources::site_count() const {
 Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                   const GridRequest& request) {
     MosaicSources sources;
-    sources.files = files;
     for (const std::string& file : files) {
-        auto source = load_volume(file, request.moment, request.threads);
+        auto source = load_volume(file, request);
+        if (!source && request.inputs && request.inputs->is_found(file) &&
+            is_no_volume(source.error())) {
+            print_note(fmt::format("left out: {}", source.error().message));
+            continue;
+        }
         if (!source) return pass_on(source);
+        sources.files.push_back(file);
         sources.timings.read_s += source->read_s;
         sources.timings.decode_s += source->decode_s;
         sources.volumes.push_back(std::move(*source));
+    }
+    if (sources.volumes.empty()) {
+        return fail(ErrorCode::not_found, "none of the {} files is a Level II volume",
+                    files.size());
     }
     auto spec = mosaic_spec(sites_of(sources.volumes), request);
     if (!spec) return pass_on(spec);
@@ -246,7 +276,7 @@ Result<pipeline::MosaicFrame> frame_plainly(const MosaicSources& sources,
     const auto views = pipeline::views_of(*partials);
     const auto choice = pipeline::mosaic_choice(
         effects.chain, default_of(effects, sources.spec, sources.volumes.front().site));
-    const UtcTime instant = request.frame_time.value_or(pipeline::middle_of_newest(views));
+    const UtcTime instant = request.frame_time.value_or(pipeline::instant_of_newest(views));
     auto frame = pipeline::make_frame(
         sources.spec, views, instant,
         pipeline::with_choice(frame_options(request, overlap, effects), choice), geometries);
@@ -298,7 +328,7 @@ Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files, const Grid
     }
     if (!frame) return made;
     made.grid = dense_of(*frame);
-    note_missing(sites_of(sources->volumes), made.grid, made.grid.provenance.notes);
+    note_left_out(*sources, made.grid, made.grid.provenance.notes);
     return made;
 }
 

@@ -74,7 +74,8 @@ struct MadeMosaic {
 };
 
 // Without --center the middle of the sites, without an extent 230 km beyond them; without --time
-// the middle of what the newest volumes of all sites show, however far they are apart.
+// the middle of what the newest volumes of all sites show, or the newest of them where they lie
+// more than 15 minutes from that middle; notes name what is left out for it.
 [[nodiscard]] Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files,
                                              const GridRequest& request,
                                              const grid::MosaicOptions& overlap,

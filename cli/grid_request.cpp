@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/number_list.h"
+#include "cli/commands.h"
 #include "grid/level_range.h"
 
 namespace stormcellar::cli {
@@ -244,6 +245,15 @@ Status size_in_degrees(const GridRequest& request, grid::GridSpec& spec) {
 
 }  // namespace
 
+Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options) {
+    auto inputs = InputFiles::find(options.files);
+    if (!inputs) return pass_on(inputs);
+    options.files = inputs->labels();
+    for (const std::string& one : inputs->left_out())
+        print_note(fmt::format("left out: {}", one));
+    return std::make_shared<InputFiles>(std::move(*inputs));
+}
+
 Result<GridRequest> parse_request(const GridOptions& options) {
     GridRequest request;
     if (auto done = parse_map(options, request); !done) return pass_on(done);
@@ -256,6 +266,9 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     const auto moment = parse_moment(options.moment);
     if (!moment) return pass_on(moment);
     request.moment = *moment;
+    auto site = parse_site(options.site);
+    if (!site) return pass_on(site);
+    request.site = std::move(*site);
     if (auto done = parse_beside(options, request); !done) return pass_on(done);
     request.threads = options.threads > 0
                           ? options.threads
@@ -291,7 +304,8 @@ Result<grid::GridSpec> spec_about(const GridRequest& request, double center_lati
 
 void add_grid_options(CLI::App& app, GridOptions& options) {
     app.add_option("FILE", options.files,
-                   "Level II files: one, or a mosaic of several sites and times")
+                   "Level II files: one, or a mosaic of several sites and times; also tar and zip "
+                   "archives, directories, and - for standard input")
         ->required();
     app.add_option("-o,--output", options.output, "The netCDF file to write")->required();
     add_spec_options(app, options);
@@ -299,7 +313,8 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
         "--time", options.time,
         "Frame time, ISO 8601. Of one FILE: of sweeps at one elevation the nearest to it is taken, "
         "not the newest, and ages count from it, not from the start of the volume. Of several: the "
-        "instant that all is brought to; else the middle of what the newest volumes show");
+        "instant that all is brought to; else the middle of what the newest volumes show, or the "
+        "newest of them where they are far apart");
     app.add_option(
         "--fields", options.fields,
         "Beside the value, any of age (s), height_offset (m above the nearest beam), "
@@ -334,6 +349,7 @@ void add_place_options(CLI::App& app, GridOptions& options) {
 
 void add_spec_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
+    add_site_options(app, options.site);
     app.add_option("--moment", options.moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
         ->capture_default_str();
     app.add_option("--threads", options.threads,

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "base/utc_time.h"
+#include "cli/input_files.h"
+#include "cli/site_options.h"
 #include "grid/cell_details.h"
 #include "grid/grid_spec.h"
 #include "level2/volume.h"
@@ -30,6 +33,7 @@ struct GridOptions {
     std::string levels_km;
     std::string moment = "REF";
     std::string time, fields;
+    SiteOptions site;
     int threads = 0;  // 0: as many as the machine has
     bool json = false;
 };
@@ -59,8 +63,15 @@ struct GridRequest {
     grid::DetailSet details;            // of one file
     bool site_counts = false;           // of several files
     bool site_weights = false;
+    SiteRequest site;  // of every file
+    // What the files' names stand for; none: each name is one file.
+    std::shared_ptr<InputFiles> inputs;
     int threads = 1;
 };
+
+// The files that were named, and in their places those that archives and directories hold. Errors:
+// those of InputFiles::find().
+[[nodiscard]] Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options);
 
 // Errors: bad_argument, naming the option. With --center, and where the centre does not matter, the
 // spec is checked too.

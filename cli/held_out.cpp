@@ -78,7 +78,7 @@ Result<std::vector<TimedVolume>> sequence_of(MosaicSources sources) {
 }
 
 Result<std::vector<TimedVolume>> load_repeats(const std::string& file, const GridRequest& request) {
-    auto source = load_volume(file, request.moment, request.threads);
+    auto source = load_volume(file, request);
     if (!source) return pass_on(source);
     std::vector<TimedVolume> sequence;
     for (const std::size_t index : lowest_sweeps(source->volume, source->site, request.moment)) {

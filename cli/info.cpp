@@ -11,9 +11,14 @@
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "cli/commands.h"
+#include "cli/input_files.h"
+#include "cli/output_file.h"
+#include "cli/query_options.h"
+#include "cli/site_options.h"
 #include "cli/volume_export.h"
 #include "level2/chunk_directory.h"
 #include "level2/describe.h"
+#include "level2/volume_checks.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -24,6 +29,7 @@ struct InfoOptions {
     int threads = 0;  // 0: as many as the machine has
     std::string to;   // CfRadial file to write; empty: none
     int volume = 0;   // of the file, from 1; 0: its only one
+    SiteOptions site;
 };
 
 std::string_view vcp_source_text(level2::VcpSource source) {
@@ -108,6 +114,16 @@ void print_problems(const level2::DecodeReport& report) {
     }
 }
 
+// Of a file that holds several.
+void print_volumes(const std::vector<level2::VolumePart>& parts) {
+    if (parts.size() < 2) return;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        fmt::print("  volume {:<2} from sweep {} on, {} {}; {}\n", i + 1, parts[i].first_sweep,
+                   parts[i].sweeps, plural(parts[i].sweeps, "sweep"),
+                   parts[i].complete ? "complete" : "partial");
+    }
+}
+
 void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) {
     const level2::Volume& volume = decoded.volume;
     const level2::DecodeReport& report = decoded.report;
@@ -126,12 +142,10 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
     if (report.rda_status && report.rda_status->build) {
         fmt::print("  RDA       build {:.2f}\n", *report.rda_status->build);
     }
-    const std::size_t volumes = report.further_volume_starts.size() + 1;
-    fmt::print("  holds     {} {}, {} {}{}; {}\n", volume.sweeps.size(),
+    fmt::print("  holds     {} {}, {} {}; {}\n", volume.sweeps.size(),
                plural(volume.sweeps.size(), "sweep"), volume.radial_count(),
-               plural(volume.radial_count(), "radial"),
-               volumes > 1 ? fmt::format(", {} volumes", volumes) : std::string{},
-               report.complete ? "complete" : "partial");
+               plural(volume.radial_count(), "radial"), report.complete ? "complete" : "partial");
+    print_volumes(level2::volumes_in(decoded));
     if (!volume.sweeps.empty()) print_sweeps(decoded);
     print_problems(report);
 }
@@ -158,7 +172,7 @@ Status check_output(const InfoOptions& options) {
     if (std::filesystem::equivalent(options.file, options.to, ignored)) {
         return fail(ErrorCode::bad_argument, "{}: is the volume itself", options.to);
     }
-    return check_target(options.to);
+    return check_output_file(options.to, {".nc", ".nc4"}, "CfRadial is netCDF", options.json);
 }
 
 // Which volume of the file is to be written, from 0.
@@ -176,43 +190,94 @@ Result<std::size_t> chosen_volume(const InfoOptions& options, std::size_t count)
     return number - 1;
 }
 
-Status write_chosen(const InfoOptions& options, level2::Decoded decoded) {
+Status write_chosen(const InfoOptions& options, const std::string& source,
+                    level2::Decoded decoded) {
     const level2::DecodeReport report = decoded.report;
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     const auto chosen = chosen_volume(options, volumes.size());
     if (!chosen) return pass_on(chosen);
-    return export_volume(volumes, *chosen, report, options.file, options.to);
+    auto output = OutputFile::open(options.to);
+    if (!output) return pass_on(output);
+    Status written = export_volume(volumes, *chosen, report, source, output->path());
+    return written ? output->finish() : written;
 }
 
-int run_info(const InfoOptions& options) {
-    if (const Status good = check_output(options); !good) return report_error(good.error());
+Result<nlohmann::ordered_json> run_one(const InfoOptions& options, InputFiles& inputs,
+                                       const InputFile& file, const SiteRequest& site) {
     level2::DecodeOptions decode_options;
     decode_options.threads =
         options.threads > 0 ? options.threads
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    const std::filesystem::path path{options.file};
-    auto decoded = level2::decode_path(path, decode_options);
-    if (!decoded) return report_error(decoded.error());
-    const level2::FileFacts file{path.filename().string(), size_of(path)};
-    auto json = options.json ? level2::describe(*decoded, file) : nlohmann::ordered_json{};
+    std::uint64_t size = 0;
+    auto decoded = inputs.decode(file, decode_options, &size);
+    if (!decoded) return pass_on(decoded);
+    if (Status applied = apply_site(site, decoded->volume); !applied) return pass_on(applied);
+    if (size == 0) size = size_of(file.path);
+    const level2::FileFacts facts{file.file_name(), size};
+    auto json = options.json ? level2::describe(*decoded, facts) : nlohmann::ordered_json{};
     if (!options.to.empty()) {
         const std::size_t count = decoded->report.further_volume_starts.size() + 1;
-        if (const auto chosen = chosen_volume(options, count); !chosen) {
-            return report_error(chosen.error());
+        if (const auto chosen = chosen_volume(options, count); !chosen) return pass_on(chosen);
+    }
+    const bool is_taken = options.json || is_stdout(options.to);
+    if (!is_taken) print_facts(*decoded, facts);
+    if (!options.to.empty()) {
+        const Status written = write_chosen(options, file.file_name(), std::move(*decoded));
+        if (!written) return pass_on(written);
+        json["written"] = options.to;
+        if (!is_taken) fmt::print("\n{}: written as CfRadial\n", printable(options.to));
+    }
+    return json;
+}
+
+int run_info(const InfoOptions& options) {
+    if (const Status good = check_output(options); !good) return report_error(good.error());
+    const auto site = parse_site(options.site);
+    if (!site) return report_error(site.error());
+    auto inputs = InputFiles::find({options.file});
+    if (!inputs) return report_error(inputs.error());
+    for (const std::string& one : inputs->left_out())
+        print_note(fmt::format("left out: {}", one));
+    const auto& files = inputs->files();
+    if (!options.to.empty() && files.size() > 1) {
+        return report_error({ErrorCode::bad_argument,
+                             fmt::format("{}: holds {} files: name one of them, as in {}",
+                                         options.file, files.size(), files.front().label)});
+    }
+    nlohmann::ordered_json document;
+    int status = exit_done;
+    bool any = false;
+    std::vector<std::string> no_volumes;
+    for (const InputFile& file : files) {
+        if (any && !options.json) fmt::print("\n");
+        auto json = run_one(options, *inputs, file, *site);
+        if (!json && file.was_found && is_no_volume(json.error())) {
+            no_volumes.push_back(json.error().message);
+            continue;
+        }
+        if (!json) {
+            status = report_error(json.error());
+            continue;
+        }
+        any = true;
+        if (files.size() == 1) {
+            document = std::move(*json);
+        } else {
+            document.push_back(std::move(*json));
         }
     }
-    if (!options.json) print_facts(*decoded, file);
-    if (!options.to.empty()) {
-        const Status written = write_chosen(options, std::move(*decoded));
-        if (!written) return report_error(written.error());
-        json["written"] = options.to;
-        if (!options.json) fmt::print("\n{}: written as CfRadial\n", printable(options.to));
-    }
-    if (options.json) {
+    if (options.json && any) {
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        fmt::print("{}\n", json.dump(1, ' ', true, replace));
+        fmt::print("{}\n", document.dump(1, ' ', true, replace));
     }
-    return exit_done;
+    if (!any && status == exit_done) {
+        return report_error({ErrorCode::not_level2,
+                             fmt::format("{}: none of its {} {} is a Level II file", options.file,
+                                         files.size(), plural(files.size(), "file"))});
+    }
+    for (const std::string& one : no_volumes)
+        print_note(fmt::format("left out: {}", one));
+    return status;
 }
 
 }  // namespace
@@ -220,8 +285,10 @@ int run_info(const InfoOptions& options) {
 Command add_info(CLI::App& app) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* info = app.add_subcommand("info", "Decode a Level II file and describe it");
-    info->add_option("FILE", options->file,
-                     "The file, or a directory of chunks; what it is, is found by content")
+    info->add_option(
+            "FILE", options->file,
+            "The file, or a directory of chunks; what it is, is found by content. Of a tar or "
+            "zip archive, or of a directory of files, each file; - is standard input")
         ->required();
     info->add_flag("--json", options->json, "One JSON document");
     CLI::Option* to = info->add_option("--to", options->to,
@@ -229,6 +296,7 @@ Command add_info(CLI::App& app) {
     info->add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
         ->check(CLI::Range(1, 1000))
         ->needs(to);
+    add_site_options(*info, options->site);
     info->add_option("--threads", options->threads, "Threads to decompress with")
         ->check(CLI::Range(1, 256));
     return {info, [options] { return run_info(*options); }};

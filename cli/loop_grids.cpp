@@ -117,6 +117,12 @@ Status take_from_cache(const LoopOptions& options, const render::Scene& scene, L
     if (!store) return pass_on(store);
     auto entries = store->list(options.domain, scene.moment, grids.range.from, grids.range.to);
     if (!entries) return pass_on(entries);
+    if (!grids.range.to && !entries->empty()) {
+        const UtcTime now = now_utc();
+        cache::leave_out_future(*entries, now);
+        warn_of_future(entries->back().time);
+        if (is_believed(entries->back().time, now)) grids.range.to = now + tolerated_future;
+    }
     grids.domain = options.domain;
     set_frames(*entries, grids);
     if (grids.frames.empty()) {
@@ -143,6 +149,7 @@ Result<std::vector<cache::StoreEntry>> entries_now(const cache::Store& store,
     const auto range = parse_time_range(options.range);
     if (!range) return pass_on(range);
     auto entries = store.list(options.domain, moment, range->from, range->to);
+    if (entries && !range->to) cache::leave_out_future(*entries, now_utc());
     if (entries && options.last > 0 && entries->size() > options.last) {
         entries->erase(entries->begin(),
                        entries->end() - static_cast<std::ptrdiff_t>(options.last));

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array all_commands{
     // Sorted by name, as --help shows them.
-    add_accuracy, add_cache, add_catalog, add_frame,  add_grid,
+    add_accuracy, add_cache, add_catalog, add_fetch,  add_frame, add_grid,
     add_info,     add_loop,  add_replay,  add_status, add_synth,
 };
 

@@ -31,6 +31,11 @@ void Progress::show(std::size_t done) {
     std::fflush(stderr);
 }
 
+void Progress::show(std::size_t done, std::size_t total) {
+    total_ = total;
+    show(done);
+}
+
 void Progress::clear() {
     if (!shown_) return;
     fmt::print(stderr, "\r\x1B[K");

@@ -14,6 +14,8 @@ class Progress {
     ~Progress();  // takes the bar away
 
     void show(std::size_t done);
+    // With another total, which may grow while it is found out.
+    void show(std::size_t done, std::size_t total);
     void clear();  // before another message is printed
 
   private:

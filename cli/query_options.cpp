@@ -38,6 +38,14 @@ void print_json(const nlohmann::json& document) {
     fmt::print("{}\n", document.dump(2, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
+void warn_of_future(UtcTime newest) {
+    if (is_believed(newest, now_utc())) return;
+    fmt::print(stderr,
+               "stormcellar: warning: the newest is of {}, which lies in the future: the clock of "
+               "the radar or of this machine is wrong\n",
+               format_utc(newest));
+}
+
 int report_nothing_matched() {
     fmt::print(stderr, "stormcellar: nothing matched\n");
     return exit_nothing_matched;

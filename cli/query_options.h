@@ -33,6 +33,9 @@ struct TimeRange {
 // become U+FFFD.
 void print_json(const nlohmann::json& document);
 
+// Warns on stderr of what is shown as the newest and lies in the future (is_believed()).
+void warn_of_future(UtcTime newest);
+
 // Says so on stderr; gives the exit status.
 int report_nothing_matched();
 

@@ -50,7 +50,7 @@ Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
     if (!partials) return pass_on(partials);
     const std::vector<pipeline::PartialView> views = pipeline::views_of(*partials);
     SitePairs compared;
-    compared.instant = request.frame_time.value_or(pipeline::middle_of_newest(views));
+    compared.instant = request.frame_time.value_or(pipeline::instant_of_newest(views));
     const auto looks = pipeline::looks_about(views, compared.instant);
     if (looks.size() < 2) {
         return fail(ErrorCode::bad_argument, "--compare-sites takes files of two sites or more");

@@ -120,6 +120,20 @@ std::string retrying_of(const json& pending) {
     return retrying == 0 ? std::string{} : fmt::format(", {} to be tried again", retrying);
 }
 
+std::string lone_chunks_line(const json& status) {
+    const auto files = count(status, "lone_chunks");
+    if (files == 0) return {};
+    return fmt::format(
+        "chunks   {} {} like one chunk of a volume; to be put together, chunks need names with "
+        "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key\n",
+        counted(files, "file"), files == 1 ? "looks" : "look");
+}
+
+std::string not_kept_of(const json& status) {
+    const auto files = count(status, "not_kept");
+    return files == 0 ? std::string{} : fmt::format(", {} not kept by the cache's limits", files);
+}
+
 std::string counts_lines(const json& status) {
     const json& pending = at(status, "pending");
     std::string lines = fmt::format(
@@ -127,12 +141,19 @@ std::string counts_lines(const json& status) {
         count(pending, "waiting"), wait_of(pending), count(pending, "running"),
         count(pending, "growing"), retrying_of(pending),
         counted(count(status, "overflows"), "overflow"), counted(count(status, "scans"), "scan"));
+    for (const json& file : at(pending, "waiting_files")) {
+        lines += fmt::format(
+            "waits    {}: its volume has no end yet; taken in as it is in {:.0f} s, unless more "
+            "comes\n",
+            text(file, "file"), number(file, "left_s").value_or(0));
+    }
     lines += fmt::format(
-        "files    {} gridded ({} partial), {}, {} with nothing to grid, {}\n",
-        count(status, "ingested"), count(status, "partial"),
+        "files    {} gridded ({} partial){}, {}, {} with nothing to grid, {}\n",
+        count(status, "ingested"), count(status, "partial"), not_kept_of(status),
         with_kinds(status, "rejected", "rejected_by"),
         count(status, "no_moment") + count(status, "no_position") + count(status, "other_station"),
         with_kinds(status, "failures", "failures_by"));
+    lines += lone_chunks_line(status);
     const json& latency = at(status, "latency_s");
     lines += fmt::format("close to cache    {} ({})\n", summary(latency),
                          counted(count(latency, "count"), "file"));

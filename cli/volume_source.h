@@ -1,11 +1,11 @@
 // cli/volume_source.h -- a Level II file as the commands that grid it want it.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "cli/grid_request.h"
 #include "grid/grid.h"
 #include "level2/volume.h"
 
@@ -19,10 +19,9 @@ struct SourceVolume {
     double read_s = 0, decode_s = 0;
 };
 
-// Of a file, or of a directory of chunks: the first volume that holds the moment, that moment
-// alone. Errors name the file: those of reading and decoding; not_found where nobody knows where
-// the radar stands.
-[[nodiscard]] Result<SourceVolume> load_volume(const std::filesystem::path& path,
-                                               level2::Moment moment, int threads);
+// Of one of the request's inputs: the first volume that holds the moment, that moment
+// alone. Errors name the file: those of reading and decoding, and of apply_site(); not_found where
+// nobody knows where the radar stands.
+[[nodiscard]] Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request);
 
 }  // namespace stormcellar::cli

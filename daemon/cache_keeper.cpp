@@ -46,10 +46,11 @@ CacheRolled CacheKeeper::roll(const cache::Budgets& budgets) {
 
 void CacheKeeper::log(const CacheRolled& rolled, SteadyTime now) {
     if (rolled.report.evicted > 0 && rolled.usage) {
-        log_info({Event::cache_rolled}, "cache: {} went ({}), {} left ({})",
+        log_info({Event::cache_rolled},
+                 "cache: removed {} ({}) that its limits no longer keep; {} remain ({})",
                  counted(static_cast<std::uint64_t>(rolled.report.evicted), "grid"),
-                 format_byte_size(rolled.report.evicted_bytes), rolled.usage->grids,
-                 format_byte_size(rolled.usage->bytes));
+                 format_byte_size(rolled.report.evicted_bytes),
+                 counted(rolled.usage->grids, "grid"), format_byte_size(rolled.usage->bytes));
     }
     if (rolled.report.problems.empty()) {
         next_reminder_ = {};

@@ -116,6 +116,20 @@ std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& lo
     return due;
 }
 
+std::vector<GrowingFiles::Wait> GrowingFiles::waits(SteadyTime now, std::size_t most) const {
+    std::vector<Wait> waits;
+    for (const auto& [path, file] : files_) {
+        if (!file.incomplete || file.last != file.looked_at) continue;
+        const Duration quiet = file.followed ? patience * quiet_ : quiet_;
+        waits.push_back({path, std::max(Duration{}, file.changed_at + quiet - now)});
+    }
+    const auto count = static_cast<std::ptrdiff_t>(std::min(most, waits.size()));
+    std::partial_sort(waits.begin(), waits.begin() + count, waits.end(),
+                      [](const Wait& a, const Wait& b) { return a.left < b.left; });
+    waits.resize(static_cast<std::size_t>(count));
+    return waits;
+}
+
 std::optional<SteadyTime> GrowingFiles::next_time() const {
     if (files_.empty()) return std::nullopt;
     return next_poll_;

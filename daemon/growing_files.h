@@ -69,6 +69,14 @@ class GrowingFiles {
     using Look = std::function<FileFound(const std::filesystem::path&)>;
     std::vector<Due> poll(SteadyTime now, const Look& look);
 
+    // Files whose volume has no end and to which nothing comes: how long until each is taken in as
+    // it is. At most so many, the soonest first.
+    struct Wait {
+        std::string file;
+        Duration left{};
+    };
+    [[nodiscard]] std::vector<Wait> waits(SteadyTime now, std::size_t most) const;
+
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     [[nodiscard]] bool contains(const std::filesystem::path& path) const {
         return files_.contains(path.native());

@@ -86,6 +86,9 @@ class Intake final : public WatchListener {
     // When there is something to do: growing files to poll and, if a job can start, a job.
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
     [[nodiscard]] Pending pending() const;
+    [[nodiscard]] std::vector<GrowingFiles::Wait> growing_waits(std::size_t most) const {
+        return growing_.waits(clock_.steady(), most);
+    }
     // How long the job that has waited for longest has been able to run.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
     // How often the kernel dropped events, since the last call.

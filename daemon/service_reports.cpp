@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1},
     between_loops_looks{5}, between_catalog_looks{1}, behind_after{20};
+constexpr std::size_t most_waits_named = 5;  // in the status
 
 }  // namespace
 
@@ -66,6 +67,11 @@ void Service::report_backlog(SteadyTime now) {
     next_backlog_ = now + between_backlog_looks;
     const auto wait = intake_.longest_wait();
     status_.set_longest_wait(std::chrono::duration<double>(wait).count());
+    std::vector<WaitingFile> growing;
+    for (const GrowingFiles::Wait& one : intake_.growing_waits(most_waits_named)) {
+        growing.push_back({printable(one.file), std::chrono::duration<double>(one.left).count()});
+    }
+    status_.set_waiting_files(std::move(growing));
     const std::size_t waiting = intake_.pending().waiting;
     if (wait >= behind_after) {
         if (!is_behind_ || now >= next_behind_line_) {

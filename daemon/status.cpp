@@ -50,6 +50,7 @@ bool StatusBook::add(const Finished& finished, UtcTime at) {
     ++facts_.results.at(index_of(outcome.result));
     facts_.living_left_out += outcome.living_left_out ? 1 : 0;
     facts_.given_up += outcome.given_up;
+    facts_.lone_chunks += outcome.lone_chunk && outcome.result != IngestResult::incomplete ? 1 : 0;
     facts_.stations.add(outcome, latency_of(finished), at);
     if (!outcome.missing_chunks.empty()) {
         facts_.stations.add_missing_chunks(outcome.station,
@@ -71,6 +72,11 @@ void StatusBook::add(pipeline::PairReport report) {
 
 void StatusBook::add_ingested(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
+    // What the cache let go at once was not gridded for anybody.
+    if (outcome.grids.empty() && outcome.partials.empty() && outcome.not_kept > 0) {
+        ++facts_.not_kept;
+        return;
+    }
     ++facts_.ingested;
     facts_.grids += outcome.grids.size();
     if (outcome.partial) ++facts_.partial;

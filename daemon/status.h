@@ -43,6 +43,12 @@ struct RecentVolume {
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
 };
 
+// Of a volume without an end, to which nothing comes.
+struct WaitingFile {
+    std::string file;
+    double left_s = 0;  // until it is taken in as it is
+};
+
 struct RejectedFile {
     std::string file, station, reason;
     std::string_view code;
@@ -62,7 +68,10 @@ struct StatusFacts {
     std::uint64_t overflows = 0, scans = 0;
     std::uint64_t unseen = 0;  // what could not be looked at when an event told of it
     std::size_t directories = 0;
-    double longest_wait_s = 0;          // of the files that wait
+    double longest_wait_s = 0;               // of the files that wait
+    std::vector<WaitingFile> waiting_files;  // of the growing ones, the soonest first
+    std::uint64_t lone_chunks = 0;  // files that look like one chunk, and are not named like one
+    std::uint64_t not_kept = 0;     // files of which the cache's limits keep nothing
     std::uint64_t living_left_out = 0;  // living grids, for want of time
     std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
     std::optional<cache::StoreUsage> usage;
@@ -90,6 +99,9 @@ class StatusBook {
     void count_overflow() { ++facts_.overflows; }
     void count_unseen(std::uint64_t count) { facts_.unseen += count; }
     void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
+    void set_waiting_files(std::vector<WaitingFile> files) {
+        facts_.waiting_files = std::move(files);
+    }
     void count_scan() { ++facts_.scans; }
     void set_directories(std::size_t watched) { facts_.directories = watched; }
     void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }

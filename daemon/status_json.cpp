@@ -189,6 +189,13 @@ Json listening_of(const StatusFacts& facts) {
     return {{"socket", socket}, {"http_port", port}};
 }
 
+Json waiting_files_of(const StatusFacts& facts) {
+    Json files = Json::array();
+    for (const WaitingFile& file : facts.waiting_files)
+        files.push_back({{"file", file.file}, {"left_s", file.left_s}});
+    return files;
+}
+
 Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
     const auto count = [&](IngestResult result) { return facts.results.at(index_of(result)); };
     return {{"state", facts.state},
@@ -206,6 +213,8 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
             {"partial", facts.partial},
             {"rejected", count(IngestResult::rejected)},
             {"rejected_by", json_of(facts.rejected)},
+            {"not_kept", facts.not_kept},
+            {"lone_chunks", facts.lone_chunks},
             {"no_moment", count(IngestResult::no_moment)},
             {"no_position", count(IngestResult::no_position)},
             {"other_station", count(IngestResult::other_station)},
@@ -218,7 +227,8 @@ Json counts_of(const StatusFacts& facts, const Pending& pending, UtcTime now) {
               {"running", pending.running},
               {"growing", pending.growing},
               {"retrying", pending.retrying},
-              {"longest_wait_s", facts.longest_wait_s}}},
+              {"longest_wait_s", facts.longest_wait_s},
+              {"waiting_files", waiting_files_of(facts)}}},
             {"overflows", facts.overflows},
             {"unseen", facts.unseen},
             {"living_left_out", facts.living_left_out},

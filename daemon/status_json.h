@@ -16,7 +16,11 @@
 //   rejected_by    {"corrupt": 3, ...}: what was wrong; only what occurred
 //   failures       attempts that failed because the catalog or the cache could not be written
 //   failures_by    {"no_space": 2, ...}
-//   pending        {"waiting","running","growing"}: files; all zero when everything is done
+//   lone_chunks    files that look like one chunk of a volume and are not named like one
+//   not_kept       files whose volumes the cache's limits did not keep: of these nothing stands
+//   pending        {"waiting","running","growing"}: files; all zero when everything is done;
+//                  "waiting_files": of growing ones whose volume has no end, [{"file","left_s"}]:
+//                  how long until it is taken in as it is, unless more comes; the 5 soonest
 //   overflows, unseen, scans, directories
 //   rolling        the cache's account, null until it was first looked at:
 //   {"grids","pinned","bytes",

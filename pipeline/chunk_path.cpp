@@ -19,21 +19,11 @@ constexpr std::size_t most_siblings = 2000;
 // The key has all of the name but the chunk's number and kind.
 std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
     const std::string file = path.filename().string();
-    auto name = level2::parse_chunk_name(file);
-    if (!name) return std::nullopt;
-    for (std::size_t at = file.find(name->volume); at != std::string::npos;
-         at = file.find(name->volume, at + 1)) {
-        const std::size_t number = at + name->volume.size() + 1;
-        const std::size_t kind = file.find('-', number);
-        const bool is_it = kind != std::string::npos && kind + 1 < file.size() &&
-                           file[number - 1] == '-' &&
-                           level2::parse_chunk_name(file.substr(at, kind + 2 - at)) == name;
-        if (!is_it) continue;
-        std::string prefix = file.substr(0, number);
-        std::string key = (path.parent_path() / (prefix + file.substr(kind + 2))).native();
-        return ChunkPath{path, std::move(prefix), std::move(key), std::move(*name)};
-    }
-    return std::nullopt;
+    auto placed = level2::place_chunk_name(file);
+    if (!placed) return std::nullopt;
+    std::string prefix = file.substr(0, placed->number_at);
+    std::string key = (path.parent_path() / (prefix + file.substr(placed->behind))).native();
+    return ChunkPath{path, std::move(prefix), std::move(key), std::move(placed->name)};
 }
 
 Result<std::vector<ChunkPath>> chunks_beside(const ChunkPath& chunk, const fs::path& beneath) {

@@ -17,8 +17,7 @@ bool is_temporary_name(std::string_view name) {
 }
 
 std::string station_of_file_name(const std::filesystem::path& path) {
-    const std::string name = path.filename().string().substr(0, 4);
-    return find_station(name) ? name : std::string{};
+    return station_in_name(path.filename().string());
 }
 
 std::string station_of_path(const std::filesystem::path& path) {

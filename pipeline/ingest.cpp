@@ -56,6 +56,19 @@ std::string of_other_station(const std::string& station, const std::string& reas
     return reason.empty() ? text : text + "; " + reason;
 }
 
+// A radar's record holds 120 radials at most.
+constexpr std::size_t most_radials_of_a_chunk = 120;
+
+bool is_lone_chunk(const level2::Decoded& decoded) {
+    return !decoded.volume.header && decoded.report.ldm_records == 1U &&
+           !decoded.volume.sweeps.empty() &&
+           decoded.volume.radial_count() <= most_radials_of_a_chunk;
+}
+
+constexpr std::string_view lone_chunk_text =
+    "looks like one chunk of a volume: chunks are put together where their names hold "
+    "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key";
+
 // A chunk has it in the names of its directories, if at all.
 std::string station_of_name(const fs::path& path) {
     return is_chunk_name(path) ? station_of_path(path) : station_of_file_name(path);
@@ -226,8 +239,13 @@ Result<IngestOutcome> Ingestor::Impl::grid_all(const FileFacts& facts,
 Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded decoded,
                                               bool finish_partial, IngestOutcome outcome) {
     facts.reason = reason_of(decoded.report);
+    outcome.lone_chunk = is_lone_chunk(decoded);
+    if (outcome.lone_chunk) {
+        facts.reason =
+            fmt::format("{}{}{}", lone_chunk_text, facts.reason.empty() ? "" : "; ", facts.reason);
+    }
     const bool complete = decoded.report.complete;
-    Reading reading{decoded.report.bytes_dropped > 0, {}};
+    Reading reading{decoded.report.damaged, {}};
     if (decoded.report.rda_status) {
         reading.troubles = level2::rda_troubles(*decoded.report.rda_status);
     }
@@ -238,7 +256,8 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         return reject(facts, {ErrorCode::unsupported, reason}, std::move(outcome));
     }
     for (const level2::Volume& volume : volumes) {
-        facts.volumes.push_back(facts_of(volume));
+        if (volume.radial_count() == 0) continue;  // metadata alone are no volume
+        facts.volumes.push_back(facts_of(volume, reading.damaged));
         outcome.newest_radial = std::max(outcome.newest_radial, facts.volumes.back().end_time);
     }
     for (const level2::Volume& volume : volumes)
@@ -260,6 +279,11 @@ Result<IngestOutcome> Ingestor::Impl::take_in(FileFacts facts, level2::Decoded d
         return outcome;
     }
     facts.state = complete ? FileState::complete : FileState::partial;
+    if (facts.volumes.empty()) {
+        outcome.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
+        if (Status stored = record(facts); !stored) return pass_on(stored);
+        return outcome;
+    }
     return grid_all(facts, volumes, reading, std::move(outcome));
 }
 

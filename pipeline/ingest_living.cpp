@@ -92,7 +92,7 @@ Result<IngestOutcome> Ingestor::Impl::show_file(const FileFacts& file, LivingFil
     facts.station = kept.facts.station;
     facts.content_hash = living_file.content_hash();
     facts.state = FileState::seen;
-    catalog::VolumeFacts volume_facts = facts_of(kept.facts);
+    catalog::VolumeFacts volume_facts = facts_of(kept.facts, false);
     volume_facts.sweep_count = static_cast<int>(kept.places.size());
     volume_facts.radial_count = static_cast<int>(living_file.radials());
     volume_facts.end_time = living_file.newest();

@@ -38,6 +38,8 @@ struct IngestOutcome {
     bool followed = false;  // incomplete: what is appended will be read without the rest
     // Incomplete or registered: its volume is followed, and a sweep of it has closed.
     bool goes_on = false;
+    // It looks like one chunk of a volume, and its name is none that chunks are put together by.
+    bool lone_chunk = false;
     bool partial = false;  // gridded: some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic_keeper.h)

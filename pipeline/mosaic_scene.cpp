@@ -52,7 +52,8 @@ std::vector<PartialView> views_of(const std::vector<MadePartial>& partials) {
     return views;
 }
 
-UtcTime middle_of_newest(std::span<const PartialView> partials) {
+UtcTime instant_of_newest(std::span<const PartialView> partials,
+                          std::chrono::milliseconds greatest_gap) {
     std::map<std::string, UtcTime> newest;
     for (const PartialView& partial : partials) {
         UtcTime& time = newest[partial.site().icao];
@@ -61,7 +62,8 @@ UtcTime middle_of_newest(std::span<const PartialView> partials) {
     const auto [first, last] =
         std::minmax_element(newest.begin(), newest.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; });
-    return first->second + (last->second - first->second) / 2;
+    const auto half = (last->second - first->second) / 2;
+    return half <= greatest_gap ? first->second + half : last->second;
 }
 
 Result<MosaicScene> MosaicScene::make(std::vector<SceneVolume> volumes,
@@ -85,7 +87,7 @@ Result<MosaicScene> MosaicScene::make(std::vector<SceneVolume> volumes,
 Status MosaicScene::keep_what_is_near(std::vector<SceneVolume> volumes,
                                       std::vector<MadePartial> partials) {
     const auto all = views_of(partials);
-    instant_ = options_.instant.value_or(middle_of_newest(all));
+    instant_ = options_.instant.value_or(instant_of_newest(all));
     std::set<std::size_t> used;
     for (const Bracket& bracket : brackets_of(all, instant_, options_.frame.greatest_gap)) {
         if (bracket.before) used.insert(*bracket.before);

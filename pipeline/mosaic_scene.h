@@ -37,13 +37,17 @@ struct SceneVolume {
 
 [[nodiscard]] std::vector<PartialView> views_of(const std::vector<MadePartial>& partials);
 
-// The middle of the newest partials' middles, the earliest and the latest of all sites counting.
-[[nodiscard]] UtcTime middle_of_newest(std::span<const PartialView> partials);
+// The instant that a mosaic of these is of: the middle between the earliest and the latest of the
+// sites' newest partials, by their middles. Where these do not all lie within `greatest_gap` of it,
+// the newest one's middle: what is far apart in time does not blend.
+[[nodiscard]] UtcTime instant_of_newest(
+    std::span<const PartialView> partials,
+    std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap);
 
 struct MosaicSceneOptions {
     FrameOptions frame;      // time, sweeps and motions are the choice's and the scene's own
     PartialOptions partial;  // likewise method, frame and quantisation
-    // None: middle_of_newest().
+    // None: instant_of_newest().
     std::optional<UtcTime> instant = std::nullopt;
 };
 

@@ -35,8 +35,7 @@ void read_start(ReplayItem& item) {
         item.station = header->icao;
         item.number = header->volume_number();
     }
-    const std::string in_name = item.name.filename().string().substr(0, 4);
-    if (item.station.empty() && find_station(in_name)) item.station = in_name;
+    if (item.station.empty()) item.station = station_in_name(item.name.filename().string());
 }
 
 Result<std::vector<ReplayItem>> items_of(const fs::path& source) {

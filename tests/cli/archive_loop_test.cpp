@@ -81,7 +81,7 @@ TEST_F(ArchiveLoop, ASecondRunTakesTheGridsThatStandAndWritesTheSameFile) {
     EXPECT_EQ(found["grids_made"], 0);
     EXPECT_EQ(found["grids_found"], 5);
     EXPECT_EQ(*read_file(out()), bytes);
-    EXPECT_THAT(second.err, HasSubstr("5 stand in"));
+    EXPECT_THAT(second.err, HasSubstr("the grids of 5 are in"));
     EXPECT_THAT(second.err, HasSubstr("the grids stay in"));
 }
 
@@ -220,13 +220,13 @@ TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
     };
     const auto first = at("10min");
     ASSERT_EQ(first.status, 0) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("0 stand in"));
+    EXPECT_THAT(first.err, HasSubstr("the grids of 0 are in"));
     EXPECT_THAT(first.err, ::testing::ContainsRegex("and [1-9][0-9]? mosaics to make"));
     const auto finer = at("5min");
     ASSERT_EQ(finer.status, 0) << finer.err;
-    EXPECT_THAT(finer.err, HasSubstr("5 stand in"));
+    EXPECT_THAT(finer.err, HasSubstr("the grids of 5 are in"));
     EXPECT_THAT(finer.err,
-                ::testing::ContainsRegex("0 to read .* and [1-9][0-9]? mosaics to make"));
+                ::testing::ContainsRegex("0 must be read .* and [1-9][0-9]? mosaics to make"));
 }
 
 TEST_F(ArchiveLoop, AGridWhoseFileBrokeSinceStaysAndThatIsSaid) {

@@ -89,7 +89,8 @@ TEST(StatusBook, CountsEachEnd) {
                                                  {"running", 2},
                                                  {"growing", 1},
                                                  {"retrying", 0},
-                                                 {"longest_wait_s", 7.5}}));
+                                                 {"longest_wait_s", 7.5},
+                                                 {"waiting_files", nlohmann::json::array()}}));
     EXPECT_EQ(status["living_left_out"], 1);
     EXPECT_EQ(status["growing_given_up"], 3);
     EXPECT_EQ(status["latency_s"]["count"], 3);

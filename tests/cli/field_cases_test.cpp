@@ -1,0 +1,235 @@
+// Small inputs that failed once (../shared/data/cases), each against what its README calls right.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file_system.h"
+#include "tests/cli/run_stormcellar.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ProgramResult;
+
+class FieldCases : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        STORMCELLAR_NEED_DATA();
+        cases_ = *testing::data_directory() / "cases";
+        fs::create_directory(directory_ / "catalog");
+        if (!fs::exists(cases_)) GTEST_SKIP() << "no cases beside the real volumes";
+    }
+    [[nodiscard]] std::string in(const std::string& name) const { return (cases_ / name).string(); }
+    [[nodiscard]] std::string out(const std::string& name) const {
+        return (directory_ / name).string();
+    }
+    nlohmann::json json_of(const std::vector<std::string>& arguments) {
+        const ProgramResult ran = run(arguments);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        errors_ = ran.err;
+        return nlohmann::json::parse(ran.out, nullptr, false);
+    }
+    nlohmann::json info(const std::string& file, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"info", file, "--json"});
+        return json_of(more);
+    }
+
+    fs::path cases_;
+    testing::TemporaryDirectory directory_;
+    std::string errors_;
+};
+
+TEST_F(FieldCases, RadialsMayNameTheirStationInLowerCase) {
+    const auto lower = info(in("0-lower-case-station/klbb_chunk"));
+    auto whole = info((*testing::data_directory() / "volumes/Level2_KLBB_single_chunk").string());
+    EXPECT_EQ(lower["n_radials"], 120);
+    EXPECT_EQ(lower["site"], "KLBB");
+    EXPECT_EQ(lower["sweeps"], whole["sweeps"]);
+}
+
+TEST_F(FieldCases, AMosaicAboutACenterNeedsNoStationOfTheTable) {
+    const std::string catalog = out("catalog");
+    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
+                   in("1-segfault-center/drop"), "--stations", "any"})
+                  .status,
+              0);
+    for (const std::vector<std::string>& place :
+         {std::vector<std::string>{"--center", "35,-97"},
+          {"--center", "35,-97", "--extent-km", "200,200"},
+          {"--center", "35,-97", "--projection", "lat-lon"}}) {
+        std::vector<std::string> arguments = {"loop",
+                                              "--catalog",
+                                              catalog,
+                                              "--stations",
+                                              "NOP4",
+                                              "--from",
+                                              "2017-01-01",
+                                              "--to",
+                                              "2017-01-02",
+                                              "--cache",
+                                              out("cache" + place.back()),
+                                              "-o",
+                                              out("a.webp"),
+                                              "--spacing-km",
+                                              "4",
+                                              "--quiet"};
+        arguments.insert(arguments.end(), place.begin(), place.end());
+        const ProgramResult ran = run(arguments);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+    }
+}
+
+TEST_F(FieldCases, ASiteThatMovedHasItsOwnHeight) {
+    for (const char* name : {"RKSG_first_site", "ZKSG_same_bytes_unlisted_name"}) {
+        const ProgramResult ran = run({"info", in("2-moved-site-height/") + name});
+        EXPECT_THAT(ran.out, HasSubstr("36.9597, 127.0183, 36 m above sea level\n")) << name;
+    }
+}
+
+TEST_F(FieldCases, MetadataAloneAreNoVolumeAndHideNone) {
+    const std::string catalog = out("catalog");
+    ASSERT_EQ(
+        run({"catalog", "rebuild", "--catalog", catalog, "--drop", in("3-mdm-is-latest/drop")})
+            .status,
+        0);
+    const auto latest =
+        json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    EXPECT_THAT(latest["path"].get<std::string>(), Not(HasSubstr("_MDM")));
+    EXPECT_GT(latest["n_radials"], 0);
+    EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json"}).size(), 1U);
+}
+
+TEST_F(FieldCases, WhatLiesInTheFutureIsNotTheLatest) {
+    const std::string catalog = out("catalog");
+    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
+                   in("5-future-volume-is-latest/drop")})
+                  .status,
+              0);
+    const auto latest =
+        json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    EXPECT_THAT(latest["path"].get<std::string>(), HasSubstr("KTLX_now"));
+    const auto stations = json_of({"catalog", "stations", "--catalog", catalog, "--json"});
+    EXPECT_THAT(stations[0]["latest"].get<std::string>(), Not(HasSubstr("2049")));
+    EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json"}).size(), 2U);
+}
+
+TEST_F(FieldCases, WhereAllLiesInTheFutureTheNewestIsShownWithAWarning) {
+    fs::create_directory(out("drop"));
+    fs::copy(in("5-future-volume-is-latest/drop/KTLX_radials_of_2049"), out("drop"));
+    const std::string catalog = out("catalog");
+    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop", out("drop")}).status, 0);
+    const auto latest =
+        json_of({"catalog", "latest", "--catalog", catalog, "--station", "KTLX", "--json"});
+    EXPECT_THAT(latest["start_time"].get<std::string>(), HasSubstr("2049"));
+    EXPECT_THAT(errors_, HasSubstr("lies in the future"));
+}
+
+TEST_F(FieldCases, BoundsTakeStationsThatOnlyTheirFilesPlace) {
+    const std::string catalog = out("catalog");
+    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
+                   in("6-bounds-without-unlisted/drop"), "--stations", "any"})
+                  .status,
+              0);
+    const auto made =
+        json_of({"loop", "--catalog", catalog, "--bounds=-98,35,-97,36", "--from",
+                 "2017-01-01T02:00", "--to", "2017-01-01T04:00", "--product", "composite",
+                 "--cache", out("cache"), "-o", out("a.webp"), "--json", "--spacing-km", "4"});
+    EXPECT_THAT(made.dump(), HasSubstr("KTLX-NOP4"));
+    EXPECT_TRUE(made["left_out"].empty()) << made["left_out"];
+}
+
+TEST_F(FieldCases, OldFilesAreNamedAndPlacedByTheirNameOrByOptions) {
+    const std::string directory = in("7-ncei-6500-name/");
+    EXPECT_EQ(info(directory + "6500KTLX19910720_160529.gz")["site"], "KTLX");
+    const std::string nameless = directory + "KUNR19910720_160529.gz";
+    EXPECT_TRUE(info(nameless)["site"].is_null());
+    EXPECT_EQ(info(nameless, {"--station", "kunr"})["site"], "KUNR");
+    const std::vector<std::string> grid = {"grid",        nameless, "-o",          out("a.nc"),
+                                           "--levels-km", "1",      "--extent-km", "50,50"};
+    const ProgramResult unknown = run(grid);
+    EXPECT_EQ(unknown.status, 1);
+    EXPECT_THAT(unknown.err, HasSubstr("--position LAT,LON,HEIGHT"));
+    std::vector<std::string> placed = grid;
+    placed.insert(placed.end(), {"--station", "KUNR", "--position", "35.33,-97.28,390", "--json"});
+    const auto made = json_of(placed);
+    EXPECT_EQ(made["station"], "KUNR");
+    EXPECT_NEAR(made["center"][0], 35.33, 1e-6);
+    std::vector<std::string> half = grid;
+    half.insert(half.end(), {"--position", "35.33,-97.28,390"});
+    const ProgramResult no_name = run(half);
+    EXPECT_EQ(no_name.status, 2);
+    EXPECT_THAT(no_name.err, HasSubstr("--station"));
+}
+
+TEST_F(FieldCases, AMessage5ThatCountsMoreCutsThanItHoldsIsNotBelieved) {
+    const auto json = info(in("10-pattern-17-of-7/KTLX_msg5_17"));
+    EXPECT_TRUE(json["vcp_message"].is_null());
+    EXPECT_THAT(json["problems"].dump(), HasSubstr("does not hold the cuts that it counts"));
+}
+
+TEST_F(FieldCases, AnOutputsEndingDecidesItsFormat) {
+    const std::string file = in("11-grid-output-name/KTLX_any");
+    const std::vector<std::string> small = {"--levels-km", "1", "--extent-km", "50,50"};
+    const auto grid = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"grid", file});
+        more.insert(more.end(), small.begin(), small.end());
+        return run(more);
+    };
+    const ProgramResult tif = grid({"-o", out("picture.tif")});
+    EXPECT_EQ(tif.status, 2);
+    EXPECT_THAT(tif.err, HasSubstr(".nc"));
+    EXPECT_FALSE(fs::exists(out("picture.tif")));
+    EXPECT_EQ(run({"info", file, "--to", out("x.tif")}).status, 2);
+
+    const ProgramResult piped = grid({"-o", "-"});
+    EXPECT_EQ(piped.status, 0) << piped.err;
+    EXPECT_EQ(grid({"-o", out("a.nc")}).status, 0);
+    EXPECT_TRUE(piped.out.starts_with("\x89HDF")) << "netCDF alone goes to standard output";
+    EXPECT_GT(piped.out.size(), 5000U);
+    const ProgramResult both = grid({"-o", "-", "--json"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_TRUE(both.out.empty());
+    EXPECT_TRUE(run({"info", file, "--to", "-"}).out.starts_with("\x89HDF"));
+}
+
+TEST_F(FieldCases, VolumesFarApartInTimeDoNotBlend) {
+    const std::vector<std::string> two = {"grid",
+                                          in("13-mosaic-years-apart/KTLX_2017"),
+                                          in("13-mosaic-years-apart/NOP4_2021"),
+                                          "-o",
+                                          out("a.nc"),
+                                          "--levels-km",
+                                          "1",
+                                          "--spacing-km",
+                                          "4",
+                                          "--json"};
+    const auto made = json_of(two);
+    EXPECT_THAT(made["time"].get<std::string>(), HasSubstr("2021"));
+    EXPECT_EQ(made["stations"], std::vector<std::string>{"NOP4"});
+    EXPECT_THAT(made["notes"].dump(), HasSubstr("KTLX_2017 is left out"));
+}
+
+TEST_F(FieldCases, TheSevenOfTheMosaicStaySeven) {
+    std::vector<std::string> arguments = {"grid"};
+    for (const auto& entry :
+         fs::directory_iterator(*testing::data_directory() / "mosaic-northeast"))
+        arguments.push_back(entry.path().string());
+    const std::size_t count = arguments.size() - 1;
+    arguments.insert(arguments.end(),
+                     {"-o", out("a.nc"), "--levels-km", "1", "--spacing-km", "8", "--json"});
+    EXPECT_EQ(json_of(arguments)["stations"].size(), count);
+}
+
+}  // namespace
+}  // namespace stormcellar::cli
