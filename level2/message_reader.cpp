@@ -146,7 +146,7 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
         return resynchronise(rest, 1, last, "no message header where one is due");
     }
     close_damage();
-    take(header, message, framed ? Framing::proven : Framing::unproven);
+    take(header, message, framed ? Framing::proven : Framing::unproven, firm);
     builder_.report_data().message_bytes += length;
     return length;
 }
@@ -188,9 +188,9 @@ void MessageReader::close_damage() {
 }
 
 void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message,
-                         Framing framing) {
+                         Framing framing, bool firm) {
     if (is_radial(header)) {
-        take_radial(header, message, framing);
+        take_radial(header, message, framing, firm);
         return;
     }
     if (!is_plausible(header)) {
@@ -250,7 +250,7 @@ std::optional<std::span<const std::byte>> MessageReader::expand(std::span<const 
 }
 
 void MessageReader::note_oddities(const MessageHeader& header, std::span<const std::byte> message,
-                                  const RadialMessage& radial) {
+                                  const RadialMessage& radial, bool firm) {
     const auto body = message.subspan(message_header_bytes);
     const auto note = [&](std::string_view oddity) {
         builder_.report().oddity(Severity::note, "odd_radials", oddity, offset_);
@@ -260,7 +260,7 @@ void MessageReader::note_oddities(const MessageHeader& header, std::span<const s
         if (name && *name != builder_.station())
             note("radials name another station than the first");
     }
-    if (!is_plausible(header) || !is_credible_radial(header, body)) {
+    if (!firm && (!is_plausible(header) || !is_credible_radial(header, body))) {
         for (const std::string_view oddity : oddities_of(header, body))
             note(oddity);
     }
@@ -271,7 +271,7 @@ void MessageReader::note_oddities(const MessageHeader& header, std::span<const s
 }
 
 void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message,
-                                Framing framing) {
+                                Framing framing, bool firm) {
     auto body = message.subspan(message_header_bytes);
     if (framing == Framing::unproven && !is_credible_radial(header, body)) {
         refuse_radial("a radial contradicts its header", message.size());
@@ -300,7 +300,7 @@ void MessageReader::take_radial(const MessageHeader& header, std::span<const std
     }
     ++builder_.report_data().message_counts[header.type];
     if (is_31) ++builder_.report_data().radial_compression[compression];
-    note_oddities(header, message, *radial);
+    note_oddities(header, message, *radial, firm);
     if (!builder_.add(*radial)) failure_ = Fragment::Failure::too_large_arrays;
 }
 

@@ -49,17 +49,19 @@ class MessageReader {
                              bool last);
     std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
                               std::string reason);
-    void take(const MessageHeader& header, std::span<const std::byte> message, Framing framing);
+    // `firm`: nothing about its header is odd.
+    void take(const MessageHeader& header, std::span<const std::byte> message, Framing framing,
+              bool firm);
     [[nodiscard]] bool full() const { return failure_ != Fragment::Failure::none; }
     void take_radial(const MessageHeader& header, std::span<const std::byte> message,
-                     Framing framing);
+                     Framing framing, bool firm);
     // The message's body, expanded into `store` where it is compressed; none where that fails,
     // which is in the report then.
     std::optional<std::span<const std::byte>> expand(std::span<const std::byte> message,
                                                      std::vector<std::byte>& store);
     void refuse_radial(std::string_view reason, std::size_t bytes);
     void note_oddities(const MessageHeader& header, std::span<const std::byte> message,
-                       const RadialMessage& radial);
+                       const RadialMessage& radial, bool firm);
     void close_damage();
 
     FragmentBuilder& builder_;
