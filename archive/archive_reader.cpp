@@ -344,18 +344,21 @@ bool ArchiveReader::is_cut() const {
     return impl_->is_cut;
 }
 
-std::optional<MemberPath> member_path_of(const std::filesystem::path& path) {
-    const std::string& text = path.native();
+std::optional<MemberName> member_path_of(const std::filesystem::path& path) {
     std::error_code error;
-    if (text.find(member_mark) == std::string::npos || std::filesystem::exists(path, error)) {
-        return std::nullopt;
+    std::vector<MemberName> names = member_names_in(path);
+    if (names.empty() || std::filesystem::exists(path, error)) return std::nullopt;
+    for (MemberName& name : names) {
+        if (std::filesystem::is_regular_file(name.archive, error)) return std::move(name);
     }
-    for (std::size_t at = text.find(member_mark); at != std::string::npos;
-         at = text.find(member_mark, at + 1)) {
-        std::filesystem::path archive = text.substr(0, at);
-        if (std::filesystem::is_regular_file(archive, error)) {
-            return MemberPath{std::move(archive), text.substr(at + 1)};
-        }
+    return std::nullopt;
+}
+
+std::optional<Member> find_member(int descriptor, const std::string& name) {
+    auto reader = ArchiveReader::open(descriptor);
+    while (reader) {
+        auto member = reader->next();
+        if (!member || member->name == name) return member;
     }
     return std::nullopt;
 }

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "base/member_name.h"
 #include "base/result.h"
 #include "base/utc_time.h"
 
@@ -68,13 +69,9 @@ class ArchiveReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// Whether a path names a member, and if so the archive and the member: "DIR/a.tar!KTLX..." where
-// DIR/a.tar is a file and the path itself is none.
-struct MemberPath {
-    std::filesystem::path archive;
-    std::string member;
-};
-inline constexpr char member_mark = '!';
-[[nodiscard]] std::optional<MemberPath> member_path_of(const std::filesystem::path& path);
+// The archive and the member that a path names: DIR/a.tar is a file and the path itself is none.
+[[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
+// The member of that name; none where the archive has none. The descriptor as in open().
+[[nodiscard]] std::optional<Member> find_member(int descriptor, const std::string& name);
 
 }  // namespace stormcellar::archive

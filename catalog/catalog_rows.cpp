@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/beneath.h"
+#include "base/member_name.h"
 #include "catalog/catalog_parts.h"
 
 namespace stormcellar::catalog {
@@ -14,6 +15,18 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t files_a_step = 1000;
 constexpr std::int64_t rows_a_step = 1000;
+
+// A member of an archive is there as long as the archive is.
+bool is_missing(const fs::path& directory, const fs::path& path) {
+    const auto stands = [&](const fs::path& one) {
+        const auto found = look_beneath(directory, one);
+        return found || found.error().code != ErrorCode::not_found;
+    };
+    if (stands(path)) return false;
+    const std::vector<MemberName> names = member_names_in(path);
+    return std::none_of(names.begin(), names.end(),
+                        [&](const MemberName& name) { return stands(name.archive); });
+}
 
 }  // namespace
 
@@ -45,8 +58,7 @@ Result<int> Catalog::mark_missing_of(const std::string& name, const fs::path& di
                                      const std::vector<fs::path>& paths) {
     std::vector<fs::path> gone;
     for (const fs::path& path : paths) {
-        const auto found = look_beneath(directory, path);
-        if (!found && found.error().code == ErrorCode::not_found) gone.push_back(path);
+        if (is_missing(directory, path)) gone.push_back(path);
     }
     if (gone.empty()) return 0;
     return impl_->with(name, false,

@@ -4,9 +4,11 @@
 
 #include <sys/stat.h>
 
+#include "archive/archive_reader.h"
 #include "base/beneath.h"
 #include "base/checksum.h"
 #include "base/descriptor.h"
+#include "base/member_name.h"
 
 namespace stormcellar::catalog {
 namespace {
@@ -25,6 +27,20 @@ Status check_size(const CatalogEntry& entry, std::uint64_t size_bytes) {
     return fail(
         ErrorCode::corrupt, "{}: is not the file that was cataloged: it has {} bytes and not {}{}",
         entry.path.native(), size_bytes, entry.size_bytes, has_final_hash(entry) ? "" : " or more");
+}
+
+Result<CatalogedBytes> read_member(const CatalogEntry& entry, const Descriptor& archive,
+                                   const MemberName& name) {
+    auto member = archive::find_member(archive.number(), name.member);
+    if (!member) {
+        return fail(ErrorCode::corrupt, "{}: the archive does not have it any more",
+                    entry.path.native());
+    }
+    const std::uint64_t hash = xxh3_64(member->bytes);
+    if (Status same = check_cataloged(entry, member->bytes.size(), hash); !same) {
+        return pass_on(same);
+    }
+    return CatalogedBytes{std::move(member->bytes), has_final_hash(entry)};
 }
 
 }  // namespace
@@ -54,6 +70,12 @@ Result<CatalogedBytes> read_cataloged(const Catalog& catalog, const CatalogEntry
     const auto root = root_of(catalog, entry.path);
     if (!root) return pass_on(root);
     const auto opened = open_beneath(*root, entry.path);
+    if (!opened && opened.error().code == ErrorCode::not_found) {
+        for (const MemberName& name : member_names_in(entry.path)) {
+            const auto archive = open_beneath(*root, name.archive);
+            if (archive) return read_member(entry, Descriptor{*archive}, name);
+        }
+    }
     if (!opened) return pass_on(opened);
     const Descriptor file{*opened};
     // Before it is read: what stands there now may be far larger.

@@ -170,6 +170,11 @@ int run_one(const CatalogOptions& options, bool latest) {
     const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
     if (!entry) return report_query_error(entry.error(), options);
     if (!entry->has_value()) return report_nothing_matched();
+    std::error_code ignored;
+    if ((*entry)->state == catalog::FileState::gone || !fs::exists((*entry)->path, ignored)) {
+        fmt::print(stderr, "stormcellar: warning: {}: the raw file is gone\n",
+                   printable((*entry)->path.native()));
+    }
     if (latest && (*entry)->volume.start_time) warn_of_future(*(*entry)->volume.start_time);
     if (options.json) {
         print_json(to_json(**entry));

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "base/file_system.h"
+#include "base/member_name.h"
 #include "cli/commands.h"
 #include "cli/volume_export.h"
 #include "level2/decode.h"
@@ -41,13 +43,13 @@ class Targets {
     explicit Targets(const GetOptions& options) : options_(options) {}
 
     // The path of this name in the output directory, when it may be written.
-    Result<fs::path> claim(const std::string& name, const fs::path& source) {
+    Result<fs::path> claim(const std::string& name) {
         fs::path to = fs::path{options_.output} / name;
-        const auto [other, is_new] = taken_.emplace(to, source);
-        if (!is_new) {
-            return fail(ErrorCode::bad_argument, "{}: not {}, {} has the same name",
-                        source.native(), options_.decode ? "written" : "copied",
-                        other->second.native());
+        // Of two files of one name the second has a number behind it.
+        for (int number = 2; !taken_.insert(to).second; ++number) {
+            const fs::path plain{name};
+            to = fs::path{options_.output} /
+                 fmt::format("{}_{}{}", plain.stem().string(), number, plain.extension().string());
         }
         if (!options_.force && fs::exists(to)) {
             return fail(ErrorCode::bad_argument, "{}: exists (--force replaces it)", to.native());
@@ -57,12 +59,17 @@ class Targets {
 
   private:
     const GetOptions& options_;
-    std::map<fs::path, fs::path> taken_;  // and the source of each
+    std::set<fs::path> taken_;
 };
 
 // As the archives name a volume's file: "KLOT20220317_000842".
 std::string name_of_file(const CatalogEntry& entry) {
-    if (!pipeline::is_of_chunks(entry)) return entry.path.filename().string();
+    if (!pipeline::is_of_chunks(entry)) {
+        // Of a member of an archive its own name.
+        const std::string name = entry.path.filename().string();
+        const std::size_t mark = name.rfind(member_mark);
+        return mark == std::string::npos || mark + 1 == name.size() ? name : name.substr(mark + 1);
+    }
     const std::string time = format_utc(*entry.volume.start_time);  // 2022-03-17T00:08:42Z
     std::string name = entry.station;
     for (const char letter : time.substr(0, 19)) {
@@ -82,7 +89,7 @@ Result<std::vector<std::byte>> read_raw(catalog::Catalog& catalog, const Catalog
 }
 
 Status copy_raw(catalog::Catalog& catalog, const MatchedFile& file, Targets& targets) {
-    const auto to = targets.claim(name_of_file(file.entry), file.entry.path);
+    const auto to = targets.claim(name_of_file(file.entry));
     if (!to) return pass_on(to);
     const auto bytes = read_raw(catalog, file.entry);
     if (!bytes) return pass_on(bytes);
@@ -126,8 +133,8 @@ Status write_decoded(catalog::Catalog& catalog, const MatchedFile& file, Targets
                                        volumes[i].start_time()) != file.starts.end();
         if (!alone && !matched) continue;
         any = true;
-        const auto to = targets.claim(
-            alone ? name + ".nc" : fmt::format("{}_volume{}.nc", name, i + 1), file.entry.path);
+        const auto to =
+            targets.claim(alone ? name + ".nc" : fmt::format("{}_volume{}.nc", name, i + 1));
         if (!to) return pass_on(to);
         if (auto done = export_volume(volumes, i, report, file.entry.path, *to); !done) return done;
         fmt::print("{}\n", printable(to->native()));

@@ -114,13 +114,13 @@ bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& pat
     auto archive = OpenArchive::open(path, stdin_span());
     if (!archive) return false;
     while (const auto member = archive->reader().next()) {
-        files.push_back({fmt::format("{}{}{}", label, archive::member_mark, member->name), path,
-                         member->name, true});
+        files.push_back(
+            {fmt::format("{}{}{}", label, member_mark, member->name), path, member->name, true});
     }
     for (const archive::LeftOut& one : archive->reader().left_out()) {
-        left_out.push_back(one.name.empty() ? fmt::format("{}: {}", label, one.reason)
-                                            : fmt::format("{}{}{}: {}", label, archive::member_mark,
-                                                          one.name, one.reason));
+        left_out.push_back(
+            one.name.empty() ? fmt::format("{}: {}", label, one.reason)
+                             : fmt::format("{}{}{}: {}", label, member_mark, one.name, one.reason));
     }
     return true;
 }

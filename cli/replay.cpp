@@ -111,6 +111,17 @@ void print_faults(const std::vector<synth::FaultMade>& faults) {
         fmt::print(stderr, "{}: {}\n", synth::to_string(fault), count);
 }
 
+// What cannot come in chunks is named, and the rest is played.
+void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
+    std::erase_if(items, [](const synth::ReplayItem& item) {
+        const auto why = synth::why_not_in_chunks(item);
+        if (why.empty()) return false;
+        print_note(
+            fmt::format("left out: {}: {}: it cannot come in chunks", item.source.native(), why));
+        return true;
+    });
+}
+
 int run_replay(const ReplayCommandOptions& options) {
     const auto start = Clock::now();
     const std::vector<std::filesystem::path> sources(options.places.begin(),
@@ -121,8 +132,12 @@ int run_replay(const ReplayCommandOptions& options) {
         if (!faults) return report_error(faults.error());
         replay_options.faults = *faults;
     }
-    const auto items = synth::find_replay_items(sources);
+    auto items = synth::find_replay_items(sources);
     if (!items) return report_error(items.error());
+    if (delivery_of(options.delivery) == synth::Delivery::chunks) leave_out_unfit(*items);
+    if (items->empty()) {
+        return report_error({ErrorCode::bad_argument, "no file of them can come in chunks"});
+    }
     Interrupt interrupt;
     Progress progress("files", items->size(), !options.json);
     replay_options.delivery = delivery_of(options.delivery);

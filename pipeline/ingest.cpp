@@ -7,6 +7,7 @@
 
 #include "base/beneath.h"
 #include "base/checksum.h"
+#include "base/member_name.h"
 #include "level2/decode.h"
 #include "level2/message_2.h"
 #include "level2/volume_checks.h"
@@ -327,6 +328,11 @@ Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_p
         outcome.result = IngestResult::unchanged;
         return outcome;
     }
+    if (before->regular && before->size_bytes > 0) {
+        if (auto taken = take_archive(path, *before, finish_partial, outcome)) {
+            return std::move(*taken);
+        }
+    }
     if (before->size_bytes > options.most_file_bytes) {
         if (living) living->forget(path);
         return read_and_take_in(path, *before, finish_partial, std::move(outcome));
@@ -366,6 +372,12 @@ Result<IngestResult> Ingestor::note(const fs::path& path) {
 Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path, const ReadCheck& is_the_same) {
     const Running running(impl_->running);
     const auto before = stamp_of(path, impl_->options.beneath);
+    if (!before && before.error().code == ErrorCode::not_found) {
+        for (const MemberName& name : member_names_in(path)) {
+            const auto stamp = stamp_of(name.archive, impl_->options.beneath);
+            if (stamp && stamp->regular) return impl_->take_member_again(name, *stamp, is_the_same);
+        }
+    }
     if (!before) return pass_on(before);
     if (const auto chunk = impl_->chunks ? ChunkPath::of(path) : std::nullopt) {
         impl_->chunks->forget(*chunk);
@@ -373,6 +385,16 @@ Result<IngestOutcome> Ingestor::ingest_again(const fs::path& path, const ReadChe
             return std::move(*taken);
     }
     return impl_->read_and_take_in(path, *before, true, {}, is_the_same);
+}
+
+level2::DecodeOptions Ingestor::Impl::decode_options_for(const std::string& station) {
+    level2::DecodeOptions decode_options;
+    decode_options.threads = share_of(options.decode_threads);
+    decode_options.output_limit_bytes = options.most_output_bytes;
+    decode_options.selection = {moments_of(options), {}};
+    decode_options.array_limit_bytes = most_array_bytes(decode_options.selection);
+    decode_options.fallback_station = station;
+    return decode_options;
 }
 
 Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
@@ -396,12 +418,7 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
                                                  before.size_bytes, options.most_file_bytes)},
             outcome);
     }
-    level2::DecodeOptions decode_options;
-    decode_options.threads = share_of(options.decode_threads);
-    decode_options.output_limit_bytes = options.most_output_bytes;
-    decode_options.selection = {moments_of(options), {}};
-    decode_options.array_limit_bytes = most_array_bytes(decode_options.selection);
-    decode_options.fallback_station = facts.station;
+    const level2::DecodeOptions decode_options = decode_options_for(facts.station);
     auto read = read_whole(options.beneath, path, before.size_bytes, decode_options);
     outcome.read_s = read.read_s;
     outcome.decode_s = read.decode_s;

@@ -13,6 +13,8 @@
 
 #include <fmt/ranges.h>
 
+#include "archive/archive_reader.h"
+#include "base/member_name.h"
 #include "level2/decode.h"
 #include "pipeline/chunk_volumes.h"
 #include "pipeline/file_facts.h"
@@ -89,6 +91,16 @@ struct Ingestor::Impl {
                                    const Reading& reading, IngestOutcome outcome);
     Status keep_mosaics(const catalog::FileFacts& facts, const level2::Volume& volume,
                         const Reading& reading, IngestOutcome& outcome);
+    // Of a tar or zip archive: each member is taken in as a file, "ARCHIVE!MEMBER". None: it is no
+    // archive.
+    std::optional<Result<IngestOutcome>> take_archive(const std::filesystem::path& path,
+                                                      const FileStamp& before, bool finish_partial,
+                                                      const IngestOutcome& outcome);
+    [[nodiscard]] level2::DecodeOptions decode_options_for(const std::string& station);
+    Result<IngestOutcome> take_member(const std::filesystem::path& archive, const FileStamp& stamp,
+                                      const archive::Member& member);
+    Result<IngestOutcome> take_member_again(const MemberName& name, const FileStamp& stamp,
+                                            const ReadCheck& is_the_same);
     // Of a file that grows and is not followed: it is looked at again when it ends or is quiet.
     Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
     [[nodiscard]] ChunkVolumes::Expected expected_of(const ChunkPath& chunk, Finish finish) const;

@@ -56,6 +56,9 @@ struct ReplayItem {
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 
+// Why a file cannot be played in chunks; empty where it can.
+[[nodiscard]] std::string_view why_not_in_chunks(const ReplayItem& item);
+
 enum class Delivery : std::uint8_t { whole, growing, open, chunks };
 
 struct ReplayOptions {

@@ -57,6 +57,13 @@ std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
     return turns;
 }
 
+std::string_view why_not_in_chunks(const ReplayItem& item) {
+    if (!item.has_records) return "holds no LDM records";
+    if (!item.time) return "has no header with a time";
+    if (item.station.empty()) return "neither its header nor its name has a station";
+    return {};
+}
+
 Result<std::vector<fs::path>> targets_of(const std::vector<ReplayItem>& items, Delivery delivery) {
     std::vector<fs::path> targets;
     std::map<std::string, std::set<int>> numbers;  // that are taken, by station
@@ -69,9 +76,7 @@ Result<std::vector<fs::path>> targets_of(const std::vector<ReplayItem>& items, D
             return fail(ErrorCode::bad_argument, "{}: {}: it cannot come in chunks",
                         item.source.native(), why);
         };
-        if (!item.has_records) return refuse("holds no LDM records");
-        if (!item.time) return refuse("has no header with a time");
-        if (item.station.empty()) return refuse("neither its header nor its name has a station");
+        if (const auto why = why_not_in_chunks(item); !why.empty()) return refuse(why);
         std::set<int>& taken = numbers[item.station];
         if (taken.size() == most_numbers) return refuse("the station has 1000 volumes already");
         int number = item.number.value_or(1);

@@ -136,6 +136,8 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
         return fail(ErrorCode::bad_argument, "{},{} is no latitude and longitude",
                     place.latitude_deg, place.longitude_deg);
     }
+    // West is negative, as everywhere else.
+    if (place.longitude_deg > 180) place.longitude_deg -= 360;
     const auto at = grid::GridProjection(spec).to_column(place);
     const double ix = std::floor(at.x + 0.5);
     const double iy = std::floor(at.y + 0.5);

@@ -92,6 +92,7 @@ class Axes {
 }  // namespace
 
 std::string place_text(grid::GeoPoint point) {
+    point.longitude_deg = std::remainder(point.longitude_deg, 360.0);
     return fmt::format("{:.3f}\u00B0{} {:.3f}\u00B0{}", std::abs(point.latitude_deg),
                        point.latitude_deg < 0 ? 'S' : 'N', std::abs(point.longitude_deg),
                        point.longitude_deg < 0 ? 'W' : 'E');

@@ -24,7 +24,7 @@ const std::map<std::string, Rooms> allowed = {
     {"archive", {"base"}},
     {"fetch", {"base"}},
     {"level2", {"base", "bunzip"}},
-    {"catalog", {"base", "level2"}},
+    {"catalog", {"archive", "base", "level2"}},
     {"grid", {"base", "accuracy", "level2"}},
     {"cache", {"base", "grid", "level2"}},
     {"render", {"base", "accuracy", "grid", "cache", "level2"}},

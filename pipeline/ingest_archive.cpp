@@ -1,0 +1,160 @@
+// Archives in the drop directory: each member is a file of its own to the catalog and the cache.
+#include <algorithm>
+#include <utility>
+
+#include "base/beneath.h"
+#include "base/checksum.h"
+#include "base/descriptor.h"
+#include "base/member_name.h"
+#include "pipeline/drop_names.h"
+#include "pipeline/ingest_parts.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::FileFacts;
+using catalog::FileState;
+
+// A day of a radar has some 300 volumes in 3 GB. All are taken in by one job.
+archive::Limits limits_of(const IngestOptions& options) {
+    archive::Limits limits;
+    limits.members = 10'000;
+    limits.member_bytes = options.most_file_bytes;
+    limits.all_bytes = std::uint64_t{32} << 30;
+    return limits;
+}
+
+// Adds what became of a member to what becomes of its archive.
+void add(const IngestOutcome& member, IngestOutcome& all) {
+    const auto append = [](const auto& from, auto& to) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    append(member.grids, all.grids);
+    append(member.partials, all.partials);
+    append(member.frames, all.frames);
+    all.read_s += member.read_s;
+    all.decode_s += member.decode_s;
+    all.grid_s += member.grid_s;
+    all.commit_s += member.commit_s;
+    all.mosaic_s += member.mosaic_s;
+    all.not_kept += member.not_kept;
+    all.partial = all.partial || member.partial;
+    all.newest_radial = std::max(all.newest_radial, member.newest_radial);
+    if (!member.station.empty()) all.station = member.station;
+    if (member.result == IngestResult::gridded) all.result = IngestResult::gridded;
+}
+
+std::string reason_of(std::size_t taken, std::size_t rejected, std::size_t known,
+                      const archive::ArchiveReader& reader) {
+    std::string reason = fmt::format("an archive: {} taken in, {} rejected", taken, rejected);
+    if (known > 0) reason += fmt::format(", {} known already", known);
+    for (const archive::LeftOut& one : reader.left_out()) {
+        reason += fmt::format("; {}{}{}", one.name, one.name.empty() ? "" : " ", one.reason);
+        if (reason.size() > 400) break;
+    }
+    return reason;
+}
+
+}  // namespace
+
+Result<IngestOutcome> Ingestor::Impl::take_member(const fs::path& archive, const FileStamp& stamp,
+                                                  const archive::Member& member) {
+    FileFacts facts;
+    facts.path = member_path(archive, member.name);
+    facts.station = station_of_file_name(fs::path{member.name});
+    facts.size_bytes = member.bytes.size();
+    facts.modified_ns = member.modified
+                            ? std::chrono::nanoseconds{member.modified->time_since_epoch()}.count()
+                            : stamp.modified_ns;
+    facts.content_hash = xxh3_64(member.bytes);
+    IngestOutcome outcome;
+    if (options.check_read) {
+        const Status wanted = options.check_read(facts.path, facts.size_bytes, facts.content_hash);
+        if (!wanted) return reject(facts, wanted.error(), outcome);
+    }
+    auto decoded = level2::decode(member.bytes, decode_options_for(facts.station));
+    if (decoded) return take_in(std::move(facts), std::move(*decoded), true, outcome);
+    if (is_shortage(decoded.error().code)) return pass_on(decoded);
+    return reject(facts, decoded.error(), outcome);
+}
+
+Result<IngestOutcome> Ingestor::Impl::take_member_again(const MemberName& name,
+                                                        const FileStamp& stamp,
+                                                        const ReadCheck& is_the_same) {
+    const auto opened = open_beneath(options.beneath, name.archive);
+    if (!opened) return pass_on(opened);
+    const Descriptor file{*opened};
+    const auto member = archive::find_member(file.number(), name.member);
+    const fs::path path = member_path(name.archive, name.member);
+    if (!member) {
+        return fail(ErrorCode::not_found, "{}: the archive does not have it any more",
+                    path.native());
+    }
+    if (is_the_same) {
+        const Status same = is_the_same(path, member->bytes.size(), xxh3_64(member->bytes));
+        if (!same) return pass_on(same);
+    }
+    return take_member(name.archive, stamp, *member);
+}
+
+std::optional<Result<IngestOutcome>> Ingestor::Impl::take_archive(const fs::path& path,
+                                                                  const FileStamp& before,
+                                                                  bool finish_partial,
+                                                                  const IngestOutcome& outcome) {
+    const auto opened = open_beneath(options.beneath, path);
+    if (!opened) return std::nullopt;
+    const Descriptor file{*opened};
+    auto reader = archive::ArchiveReader::open(file.number(), limits_of(options));
+    if (!reader) return std::nullopt;
+    IngestOutcome all = outcome;
+    // One that has no end yet is waited for: its members are taken in together.
+    if (!finish_partial) {
+        while (reader->next()) {
+        }
+        if (reader->is_cut()) {
+            all.result = IngestResult::incomplete;
+            all.reason = "an archive without an end";
+            return all;
+        }
+        reader = archive::ArchiveReader::open(file.number(), limits_of(options));
+        if (!reader) return std::nullopt;
+    }
+    all.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
+    std::size_t taken = 0;
+    std::size_t rejected = 0;
+    std::size_t known = 0;
+    while (const auto member = reader->next()) {
+        const auto settled = catalog.is_settled(
+            member_path(path, member->name), member->bytes.size(),
+            member->modified
+                ? std::chrono::nanoseconds{member->modified->time_since_epoch()}.count()
+                : before.modified_ns);
+        if (settled && *settled) {
+            ++known;
+            continue;
+        }
+        auto one = take_member(path, before, *member);
+        if (!one) return one;
+        ++(one->result == IngestResult::rejected ? rejected : taken);
+        add(*one, all);
+    }
+    const auto after = stamp_of(path, options.beneath);
+    if (!after || *after != before) {
+        all.result = IngestResult::incomplete;
+        all.reason = "changed while it was read";
+        return all;
+    }
+    FileFacts facts;
+    facts.path = path;
+    facts.station = station_of_file_name(path);
+    facts.size_bytes = before.size_bytes;
+    facts.modified_ns = before.modified_ns;
+    facts.state = reader->is_cut() ? FileState::partial : FileState::complete;
+    facts.reason = reason_of(taken, rejected, known, *reader);
+    all.reason = facts.reason;
+    if (Status stored = record(facts); !stored) return Result<IngestOutcome>{pass_on(stored)};
+    return all;
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,148 @@
+// Archives in the drop directory: each member is taken in as a file of its own.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/checksum.h"
+#include "base/file_system.h"
+#include "base/member_name.h"
+#include "cache/grid_file.h"
+#include "catalog/read_cataloged.h"
+#include "pipeline/ingest.h"
+#include "pipeline/station_place.h"
+#include "tests/archive/archive_maker.h"
+#include "tests/testing/data.h"
+#include "tests/testing/temporary_directory.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using catalog::CatalogEntry;
+using catalog::FileState;
+using ::testing::HasSubstr;
+
+class IngestArchiveTest : public ::testing::Test {
+  protected:
+    void SetUp() override { STORMCELLAR_NEED_DATA(); }
+    static std::vector<std::byte> real(const std::string& name) {
+        return read_file(*testing::data_directory() / "sequence-kbgm" / name).value();
+    }
+    static std::vector<archive::Put> two_volumes() {
+        return {{"order/KBGM20050822_024414.gz", real("KBGM20050822_024414.gz")},
+                {"order/README", archive::bytes_of("two volumes")},
+                {"order/KBGM20050822_025549.gz", real("KBGM20050822_025549.gz")}};
+    }
+    fs::path put(const std::string& name, const std::vector<std::byte>& bytes) {
+        std::ofstream(directory_ / name, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+        return directory_ / name;
+    }
+    std::vector<CatalogEntry> volumes() { return catalog_.list("KBGM", {}).value(); }
+    std::size_t grids() {
+        return store_.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size();
+    }
+    static IngestOptions small_grid() {
+        IngestOptions options;
+        options.spacing_m = 4000;
+        options.nx = options.ny = 115;
+        return options;
+    }
+    testing::TemporaryDirectory directory_;
+    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
+    cache::Store store_ =
+        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    Ingestor ingestor_{catalog_, store_, small_grid()};
+};
+
+TEST_F(IngestArchiveTest, ItsVolumesAreGriddedAndCatalogedByTheirNames) {
+    for (const archive::Kind kind :
+         {archive::Kind::tar, archive::Kind::tar_gz, archive::Kind::zip}) {
+        const fs::path path = put("order.bin", archive::make_archive(kind, two_volumes()));
+        const auto outcome = ingestor_.ingest(path, false);
+        ASSERT_TRUE(outcome) << outcome.error().message;
+        EXPECT_EQ(grids(), 2U);
+        ASSERT_EQ(volumes().size(), 2U);
+        EXPECT_EQ(volumes()[0].path, member_path(path, "order/KBGM20050822_024414.gz"));
+        EXPECT_EQ(volumes()[0].state, FileState::complete);
+        EXPECT_THAT(outcome->reason, HasSubstr(kind == archive::Kind::tar ? "2 taken in, 1 rejected"
+                                                                          : "3 known already"));
+    }
+    EXPECT_EQ(ingestor_.ingest(directory_ / "order.bin", false)->result, IngestResult::unchanged);
+}
+
+TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
+    const fs::path path =
+        put("order.zip", archive::make_archive(archive::Kind::zip, two_volumes()));
+    ASSERT_TRUE(ingestor_.ingest(path, false));
+    const auto raw = catalog::read_cataloged(catalog_, volumes()[1]);
+    ASSERT_TRUE(raw) << raw.error().message;
+    EXPECT_TRUE(raw->bytes == real("KBGM20050822_025549.gz"));
+    const auto again = ingestor_.ingest_again(volumes()[1].path);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->result, IngestResult::gridded);
+    // Another member in its place is not what was cataloged.
+    auto others = two_volumes();
+    others[2].bytes = real("KBGM20050822_024414.gz");
+    put("order.zip", archive::make_archive(archive::Kind::zip, others));
+    const auto changed = catalog::read_cataloged(catalog_, volumes()[1]);
+    ASSERT_FALSE(changed);
+    EXPECT_EQ(changed.error().code, ErrorCode::corrupt);
+}
+
+TEST_F(IngestArchiveTest, OneThatIsStillBeingWrittenIsWaitedFor) {
+    auto bytes = archive::make_archive(archive::Kind::tar, two_volumes());
+    const std::size_t whole = bytes.size();
+    const auto all = bytes;
+    bytes.resize(whole - 300'000);
+    const fs::path path = put("order.tar", bytes);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(grids(), 0U);
+    put("order.tar", all);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(grids(), 2U);
+}
+
+TEST_F(IngestArchiveTest, OfOneThatStaysCutWhatIsWholeIsTaken) {
+    auto bytes = archive::make_archive(archive::Kind::tar, two_volumes());
+    bytes.resize(bytes.size() - 300'000);
+    const auto outcome = ingestor_.ingest(put("order.tar", bytes), true);
+    ASSERT_TRUE(outcome);
+    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(grids(), 1U);
+    EXPECT_THAT(outcome->reason, HasSubstr("cut or damaged"));
+}
+
+TEST_F(IngestArchiveTest, ItsRowsAreGoneWhenItIs) {
+    const fs::path path =
+        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    ASSERT_TRUE(ingestor_.ingest(path, false));
+    EXPECT_EQ(catalog_.mark_missing(directory_.path()).value(), 0);
+    fs::remove(path);
+    EXPECT_GE(catalog_.mark_missing(directory_.path()).value(), 2);
+    EXPECT_EQ(volumes()[0].state, FileState::gone);
+}
+
+TEST_F(IngestArchiveTest, AFileWithAMarkInItsNameIsAFile) {
+    const fs::path path = put("KBGM!20050822", real("KBGM20050822_024414.gz"));
+    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(volumes().at(0).path, path);
+}
+
+TEST_F(IngestArchiveTest, AStationOfNoTableStandsWhereItsFilesSay) {
+    const auto place = place_of_station(catalog_, "KTLX");
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->latitude_deg, 35.33, 0.01);
+    EXPECT_FALSE(place_of_station(catalog_, "NOP4"));
+    const fs::path file = *testing::data_directory() / "cases/1-segfault-center/drop";
+    if (!fs::exists(file)) GTEST_SKIP() << "no cases beside the real volumes";
+    ASSERT_TRUE(ingestor_.ingest(file / "NOP420170101_030027_V06", true));
+    const auto found = place_of_station(catalog_, "NOP4");
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->latitude_deg, 35.24, 0.01);
+}
+
+}  // namespace
+}  // namespace stormcellar::pipeline
