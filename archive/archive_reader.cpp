@@ -118,14 +118,10 @@ struct ArchiveReader::Impl {
     std::vector<std::byte> inner_bytes;
     std::unique_ptr<Impl> inner;
 
-    // False where it is no archive.
+    // False where it is no archive. Zeros are an empty one to some.
     bool begin() {
         const int code = archive_read_next_header(handle.get(), &first);
-        if (code == ARCHIVE_EOF) {
-            at_end = true;
-            return archive_format(handle.get()) != ARCHIVE_FORMAT_EMPTY;
-        }
-        return code >= ARCHIVE_WARN;
+        return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }
 
     void leave_out(std::string name, std::string reason) {

@@ -85,6 +85,14 @@ TEST(ArchiveReader, LevelTwoAndOthersAreNone) {
     EXPECT_FALSE(ArchiveReader::open(std::vector<std::byte>(100'000)));
 }
 
+TEST(ArchiveReader, ZerosAreNone) {
+    const std::vector<std::byte> zeros(1'000'000);
+    for (const Kind kind : {Kind::tar_gz, Kind::tar_bz2, Kind::tar_xz}) {
+        EXPECT_FALSE(ArchiveReader::open(make_archive(kind, {})));
+    }
+    EXPECT_FALSE(ArchiveReader::open(zeros));
+}
+
 TEST(ArchiveReader, NoRealVolumeIsTakenForAnArchive) {
     STORMCELLAR_NEED_DATA();
     int seen = 0;
