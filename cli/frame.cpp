@@ -252,7 +252,8 @@ Command add_frame(CLI::App& app) {
     frame->add_option("--time", options->time,
                       "UTC, or relative as -1h: the grid at or next before it (default: latest)");
     frame->add_option("-o,--output", options->output,
-                      "The picture, .png; needed unless something is probed");
+                      "The picture, .png, or - for standard output; needed unless something is "
+                      "probed");
     frame->add_option("--probe", options->probe,
                       "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
     frame->add_option("--probe-at", options->probe_at,

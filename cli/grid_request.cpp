@@ -307,7 +307,9 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
                    "Level II files: one, or a mosaic of several sites and times; also tar and zip "
                    "archives, directories, and - for standard input")
         ->required();
-    app.add_option("-o,--output", options.output, "The netCDF file to write")->required();
+    app.add_option("-o,--output", options.output,
+                   "The netCDF file to write, .nc, or - for standard output")
+        ->required();
     add_spec_options(app, options);
     app.add_option(
         "--time", options.time,

@@ -18,6 +18,7 @@
 #include "cli/loop_grids.h"
 #include "cli/loop_options.h"
 #include "cli/loop_report.h"
+#include "cli/output_file.h"
 #include "cli/picture.h"
 #include "cli/picture_metadata.h"
 #include "cli/picture_plan.h"
@@ -226,8 +227,31 @@ int only_check(const LoopOptions& options) {
     return range ? exit_done : report_error(range.error());
 }
 
+// The one output that is standard output, made in a temporary file: "-", or "-.gif" and so on for
+// another format than WebP. None: there is none.
+Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
+    const auto is_piped = [](const std::string& output) {
+        return is_stdout(output) || output.starts_with("-.");
+    };
+    const auto piped = std::ranges::find_if(options.outputs, is_piped);
+    if (piped == options.outputs.end()) return std::optional<OutputFile>{};
+    if (options.json || options.follow.wanted ||
+        std::ranges::count_if(options.outputs, is_piped) > 1) {
+        return fail(ErrorCode::bad_argument,
+                    "-o {}: standard output takes one loop, and neither --json nor --follow beside "
+                    "it",
+                    *piped);
+    }
+    auto file = OutputFile::open("-", is_stdout(*piped) ? ".webp" : piped->substr(1));
+    if (!file) return pass_on(file);
+    *piped = options.piped = file->path().native();
+    return std::optional{std::move(*file)};
+}
+
 int run_loop(LoopOptions options) {
     const auto start = Clock::now();
+    auto piped = take_stdout(options);
+    if (!piped) return report_error(piped.error());
     const auto scene = check(options);
     if (!scene) return report_error(scene.error());
     if (options.only_check) return only_check(options);
@@ -240,7 +264,10 @@ int run_loop(LoopOptions options) {
     auto grids = find_grids(options, *scene, interrupt);
     if (!grids) return report_error(grids.error());
     if (grids->frames.empty()) return exit_nothing_matched;
-    return draw_loop(std::move(*grids), options, *scene, interrupt, start);
+    const int status = draw_loop(std::move(*grids), options, *scene, interrupt, start);
+    if (status != exit_done || !*piped) return status;
+    const Status written = (*piped)->finish();
+    return written ? exit_done : report_error(written.error());
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     loop.add_option("--last", options.last, "Of these only the newest so many")
         ->check(CLI::Range(1, 1'000'000));
     loop.add_option("-o,--output", options.outputs,
-                    fmt::format("{}; several times: the same frames to each",
+                    fmt::format("{}; several times: the same frames to each; - is standard output, "
+                                "as WebP, -.gif and so on in another format",
                                 render::known_animation_endings()))
         ->required()
         ->take_all()

@@ -20,6 +20,7 @@ namespace stormcellar::cli {
 class KeptFrames;
 
 struct LoopOptions : LoopSettings {
+    std::string piped;  // of the outputs the one that goes to standard output
     std::string cache;
     ArchiveOptions archive;
     SceneFile scene_file;

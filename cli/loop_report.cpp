@@ -1,5 +1,7 @@
 #include "cli/loop_report.h"
 
+#include <algorithm>
+
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
@@ -40,8 +42,10 @@ void print_report(const LoopOptions& options, const render::Scene& scene, const 
                   const std::optional<ArchiveGrids>& archive) {
     if (!options.json) {
         if (options.quiet) return;
+        std::vector<std::string> outputs = options.outputs;
+        std::ranges::replace(outputs, options.piped, "standard output");
         fmt::print(stderr, "{}: {} {} to {}, {}, {} {} of {} x {} pixels, {:.1f} s\n",
-                   printable(fmt::format("{}", fmt::join(options.outputs, ", "))),
+                   printable(fmt::format("{}", fmt::join(outputs, ", "))),
                    printable(options.domain), format_utc(report.from), format_utc(report.to),
                    options.scene.product, report.frames,
                    plural(static_cast<std::uint64_t>(report.frames), "frame"), scene.width,

@@ -54,7 +54,7 @@ Status check_output_file(const std::string& output, std::initializer_list<std::s
     return {};
 }
 
-Result<OutputFile> OutputFile::open(const std::string& output) {
+Result<OutputFile> OutputFile::open(const std::string& output, std::string_view ending) {
     if (!is_stdout(output)) return OutputFile(output, {});
     std::error_code error;
     const fs::path base = fs::temp_directory_path(error);
@@ -63,7 +63,7 @@ Result<OutputFile> OutputFile::open(const std::string& output) {
     if (::mkdtemp(name.data()) == nullptr) {
         return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));
     }
-    return OutputFile(fs::path{name} / "output", name);
+    return OutputFile(fs::path{name} / fmt::format("output{}", ending), name);
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept

@@ -27,8 +27,10 @@ namespace stormcellar::cli {
 
 class OutputFile {
   public:
-    // Errors: those of making a temporary directory.
-    [[nodiscard]] static Result<OutputFile> open(const std::string& output);
+    // `ending`: of the temporary file, for who goes by it. Errors: those of making a temporary
+    // directory.
+    [[nodiscard]] static Result<OutputFile> open(const std::string& output,
+                                                 std::string_view ending = {});
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;
     OutputFile(const OutputFile&) = delete;

@@ -52,6 +52,18 @@ TEST_F(Loop, DrawsWhatFrameDraws) {
               render::decode_png_file(out("b.png")).rgba);
 }
 
+TEST_F(Loop, GoesToStandardOutputToo) {
+    commit_three();
+    const auto webp = run({"KBGM", "-o", "-"});
+    ASSERT_EQ(webp.status, 0) << webp.err;
+    EXPECT_EQ(webp.out.substr(0, 4), "RIFF");
+    EXPECT_THAT(webp.err, HasSubstr("standard output: KBGM"));
+    EXPECT_EQ(run({"KBGM", "-o", "-.gif"}).out.substr(0, 4), "GIF8");
+    EXPECT_EQ(run({"KBGM", "-o", "-", "-o", "-.gif"}).status, 2);
+    EXPECT_EQ(run({"KBGM", "-o", "-", "--json"}).status, 2);
+    EXPECT_EQ(run({"KBGM", "-o", "-.doc"}).status, 2);
+}
+
 TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
     commit_three();
     const auto frames = [&](std::vector<std::string> arguments) {

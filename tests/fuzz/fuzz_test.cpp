@@ -56,6 +56,13 @@ TEST(Fuzz, Compress) {
                 });
 }
 
+TEST(Fuzz, Archive) {
+    check_seeds(archive_seeds(), 200, check_archive,
+                [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {
+                    return mutate(bytes, most);
+                });
+}
+
 TEST(Fuzz, Bunzip) {
     check_seeds(bunzip_seeds(), 50, check_bunzip,
                 [](const Bytes& bytes, std::size_t most, Random&, const MutateBytes& mutate) {

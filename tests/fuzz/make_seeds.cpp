@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
         write(directory / "live", stormcellar::fuzz::live_seeds());
         write(directory / "messages", stormcellar::fuzz::messages_seeds());
         write(directory / "compress", stormcellar::fuzz::compress_seeds());
+        write(directory / "archive", stormcellar::fuzz::archive_seeds());
         write(directory / "bunzip", stormcellar::fuzz::bunzip_seeds());
         write(directory / "grid_file", stormcellar::fuzz::grid_file_seeds());
     } catch (const std::exception& error) {

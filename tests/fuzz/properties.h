@@ -44,6 +44,10 @@ void check_live(std::span<const std::byte> input);
 // compressor.
 void check_compress(std::span<const std::byte> file);
 
+// A tar or zip archive: what comes out stays within its limits, its names lead nowhere and are each
+// its own, and it has an end.
+void check_archive(std::span<const std::byte> file);
+
 // Bytes that decide on a bzip2 stream (tests/bunzip/stream_maker.h), valid, odd or damaged. Each
 // path of this machine gives what libbz2 gives, byte by byte, and ends as it does.
 void check_bunzip(std::span<const std::byte> choices);

@@ -17,6 +17,7 @@ struct Seed {
 [[nodiscard]] std::vector<Seed> live_seeds();
 [[nodiscard]] std::vector<Seed> messages_seeds();
 [[nodiscard]] std::vector<Seed> compress_seeds();
+[[nodiscard]] std::vector<Seed> archive_seeds();
 [[nodiscard]] std::vector<Seed> bunzip_seeds();
 [[nodiscard]] std::vector<Seed> grid_file_seeds();
 
