@@ -257,9 +257,6 @@ void Intake::job_ended(const Finished& finished) {
             } else if (finished.taken->ingest.followed) {
                 followed_.insert(path);
             }
-            if (finished.taken->ingest.instead_of != path) {
-                growing_.forget(finished.taken->ingest.instead_of);
-            }
             break;
         case pipeline::IngestResult::vanished:
             seen_.forget(path);
@@ -267,6 +264,8 @@ void Intake::job_ended(const Finished& finished) {
         default:
             break;
     }
+    const std::filesystem::path& waiter = finished.taken->ingest.instead_of;
+    if (!waiter.empty() && waiter != path) growing_.forget(waiter);
     schedule_.finished(path, again);
     note_displaced();
 }

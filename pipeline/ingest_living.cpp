@@ -239,6 +239,8 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_chunk(const ChunkPath&
         // waited for: two of one volume would overwrite each other's rows.
         volume->is_finished = true;
         auto finished = finish_chunks(*volume, facts.station, std::move(outcome), is_the_same);
+        // Nobody need ask for it any more.
+        if (finished) finished->instead_of = volume->take_former_waiter();
         chunks->forget(chunk, volume.get());
         return finished;
     }

@@ -50,7 +50,7 @@ struct IngestOutcome {
     // Growing volumes that made room for this one: what was put aside of them is gone, and they are
     // read again from their files.
     std::uint64_t given_up = 0;
-    // Of a volume of chunks, incomplete: the one that was to be asked again until this one came.
+    // Of a volume of chunks: the one that was to be asked again until this one came.
     std::filesystem::path instead_of;
     bool no_room = false;  // gridded: of some volume, but the cache's budgets left no room for it
     int not_kept = 0;      // volumes that the cache's budgets do not keep: nothing was made of them
