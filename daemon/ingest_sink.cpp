@@ -37,6 +37,8 @@ pipeline::IngestOptions IngestSink::options_of(const Config& config) const {
     options.living.scratch = config.state;
     options.living.make = config.living;
     options.living.count = growing_;
+    // Far below what the watchdog takes for a hang.
+    options.archive_turn = std::chrono::seconds{20};
     options.living.has_time = [pressed = pressed_] { return !*pressed; };
     return options;
 }

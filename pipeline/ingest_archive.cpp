@@ -124,7 +124,15 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_archive(const fs::path
     std::size_t taken = 0;
     std::size_t rejected = 0;
     std::size_t known = 0;
+    const auto start = std::chrono::steady_clock::now();
     while (const auto member = reader->next()) {
+        if (options.archive_turn &&
+            std::chrono::steady_clock::now() - start > *options.archive_turn &&
+            taken + rejected > 0) {
+            all.result = IngestResult::incomplete;
+            all.reason = fmt::format("an archive: {} taken in so far", taken + known);
+            return all;
+        }
         const auto settled = catalog.is_settled(
             member_path(path, member->name), member->bytes.size(),
             member->modified

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -83,6 +84,9 @@ struct IngestOptions {
     std::uint64_t most_file_bytes = std::uint64_t{256} << 20;
     // Likewise one that unpacks to more.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
+    // For so long the members of an archive are taken in at a time; then the archive is incomplete,
+    // and goes on with the next one when it is offered again. None: all at once.
+    std::optional<std::chrono::milliseconds> archive_turn;
     // Asked of each file that was read, before anything is made of it: its error rejects the file,
     // as where it is no longer the one that was cataloged. Empty: every file is taken.
     ReadCheck check_read;

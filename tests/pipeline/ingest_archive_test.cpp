@@ -115,6 +115,22 @@ TEST_F(IngestArchiveTest, OfOneThatStaysCutWhatIsWholeIsTaken) {
     EXPECT_THAT(outcome->reason, HasSubstr("cut or damaged"));
 }
 
+TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
+    IngestOptions options = small_grid();
+    options.archive_turn = std::chrono::milliseconds{0};
+    Ingestor by_turns(catalog_, store_, options);
+    const fs::path path =
+        put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
+    EXPECT_EQ(by_turns.ingest(path, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(grids(), 1U);
+    int turns = 1;
+    while (by_turns.ingest(path, true)->result == IngestResult::incomplete && turns < 10)
+        ++turns;
+    EXPECT_EQ(turns, 2);
+    EXPECT_EQ(grids(), 2U);
+    EXPECT_EQ(by_turns.ingest(path, true)->result, IngestResult::unchanged);
+}
+
 TEST_F(IngestArchiveTest, ItsRowsAreGoneWhenItIs) {
     const fs::path path =
         put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
