@@ -9,9 +9,12 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/file_system.h"
 
 namespace stormcellar::archive {
 namespace {
@@ -357,6 +360,28 @@ std::optional<Member> find_member(int descriptor, const std::string& name) {
         if (!member || member->name == name) return member;
     }
     return std::nullopt;
+}
+
+Result<std::vector<std::byte>> SourceReader::read(const std::filesystem::path& path) {
+    const auto name = member_path_of(path);
+    if (!name) return read_file(path);
+    // Once on from where the last one was read, and once from the start.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        if (!reader_ || archive_ != name->archive || attempt > 0) {
+            reader_.reset();
+            archive_ = name->archive;
+            file_ = Descriptor{::open(archive_.c_str(), O_RDONLY | O_CLOEXEC)};
+            reader_ = ArchiveReader::open(file_.number());
+            attempt = 1;
+        }
+        while (reader_) {
+            auto member = reader_->next();
+            if (!member) break;
+            if (member->name == name->member) return std::move(member->bytes);
+        }
+    }
+    reader_.reset();
+    return fail(ErrorCode::not_found, "{}: the archive has no such member", path.native());
 }
 
 }  // namespace stormcellar::archive

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "base/member_name.h"
 #include "base/result.h"
 #include "base/utc_time.h"
@@ -73,5 +74,18 @@ class ArchiveReader {
 [[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
 // The member of that name; none where the archive has none. The descriptor as in open().
 [[nodiscard]] std::optional<Member> find_member(int descriptor, const std::string& name);
+
+// Reads files, and members of archives that are named as "ARCHIVE!MEMBER"; members are fastest in
+// their order. Thread contract: one thread at a time.
+class SourceReader {
+  public:
+    // Errors: those of read_file(); not_found where the archive has no such member.
+    [[nodiscard]] Result<std::vector<std::byte>> read(const std::filesystem::path& path);
+
+  private:
+    std::filesystem::path archive_;
+    Descriptor file_;
+    std::optional<ArchiveReader> reader_;
+};
 
 }  // namespace stormcellar::archive

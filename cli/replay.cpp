@@ -174,7 +174,7 @@ Command add_replay(CLI::App& app) {
         "replay", "Play files into a drop directory as LDM would, in the order of their times");
     replay
         ->add_option("PLACES", options->places,
-                     "Files or directories to play, and the drop directory as the last")
+                     "Files, archives or directories to play, and the drop directory as the last")
         ->required()
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");

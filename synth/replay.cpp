@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "archive/archive_reader.h"
 #include "level2/chunk_name.h"
 #include "synth/replay_pieces.h"
 #include "synth/replay_turns.h"
@@ -90,7 +91,7 @@ class Player {
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
             if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
-            const auto bytes = read_file(item.source);
+            const auto bytes = sources_.read(item.source);
             if (!bytes) return pass_on(bytes);
             const std::size_t kept = note_arrival(item, item.name, 0, arrival, bytes->size());
             if (arrival.fault != Fault::drop) {
@@ -150,7 +151,7 @@ class Player {
     }
 
     Result<Growing> begin(std::size_t item) {
-        auto bytes = read_file(items_[item].source);
+        auto bytes = sources_.read(items_[item].source);
         if (!bytes) return pass_on(bytes);
         const bool chunks = options_.delivery == Delivery::chunks;
         const fs::path target = drop_ / targets_[item];
@@ -227,6 +228,7 @@ class Player {
     FileSystem& file_system_;
     const ReplayOptions& options_;
     std::vector<fs::path> targets_;
+    archive::SourceReader sources_;
     std::vector<ReplayTurn> turns_;
     PieceWriter writer_;
     std::map<std::size_t, Growing> growing_;  // by item

@@ -50,9 +50,10 @@ struct ReplayItem {
     bool has_records = false;        // LDM records, maybe in gzip
 };
 
-// Files are taken under their own names, directories with all regular files in them under their
-// relative ones (dot-files are left out: they are still being written). In the order of replay.
-// not_found when there is nothing at all, bad_argument when two would get the same name.
+// Files are taken under their own names, archives (tar, zip) with their members under theirs,
+// directories with all regular files in them under their relative ones (dot-files are left out:
+// they are still being written). In the order of replay. not_found when there is nothing at all,
+// bad_argument when two would get the same name.
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 

@@ -7,6 +7,10 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
+
+#include "archive/archive_reader.h"
+#include "base/descriptor.h"
 #include "base/station_table.h"
 #include "level2/archive_header.h"
 #include "level2/gzip_stream.h"
@@ -20,13 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t start_bytes = 64U << 10U;  // holds the header, gzipped or not
 
-// What cannot be read says so when its turn comes.
-void read_start(ReplayItem& item) {
-    std::vector<char> start(start_bytes);
-    std::ifstream file(item.source, std::ios::binary);
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(file.gcount()));
-    auto bytes = std::as_bytes(std::span(start));
+void read_facts(ReplayItem& item, std::span<const std::byte> bytes) {
     level2::GzipStream gzip(bytes);
     if (level2::is_gzip(bytes)) bytes = gzip.next();
     item.has_records = has_ldm_records(bytes);
@@ -36,6 +34,34 @@ void read_start(ReplayItem& item) {
         item.number = header->volume_number();
     }
     if (item.station.empty()) item.station = station_in_name(item.name.filename().string());
+}
+
+// What cannot be read says so when its turn comes.
+void read_start(ReplayItem& item) {
+    std::vector<char> start(start_bytes);
+    std::ifstream file(item.source, std::ios::binary);
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    read_facts(item, std::as_bytes(std::span(start)));
+}
+
+// Of a tar or zip archive its members; none where it is none.
+std::vector<ReplayItem> members_of(const fs::path& source) {
+    std::vector<ReplayItem> items;
+    const Descriptor file{::open(source.c_str(), O_RDONLY | O_CLOEXEC)};
+    auto reader = file.is_open() ? archive::ArchiveReader::open(file.number()) : std::nullopt;
+    while (reader) {
+        const auto member = reader->next();
+        if (!member) break;
+        ReplayItem item;
+        item.source = member_path(source, member->name);
+        item.name = member->name;
+        const auto start = std::span{member->bytes}.first(
+            std::min<std::size_t>(start_bytes, member->bytes.size()));
+        read_facts(item, start);
+        items.push_back(std::move(item));
+    }
+    return items;
 }
 
 Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
@@ -52,7 +78,8 @@ Result<std::vector<ReplayItem>> items_of(const fs::path& source) {
         items.push_back(std::move(item));
     };
     if (fs::is_regular_file(source, problem)) {
-        add(source, source.filename());
+        items = members_of(source);
+        if (items.empty()) add(source, source.filename());
         return items;
     }
     if (!fs::is_directory(source, problem)) {
@@ -93,7 +120,9 @@ Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& s
             return fail(ErrorCode::bad_argument, "{}: a second file of this name",
                         item.source.native());
         }
-        read_start(item);
+        std::error_code ignored;
+        // Of members it is known.
+        if (fs::exists(item.source, ignored)) read_start(item);
     }
     std::sort(items.begin(), items.end(), earlier);
     return items;

@@ -177,6 +177,28 @@ TEST_F(FieldCases, OldFilesAreNamedAndPlacedByTheirNameOrByOptions) {
     EXPECT_THAT(no_name.err, HasSubstr("--station"));
 }
 
+TEST_F(FieldCases, ChunksNamedByTheirLdmKeyAreOneVolume) {
+    const std::string catalog = out("catalog");
+    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", catalog, "--drop",
+                   in("9-ldm-key-chunk-names/drop")})
+                  .status,
+              0);
+    const auto volumes = json_of({"catalog", "list", "--catalog", catalog, "--json"});
+    ASSERT_EQ(volumes.size(), 1U);
+    EXPECT_EQ(volumes[0]["n_radials"], 360);
+    EXPECT_EQ(json_of({"catalog", "list", "--catalog", catalog, "--json", "--rejected"}).size(), 1U)
+        << "the other chunks have no line of their own";
+    // One alone, under a name that says nothing, is told from a volume.
+    fs::create_directory(directory_ / "drop");
+    fs::create_directory(directory_ / "other");
+    fs::copy_file(in("9-ldm-key-chunk-names/drop/L2-BZIP2_KLOT_20201019054806_34_2_I_V06_0"),
+                  directory_ / "drop" / "KLOT_part");
+    ASSERT_EQ(run({"catalog", "rebuild", "--catalog", out("other"), "--drop", out("drop")}).status,
+              0);
+    const auto lone = json_of({"catalog", "list", "--catalog", out("other"), "--json"});
+    EXPECT_THAT(lone[0]["reason"].get<std::string>(), HasSubstr("looks like one chunk"));
+}
+
 TEST_F(FieldCases, AMessage5ThatCountsMoreCutsThanItHoldsIsNotBelieved) {
     const auto json = info(in("10-pattern-17-of-7/KTLX_msg5_17"));
     EXPECT_TRUE(json["vcp_message"].is_null());

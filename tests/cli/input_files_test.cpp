@@ -122,6 +122,23 @@ TEST_F(InputFilesTest, OfACutArchiveWhatIsWholeIsTaken) {
     EXPECT_THAT(errors_, HasSubstr("cut or damaged"));
 }
 
+TEST_F(InputFilesTest, AnArchiveIsReplayedMemberByMember) {
+    const std::string path = put_archive("order.tar.gz", archive::Kind::tar_gz);
+    fs::create_directory(directory_ / "drop");
+    ASSERT_EQ(run({"replay", path, at("drop"), "--interval", "0"}).status, 0);
+    for (const char* file : two_of_them) {
+        EXPECT_TRUE(read_file(at(std::string("drop/order/") + file)).value() ==
+                    read_file(real(file)).value());
+    }
+    fs::create_directory(directory_ / "chunks");
+    const ProgramResult chunks =
+        run({"replay", path, at("chunks"), "--interval", "0", "--as", "chunks"});
+    EXPECT_EQ(chunks.status, 0) << chunks.err;
+    EXPECT_THAT(chunks.err,
+                HasSubstr("README.txt: holds no LDM records: it cannot come in chunks"));
+    EXPECT_TRUE(fs::exists(directory_ / "chunks" / "KENX"));
+}
+
 TEST_F(InputFilesTest, WhatHoldsNothingSaysSo) {
     fs::create_directory(directory_ / "empty");
     const ProgramResult empty = run({"info", at("empty")});

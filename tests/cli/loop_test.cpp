@@ -81,6 +81,31 @@ TEST_F(Loop, TakesTheRangeAndOfItTheLast) {
     EXPECT_EQ(frames({"--last", "9"}), (std::pair<std::string, int>("2005-08-22T02:44:00Z", 3)));
 }
 
+TEST_F(Loop, WhatLiesInTheFutureIsNotTheNewest) {
+    commit_three();
+    commit("20991231_000000", 50);
+    const auto frames = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"--domain", "KBGM", "--json", "-o", out("a.gif")});
+        const auto result = run(arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return nlohmann::json::parse(result.out)["to"].get<std::string>();
+    };
+    EXPECT_EQ(frames({"--last", "1"}), "2005-08-22T02:56:00Z");
+    EXPECT_EQ(frames({}), "2005-08-22T02:56:00Z");
+    EXPECT_EQ(frames({"--to", "2100-01-01"}), "2099-12-31T00:00:00Z") << "asked for";
+    const auto frame = testing::run_program(
+        STORMCELLAR_PROGRAM, {"frame", "KBGM", "--cache", (directory_ / "cache").string(),
+                              "--slices", "16", "--json", "-o", out("b.png")});
+    EXPECT_EQ(nlohmann::json::parse(frame.out)["time"], "2005-08-22T02:56:00Z");
+}
+
+TEST_F(Loop, WhereAllLiesInTheFutureItIsShownWithAWarning) {
+    commit("20991231_000000", 50);
+    const auto result = run({"KBGM", "-o", out("a.gif")});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_THAT(result.err, HasSubstr("lies in the future"));
+}
+
 TEST_F(Loop, ColoursAndViewAreThoseOfAllFrames) {
     commit("20050822_024400", 5);
     commit("20050822_025000", 70);

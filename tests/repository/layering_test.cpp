@@ -28,7 +28,7 @@ const std::map<std::string, Rooms> allowed = {
     {"grid", {"base", "accuracy", "level2"}},
     {"cache", {"base", "grid", "level2"}},
     {"render", {"base", "accuracy", "grid", "cache", "level2"}},
-    {"synth", {"base", "level2", "grid"}},
+    {"synth", {"archive", "base", "level2", "grid"}},
     {"export", {"base", "level2", "grid"}},
     {"pipeline", {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache"}},
     {"daemon",
