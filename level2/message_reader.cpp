@@ -260,7 +260,7 @@ void MessageReader::note_oddities(const MessageHeader& header, std::span<const s
         if (name && *name != builder_.station())
             note("radials name another station than the first");
     }
-    if (!firm && (!is_plausible(header) || !is_credible_radial(header, body))) {
+    if (!is_plausible(header) || (!firm && !is_credible_radial(header, body))) {
         for (const std::string_view oddity : oddities_of(header, body))
             note(oddity);
     }

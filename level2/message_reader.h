@@ -49,7 +49,7 @@ class MessageReader {
                              bool last);
     std::size_t resynchronise(std::span<const std::byte> rest, std::size_t from, bool last,
                               std::string reason);
-    // `firm`: nothing about its header is odd.
+    // `firm`: a radial agrees with its header.
     void take(const MessageHeader& header, std::span<const std::byte> message, Framing framing,
               bool firm);
     [[nodiscard]] bool full() const { return failure_ != Fragment::Failure::none; }
