@@ -65,15 +65,28 @@ bool may_be_archive(std::span<const std::byte> start) {
 }
 
 // No filter of these starts another program.
-Handle new_reader() {
+Handle new_reader(const Limits& limits) {
     Handle handle{archive_read_new()};
-    for (const auto support : {archive_read_support_filter_gzip, archive_read_support_filter_bzip2,
-                               archive_read_support_filter_xz, archive_read_support_filter_zstd,
-                               archive_read_support_filter_compress,
-                               archive_read_support_format_tar, archive_read_support_format_zip}) {
-        if (support(handle.get()) < ARCHIVE_WARN) return {};
-    }
-    return handle;
+    const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
+    const bool small =
+        support(archive_read_support_filter_gzip) && support(archive_read_support_filter_bzip2) &&
+        support(archive_read_support_filter_compress) && support(archive_read_support_format_tar) &&
+        support(archive_read_support_format_zip);
+    const bool large = limits.small_codecs || (support(archive_read_support_filter_xz) &&
+                                               support(archive_read_support_filter_zstd));
+    return small && large ? std::move(handle) : Handle{};
+}
+
+bool is_zip(::archive* handle) {
+    return (archive_format(handle) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_ZIP;
+}
+
+// Of a zip's member whose header was read, by the name that the library gives its codec.
+bool is_small_codec(::archive* handle) {
+    const char* const text = archive_format_name(handle);
+    const std::string_view name = text == nullptr ? std::string_view{} : std::string_view{text};
+    return !is_zip(handle) || name.find("deflation") != std::string_view::npos ||
+           name.find("uncompressed") != std::string_view::npos;
 }
 
 std::string text_of(::archive* handle) {
@@ -115,7 +128,7 @@ struct ArchiveReader::Impl {
     bool at_end = false;
     // The archive's last bytes; a tar that is not packed ends with blocks of zeros.
     std::function<std::vector<std::byte>()> tail;
-    bool may_nest = true;
+    int nesting = 0;  // how deep this one lies
     // An archive inside this one, while it is gone through.
     std::string inner_name;
     std::vector<std::byte> inner_bytes;
@@ -157,6 +170,15 @@ struct ArchiveReader::Impl {
         return nullptr;
     }
 
+    // A zip ends with its directory, whose last record has 22 bytes and maybe a comment.
+    [[nodiscard]] bool may_have_its_end() const {
+        if (!is_zip(handle.get())) return has_its_end();
+        if (!tail) return true;
+        const std::vector<std::byte> last = tail();
+        const std::string_view text{reinterpret_cast<const char*>(last.data()), last.size()};
+        return text.find("PK\x05\x06") != std::string_view::npos;
+    }
+
     // Of formats that mark their end the library sees whether it is there.
     [[nodiscard]] bool has_its_end() const {
         const bool is_plain_tar =
@@ -177,8 +199,11 @@ struct ArchiveReader::Impl {
     }
 
     // The entry's data; none where they are not whole, which is named.
-    std::optional<std::vector<std::byte>> data_of(const std::string& name) {
+    std::optional<std::vector<std::byte>> data_of(const std::string& name,
+                                                  std::uint64_t size_hint) {
         std::vector<std::byte> bytes;
+        bytes.reserve(static_cast<std::size_t>(std::min(size_hint, limits.member_bytes)) +
+                      piece_bytes);
         for (;;) {
             const std::size_t at = bytes.size();
             bytes.resize(at + piece_bytes);
@@ -214,10 +239,10 @@ struct ArchiveReader::Impl {
 
     // Whether what the member holds is an archive, which is gone through next.
     bool begin_inner(const std::string& name, std::vector<std::byte>& bytes) {
-        if (!may_nest) return false;
+        if (nesting >= limits.nesting) return false;
         auto reader = make(bytes, limits);
         if (!reader) return false;
-        reader->may_nest = false;
+        reader->nesting = nesting + 1;
         inner_name = name;
         inner_bytes = std::move(bytes);
         inner = std::move(reader);
@@ -265,11 +290,23 @@ struct ArchiveReader::Impl {
                 leave_out(name, std::string{refusal});
                 continue;
             }
+            if (limits.small_codecs && !is_small_codec(handle.get())) {
+                leave_out(name, "is packed in a way that may take much memory");
+                continue;
+            }
             std::optional<UtcTime> modified;
             if (archive_entry_mtime_is_set(entry) != 0) {
                 modified = UtcTime{std::chrono::seconds{archive_entry_mtime(entry)}};
             }
-            auto bytes = data_of(name);
+            // What the header claims is no more than a hint, and never more than the archive may
+            // hold.
+            const std::uint64_t claimed =
+                archive_entry_size_is_set(entry) != 0
+                    ? static_cast<std::uint64_t>(std::max<la_int64_t>(0, archive_entry_size(entry)))
+                    : 0;
+            const bool is_plain = archive_filter_code(handle.get(), 0) == ARCHIVE_FILTER_NONE &&
+                                  !is_zip(handle.get());
+            auto bytes = data_of(name, is_plain ? std::min(claimed, source_bytes) : 0);
             if (!bytes) continue;
             if (begin_inner(name, *bytes)) continue;
             return Member{own_name(name), modified, std::move(*bytes)};
@@ -280,7 +317,7 @@ struct ArchiveReader::Impl {
         if (!may_be_archive(bytes.first(std::min(bytes.size(), tar_block_bytes)))) return nullptr;
         auto impl = std::make_unique<Impl>();
         impl->limits = limits;
-        impl->handle = new_reader();
+        impl->handle = new_reader(limits);
         impl->source_bytes = bytes.size();
         impl->tail = [bytes] {
             const auto last = bytes.last(std::min(bytes.size(), tar_block_bytes));
@@ -313,7 +350,11 @@ std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) 
     }
     auto impl = std::make_unique<Impl>();
     impl->limits = limits;
-    impl->handle = new_reader();
+    impl->handle = new_reader(limits);
+    struct stat whole {};
+    if (::fstat(descriptor, &whole) == 0) {
+        impl->source_bytes = static_cast<std::uint64_t>(std::max<off_t>(0, whole.st_size));
+    }
     impl->tail = [descriptor] {
         std::vector<std::byte> last(tar_block_bytes);
         struct stat facts {};
@@ -337,6 +378,10 @@ std::optional<Member> ArchiveReader::next() {
 
 const std::vector<LeftOut>& ArchiveReader::left_out() const {
     return impl_->left_out;
+}
+
+bool ArchiveReader::may_have_its_end() const {
+    return impl_->may_have_its_end();
 }
 
 bool ArchiveReader::is_cut() const {

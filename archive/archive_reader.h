@@ -32,6 +32,11 @@ struct Limits {
     std::uint64_t all_bytes = std::uint64_t{256} << 30;        // of all together
     std::uint64_t expansion = 200;                             // times the archive's own bytes
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;  // that no expansion counts for
+    int nesting = 1;  // archives in archives that are gone through
+    // Only codecs that take some hundred kilobytes, whatever the input claims: gzip, bzip2 and
+    // compress; of zip what is deflated or stored. The others (xz, zstd, and what zip may hold)
+    // take as much as the input says, up to gigabytes.
+    bool small_codecs = false;
 };
 
 struct Member {
@@ -63,6 +68,9 @@ class ArchiveReader {
     [[nodiscard]] const std::vector<LeftOut>& left_out() const;
     // The archive ends too early or is damaged, so members may be missing; it may still be growing.
     [[nodiscard]] bool is_cut() const;
+    // Whether the end of a tar that is not packed, or of a zip, is there, by its last bytes. Of a
+    // packed one nobody knows before it was read: true.
+    [[nodiscard]] bool may_have_its_end() const;
 
   private:
     struct Impl;

@@ -223,7 +223,9 @@ Command add_catalog(CLI::App& app) {
                   "Copy raw files out of the archive, or write their volumes as netCDF");
     get->add_option("--station", options->station, station_help)->required();
     add_time_range(*get, options->times);
-    get->add_option("-o,--output", options->get.output, "The directory to write into")->required();
+    get->add_option("-o,--output", options->get.output,
+                    "The directory to write into; - is standard output, for one file")
+        ->required();
     get->add_flag("--force", options->get.force, "Replace files that are there already");
     get->add_flag("--decode", options->get.decode,
                   "Write each volume as CfRadial netCDF instead of copying its file");

@@ -7,9 +7,10 @@
 #include <set>
 #include <thread>
 
+#include "archive/archive_reader.h"
 #include "base/file_system.h"
-#include "base/member_name.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/volume_export.h"
 #include "level2/decode.h"
 #include "pipeline/cataloged_volume.h"
@@ -66,9 +67,8 @@ class Targets {
 std::string name_of_file(const CatalogEntry& entry) {
     if (!pipeline::is_of_chunks(entry)) {
         // Of a member of an archive its own name.
-        const std::string name = entry.path.filename().string();
-        const std::size_t mark = name.rfind(member_mark);
-        return mark == std::string::npos || mark + 1 == name.size() ? name : name.substr(mark + 1);
+        const auto member = archive::member_path_of(entry.path);
+        return (member ? fs::path{member->member} : entry.path).filename().string();
     }
     const std::string time = format_utc(*entry.volume.start_time);  // 2022-03-17T00:08:42Z
     std::string name = entry.station;
@@ -120,6 +120,18 @@ Result<level2::Decoded> decode_raw(catalog::Catalog& catalog, const CatalogEntry
     return decoded;
 }
 
+// The volumes of the file that matched; all of a file that holds one.
+std::vector<std::size_t> matched_volumes(const MatchedFile& file,
+                                         const std::vector<level2::Volume>& volumes) {
+    std::vector<std::size_t> matched;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const bool is_it = std::find(file.starts.begin(), file.starts.end(),
+                                     volumes[i].start_time()) != file.starts.end();
+        if (volumes.size() == 1 || is_it) matched.push_back(i);
+    }
+    return matched;
+}
+
 Status write_decoded(catalog::Catalog& catalog, const MatchedFile& file, Targets& targets) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
@@ -127,27 +139,56 @@ Status write_decoded(catalog::Catalog& catalog, const MatchedFile& file, Targets
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
     const std::string name = name_without_compression(name_of_file(file.entry));
     const bool alone = volumes.size() == 1;
-    bool any = false;
-    for (std::size_t i = 0; i < volumes.size(); ++i) {
-        const bool matched = std::find(file.starts.begin(), file.starts.end(),
-                                       volumes[i].start_time()) != file.starts.end();
-        if (!alone && !matched) continue;
-        any = true;
+    const auto matched = matched_volumes(file, volumes);
+    for (const std::size_t i : matched) {
         const auto to =
             targets.claim(alone ? name + ".nc" : fmt::format("{}_volume{}.nc", name, i + 1));
         if (!to) return pass_on(to);
         if (auto done = export_volume(volumes, i, report, file.entry.path, *to); !done) return done;
         fmt::print("{}\n", printable(to->native()));
     }
-    if (any) return {};
+    if (!matched.empty()) return {};
     return fail(ErrorCode::corrupt, "{}: holds other volumes than the catalog says",
                 file.entry.path.native());
+}
+
+Status decode_to_stdout(catalog::Catalog& catalog, const MatchedFile& file) {
+    auto decoded = decode_raw(catalog, file.entry);
+    if (!decoded) return pass_on(decoded);
+    const level2::DecodeReport report = decoded->report;
+    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
+    const auto matched = matched_volumes(file, volumes);
+    if (matched.size() != 1) {
+        return fail(ErrorCode::bad_argument, "-o - takes one volume, and {} matched",
+                    matched.size());
+    }
+    auto output = OutputFile::open("-");
+    if (!output) return pass_on(output);
+    Status written =
+        export_volume(volumes, matched.front(), report, file.entry.path, output->path());
+    return written ? output->finish() : written;
+}
+
+// The one file that matched.
+Status get_to_stdout(catalog::Catalog& catalog, const std::vector<MatchedFile>& files,
+                     bool decode) {
+    if (files.size() != 1) {
+        return fail(ErrorCode::bad_argument, "-o - takes one file, and {} matched", files.size());
+    }
+    if (decode) return decode_to_stdout(catalog, files.front());
+    const auto bytes = read_raw(catalog, files.front().entry);
+    if (!bytes) return pass_on(bytes);
+    return write_output("-", *bytes);
 }
 
 }  // namespace
 
 int get_files(catalog::Catalog& catalog, const std::vector<CatalogEntry>& entries,
               const GetOptions& options) {
+    if (is_stdout(options.output)) {
+        const Status done = get_to_stdout(catalog, files_of(entries), options.decode);
+        return done ? exit_done : report_error(done.error());
+    }
     std::error_code error;
     fs::create_directories(options.output, error);
     if (error) {

@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 
 struct GetOptions {
-    std::string output;   // a directory; made when it is not there
+    std::string output;   // a directory, made when it is not there; "-": standard output
     bool force = false;   // replace files that are there
     bool decode = false;  // write volumes as CfRadial instead of copying files
 };

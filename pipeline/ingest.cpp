@@ -328,11 +328,6 @@ Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_p
         outcome.result = IngestResult::unchanged;
         return outcome;
     }
-    if (before->regular && before->size_bytes > 0) {
-        if (auto taken = take_archive(path, *before, finish_partial, outcome)) {
-            return std::move(*taken);
-        }
-    }
     if (before->size_bytes > options.most_file_bytes) {
         if (living) living->forget(path);
         return read_and_take_in(path, *before, finish_partial, std::move(outcome));
@@ -410,6 +405,12 @@ Result<IngestOutcome> Ingestor::Impl::read_and_take_in(const fs::path& path,
         return reject(facts,
                       {ErrorCode::not_a_file, fmt::format("is {}", kind_of_file(before.kind))},
                       outcome);
+    }
+    // Chunks are never archives, and come in their thousands.
+    if (!is_the_same && before.size_bytes > 0 && !is_chunk_name(path)) {
+        if (auto taken = take_archive(path, before, finish_partial, outcome)) {
+            return std::move(*taken);
+        }
     }
     if (before.size_bytes > options.most_file_bytes) {
         return reject(

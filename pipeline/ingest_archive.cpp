@@ -16,12 +16,15 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// A day of a radar has some 300 volumes in 3 GB. All are taken in by one job.
+// A day of a radar has some 300 volumes in 3 GB. What an archive may claim here is no more than
+// what a file may: memory for one member and little else.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
     limits.members = 10'000;
-    limits.member_bytes = options.most_file_bytes;
-    limits.all_bytes = std::uint64_t{32} << 30;
+    limits.member_bytes = std::min(options.most_file_bytes, std::uint64_t{96} << 20);
+    limits.all_bytes = std::uint64_t{8} << 30;
+    limits.nesting = 0;
+    limits.small_codecs = true;
     return limits;
 }
 
@@ -108,17 +111,10 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_archive(const fs::path
     auto reader = archive::ArchiveReader::open(file.number(), limits_of(options));
     if (!reader) return std::nullopt;
     IngestOutcome all = outcome;
-    // One that has no end yet is waited for: its members are taken in together.
-    if (!finish_partial) {
-        while (reader->next()) {
-        }
-        if (reader->is_cut()) {
-            all.result = IngestResult::incomplete;
-            all.reason = "an archive without an end";
-            return all;
-        }
-        reader = archive::ArchiveReader::open(file.number(), limits_of(options));
-        if (!reader) return std::nullopt;
+    if (!finish_partial && !reader->may_have_its_end()) {
+        all.result = IngestResult::incomplete;
+        all.reason = "an archive without an end";
+        return all;
     }
     all.result = store == nullptr ? IngestResult::registered : IngestResult::no_moment;
     std::size_t taken = 0;
@@ -148,6 +144,11 @@ std::optional<Result<IngestOutcome>> Ingestor::Impl::take_archive(const fs::path
         add(*one, all);
     }
     const auto after = stamp_of(path, options.beneath);
+    if (!finish_partial && reader->is_cut()) {
+        all.result = IngestResult::incomplete;
+        all.reason = "an archive without an end";
+        return all;
+    }
     if (!after || *after != before) {
         all.result = IngestResult::incomplete;
         all.reason = "changed while it was read";

@@ -139,6 +139,35 @@ TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {
     EXPECT_THAT(names_of(*two_deep), ElementsAre("middle.zip!inner.tar.gz", "middle.zip!c"));
 }
 
+TEST(ArchiveReader, SmallCodecsAloneTakeNoMoreMemoryThanTheyNeed) {
+    Limits limits;
+    limits.small_codecs = true;
+    limits.nesting = 0;
+    for (const Kind kind : {Kind::tar, Kind::tar_gz, Kind::tar_bz2, Kind::zip}) {
+        const auto bytes = make_archive(kind, two);
+        auto reader = ArchiveReader::open(bytes, limits);
+        ASSERT_TRUE(reader);
+        EXPECT_EQ(names_of(*reader).size(), 2U);
+    }
+    EXPECT_FALSE(ArchiveReader::open(make_archive(Kind::tar_xz, two), limits));
+    EXPECT_FALSE(ArchiveReader::open(make_archive(Kind::tar_zst, two), limits));
+    const auto outer = make_archive(Kind::zip, {{"inner.tar", make_archive(Kind::tar, two)}});
+    auto nested = ArchiveReader::open(outer, limits);
+    EXPECT_THAT(names_of(*nested), ElementsAre("inner.tar"));
+}
+
+TEST(ArchiveReader, ItsLastBytesTellWhetherItMayHaveItsEnd) {
+    for (const Kind kind : {Kind::tar, Kind::zip}) {
+        const auto bytes = make_archive(kind, two);
+        EXPECT_TRUE(ArchiveReader::open(bytes)->may_have_its_end());
+        const std::size_t less = kind == Kind::tar ? 10'000 : 30;
+        const auto cut = std::span{bytes}.first(bytes.size() - std::min(less, bytes.size() / 2));
+        const auto reader = ArchiveReader::open(cut);
+        ASSERT_TRUE(reader);
+        EXPECT_FALSE(reader->may_have_its_end());
+    }
+}
+
 TEST(ArchiveReader, BombsStopAtTheLimits) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     Limits limits;

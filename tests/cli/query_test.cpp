@@ -199,6 +199,20 @@ TEST_F(QueryTest, CacheIsListedAndADamagedGridIsNamed) {
     EXPECT_NE(ran.out.find("2 grids checked, 1 bad"), std::string::npos);
 }
 
+TEST_F(QueryTest, GetGivesOneFileToStandardOutput) {
+    const std::filesystem::path kbgm = *testing::data_directory() / "sequence-kbgm";
+    const std::vector<std::string> one = {"catalog",          "get", "--station", "KBGM", "--to",
+                                          "2005-08-22T02:45", "-o",  "-"};
+    const auto raw = run(one);
+    ASSERT_EQ(raw.status, 0) << raw.err;
+    const auto bytes = *read_file(kbgm / "KBGM20050822_024414.gz");
+    EXPECT_TRUE(raw.out == std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    auto decoded = one;
+    decoded.emplace_back("--decode");
+    EXPECT_EQ(run(decoded).out.substr(1, 3), "HDF");
+    EXPECT_EQ(run({"catalog", "get", "--station", "KBGM", "-o", "-"}).status, 2);
+}
+
 // Two directories of the archive may hold files of one name.
 TEST_F(QueryTest, GetNeverPutsOneFileInThePlaceOfAnother) {
     const std::filesystem::path kbgm = *testing::data_directory() / "sequence-kbgm";
