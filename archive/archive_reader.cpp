@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -22,6 +23,7 @@ namespace {
 constexpr std::size_t tar_block_bytes = 512;
 constexpr std::size_t read_block_bytes = std::size_t{256} << 10;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // that are named
 
 struct CloseArchive {
@@ -59,22 +61,23 @@ bool is_packed(std::span<const std::byte> start) {
 }
 
 // Whether it may be an archive, by its first 512 bytes. What is packed must be looked into.
-bool may_be_archive(std::span<const std::byte> start) {
+bool may_be_archive(std::span<const std::byte> start, const Limits& limits) {
     return begins_with(start, "PK\x03\x04") || begins_with(start, "PK\x05\x06") ||
-           is_tar_header(start) || is_packed(start);
+           is_tar_header(start) || (!limits.small_codecs && is_packed(start));
 }
 
 // No filter of these starts another program.
 Handle new_reader(const Limits& limits) {
     Handle handle{archive_read_new()};
     const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
-    const bool small =
-        support(archive_read_support_filter_gzip) && support(archive_read_support_filter_bzip2) &&
-        support(archive_read_support_filter_compress) && support(archive_read_support_format_tar) &&
-        support(archive_read_support_format_zip);
-    const bool large = limits.small_codecs || (support(archive_read_support_filter_xz) &&
-                                               support(archive_read_support_filter_zstd));
-    return small && large ? std::move(handle) : Handle{};
+    const bool formats =
+        support(archive_read_support_format_tar) && support(archive_read_support_format_zip);
+    const bool filters =
+        limits.small_codecs ||
+        (support(archive_read_support_filter_gzip) && support(archive_read_support_filter_bzip2) &&
+         support(archive_read_support_filter_compress) && support(archive_read_support_filter_xz) &&
+         support(archive_read_support_filter_zstd));
+    return formats && filters ? std::move(handle) : Handle{};
 }
 
 bool is_zip(::archive* handle) {
@@ -108,6 +111,7 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
     if (archive_entry_filetype(entry) != AE_IFREG) return "is no regular file";
     if (archive_entry_is_encrypted(entry) != 0) return "is encrypted";
     if (name.empty()) return "has no name";
+    if (name.size() > most_name_bytes) return "has a name of more than 1024 bytes";
     const std::filesystem::path path{name};
     const bool leads_out = path.is_absolute() || std::ranges::find(path, "..") != path.end();
     return leads_out ? "names a place outside of the archive" : "";
@@ -122,7 +126,7 @@ struct ArchiveReader::Impl {
     ::archive_entry* first = nullptr;  // the header that opening has read
     std::size_t members = 0;
     std::uint64_t given_bytes = 0;
-    std::set<std::string> names;
+    std::map<std::string, int> names;  // and how many had each
     std::vector<LeftOut> left_out;
     bool is_cut = false;
     bool at_end = false;
@@ -144,7 +148,7 @@ struct ArchiveReader::Impl {
         if (left_out.size() == most_left_out) {
             left_out.push_back({{}, "more is left out than is named here"});
         } else if (left_out.size() < most_left_out) {
-            left_out.push_back({std::move(name), std::move(reason)});
+            left_out.push_back({name.substr(0, most_name_bytes), std::move(reason)});
         }
     }
     void end_with(std::string reason) {
@@ -231,10 +235,12 @@ struct ArchiveReader::Impl {
 
     // A second member of a name has a number behind it.
     std::string own_name(const std::string& name) {
-        std::string own = name;
-        for (int number = 2; !names.insert(own).second; ++number)
-            own = fmt::format("{}#{}", name, number);
-        return own;
+        int& count = names[name];
+        if (++count == 1) return name;
+        for (;; ++count) {
+            std::string own = fmt::format("{}#{}", name, count);
+            if (names.emplace(own, 1).second) return own;
+        }
     }
 
     // Whether what the member holds is an archive, which is gone through next.
@@ -243,7 +249,7 @@ struct ArchiveReader::Impl {
         auto reader = make(bytes, limits);
         if (!reader) return false;
         reader->nesting = nesting + 1;
-        inner_name = name;
+        inner_name = own_name(name);
         inner_bytes = std::move(bytes);
         inner = std::move(reader);
         return true;
@@ -296,7 +302,8 @@ struct ArchiveReader::Impl {
             }
             std::optional<UtcTime> modified;
             if (archive_entry_mtime_is_set(entry) != 0) {
-                modified = UtcTime{std::chrono::seconds{archive_entry_mtime(entry)}};
+                modified = UtcTime{std::chrono::seconds{
+                    std::clamp<la_int64_t>(archive_entry_mtime(entry), 0, 7'000'000'000)}};
             }
             // What the header claims is no more than a hint, and never more than the archive may
             // hold.
@@ -314,7 +321,8 @@ struct ArchiveReader::Impl {
     }
 
     static std::unique_ptr<Impl> make(std::span<const std::byte> bytes, const Limits& limits) {
-        if (!may_be_archive(bytes.first(std::min(bytes.size(), tar_block_bytes)))) return nullptr;
+        if (!may_be_archive(bytes.first(std::min(bytes.size(), tar_block_bytes)), limits))
+            return nullptr;
         auto impl = std::make_unique<Impl>();
         impl->limits = limits;
         impl->handle = new_reader(limits);
@@ -345,7 +353,8 @@ std::optional<ArchiveReader> ArchiveReader::open(std::span<const std::byte> byte
 std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) {
     std::array<std::byte, tar_block_bytes> start{};
     const ssize_t got = ::pread(descriptor, start.data(), start.size(), 0);
-    if (got <= 0 || !may_be_archive(std::span{start}.first(static_cast<std::size_t>(got)))) {
+    if (got <= 0 ||
+        !may_be_archive(std::span{start}.first(static_cast<std::size_t>(got)), limits)) {
         return std::nullopt;
     }
     auto impl = std::make_unique<Impl>();
@@ -398,8 +407,8 @@ std::optional<MemberName> member_path_of(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-std::optional<Member> find_member(int descriptor, const std::string& name) {
-    auto reader = ArchiveReader::open(descriptor);
+std::optional<Member> find_member(int descriptor, const std::string& name, Limits limits) {
+    auto reader = ArchiveReader::open(descriptor, limits);
     while (reader) {
         auto member = reader->next();
         if (!member || member->name == name) return member;

@@ -33,9 +33,8 @@ struct Limits {
     std::uint64_t expansion = 200;                             // times the archive's own bytes
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;  // that no expansion counts for
     int nesting = 1;  // archives in archives that are gone through
-    // Only codecs that take some hundred kilobytes, whatever the input claims: gzip, bzip2 and
-    // compress; of zip what is deflated or stored. The others (xz, zstd, and what zip may hold)
-    // take as much as the input says, up to gigabytes.
+    // Only tar that is not packed, and of zip what is deflated or stored: there nothing has to be
+    // unpacked to be passed over, and no codec takes as much memory as the input says.
     bool small_codecs = false;
 };
 
@@ -81,7 +80,8 @@ class ArchiveReader {
 // The archive and the member that a path names: DIR/a.tar is a file and the path itself is none.
 [[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
 // The member of that name; none where the archive has none. The descriptor as in open().
-[[nodiscard]] std::optional<Member> find_member(int descriptor, const std::string& name);
+[[nodiscard]] std::optional<Member> find_member(int descriptor, const std::string& name,
+                                                Limits limits = {});
 
 // Reads files, and members of archives that are named as "ARCHIVE!MEMBER"; members are fastest in
 // their order. Thread contract: one thread at a time.

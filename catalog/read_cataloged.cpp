@@ -31,7 +31,11 @@ Status check_size(const CatalogEntry& entry, std::uint64_t size_bytes) {
 
 Result<CatalogedBytes> read_member(const CatalogEntry& entry, const Descriptor& archive,
                                    const MemberName& name) {
-    auto member = archive::find_member(archive.number(), name.member);
+    archive::Limits limits;
+    limits.small_codecs = true;
+    limits.nesting = 0;
+    limits.member_bytes = entry.size_bytes;
+    auto member = archive::find_member(archive.number(), name.member, limits);
     if (!member) {
         return fail(ErrorCode::corrupt, "{}: the archive does not have it any more",
                     entry.path.native());

@@ -88,7 +88,7 @@ Result<IngestOutcome> Ingestor::Impl::take_member_again(const MemberName& name,
     const auto opened = open_beneath(options.beneath, name.archive);
     if (!opened) return pass_on(opened);
     const Descriptor file{*opened};
-    const auto member = archive::find_member(file.number(), name.member);
+    const auto member = archive::find_member(file.number(), name.member, limits_of(options));
     const fs::path path = member_path(name.archive, name.member);
     if (!member) {
         return fail(ErrorCode::not_found, "{}: the archive does not have it any more",

@@ -143,12 +143,14 @@ TEST(ArchiveReader, SmallCodecsAloneTakeNoMoreMemoryThanTheyNeed) {
     Limits limits;
     limits.small_codecs = true;
     limits.nesting = 0;
-    for (const Kind kind : {Kind::tar, Kind::tar_gz, Kind::tar_bz2, Kind::zip}) {
+    for (const Kind kind : {Kind::tar, Kind::zip}) {
         const auto bytes = make_archive(kind, two);
         auto reader = ArchiveReader::open(bytes, limits);
         ASSERT_TRUE(reader);
         EXPECT_EQ(names_of(*reader).size(), 2U);
     }
+    EXPECT_FALSE(ArchiveReader::open(make_archive(Kind::tar_gz, two), limits));
+    EXPECT_FALSE(ArchiveReader::open(make_archive(Kind::tar_bz2, two), limits));
     EXPECT_FALSE(ArchiveReader::open(make_archive(Kind::tar_xz, two), limits));
     EXPECT_FALSE(ArchiveReader::open(make_archive(Kind::tar_zst, two), limits));
     const auto outer = make_archive(Kind::zip, {{"inner.tar", make_archive(Kind::tar, two)}});
