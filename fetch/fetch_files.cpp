@@ -31,6 +31,8 @@ struct Download {
     Descriptor file{-1};
     std::uint64_t have = 0;
     int tries = 0;
+    bool too_long = false;
+    std::string write_error;
 };
 
 std::string reason_of_system() {
@@ -48,6 +50,15 @@ void set_time(const fs::path& path, UtcTime time) {
     const timespec at{static_cast<time_t>(ms / 1000), static_cast<long>(ms % 1000) * 1'000'000};
     const timespec times[2] = {at, at};
     (void)::utimensat(AT_FDCWD, path.c_str(), times, 0);
+}
+
+// Letters, digits, '_', '-' and dots inside: what the names of raw files have.
+bool is_plain_name(std::string_view name) {
+    const auto is_plain = [](char c) {
+        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-' || c == '.';
+    };
+    return !name.empty() && name.front() != '.' && std::ranges::all_of(name, is_plain);
 }
 
 class Fetching {
@@ -102,7 +113,7 @@ class Fetching {
                 return;
             }
             for (BucketObject& object : listing->objects)
-                take(std::move(object));
+                take(prefix, std::move(object));
             if (listing->next_token.empty()) return;
             if (page + 1 == most_pages) {
                 report_.failures.push_back({prefix, "its listing has no end"});
@@ -114,10 +125,12 @@ class Fetching {
                        tries == 0 ? std::chrono::milliseconds{0} : wait_before(tries - 1));
     }
 
-    void take(BucketObject object) {
+    // A listing may name what was not asked for.
+    void take(const std::string& prefix, BucketObject object) {
         const std::string name{name_of_key(object.key)};
         const auto start = start_in_name(name);
-        const bool is_wanted = start && *start >= request_.from && *start <= request_.to;
+        const bool is_wanted = object.key.starts_with(prefix) && is_plain_name(name) && start &&
+                               *start >= request_.from && *start <= request_.to;
         if (!is_wanted || !taken_.insert({name, object.key}).second) return;
         if (is_metadata_name(name)) {
             ++report_.without_radials;
@@ -161,14 +174,14 @@ class Fetching {
         };
         transfer.take = [this, download](const std::byte* bytes, std::size_t count) {
             if (download->have + count > download->object.size_bytes) {
-                too_long_ = true;
+                download->too_long = true;
                 return false;
             }
             while (count > 0) {
                 const ssize_t done = ::write(download->file.number(), bytes, count);
                 if (done < 0 && errno == EINTR) continue;
                 if (done < 0) {
-                    write_error_ = reason_of_system();
+                    download->write_error = reason_of_system();
                     return false;
                 }
                 bytes += done;
@@ -191,12 +204,13 @@ class Fetching {
         const BucketObject& object = download->object;
         std::string reason = outcome.reason;
         bool again = outcome.may_be_tried_again;
-        if (std::exchange(too_long_, false)) {
+        if (std::exchange(download->too_long, false)) {
             reason = fmt::format("more than the {} bytes that the listing says", object.size_bytes);
             again = true;
             std::error_code ignored;
             fs::remove(download->part, ignored);
-        } else if (const std::string trouble = std::exchange(write_error_, {}); !trouble.empty()) {
+        } else if (const std::string trouble = std::exchange(download->write_error, {});
+                   !trouble.empty()) {
             reason = fmt::format("{}: {}", download->part.native(), trouble);
         } else if (outcome.good && download->have < object.size_bytes) {
             reason = fmt::format("{} bytes came of {}", download->have, object.size_bytes);
@@ -228,9 +242,6 @@ class Fetching {
     FetchReport report_;
     std::map<std::string, std::string> taken_;  // names, and their keys
     std::size_t failed_files_ = 0;
-    // Of the transfer whose body is being taken.
-    bool too_long_ = false;
-    std::string write_error_;
 };
 
 Result<FetchReport> fetch_files(const FetchRequest& request) {

@@ -104,7 +104,9 @@ bool Transfers::start(Transfer transfer) {
     const std::string agent = fmt::format("stormcellar/{}", software_version);
     curl_easy_setopt(easy, CURLOPT_URL, running->transfer.url.c_str());
     curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
-    curl_easy_setopt(easy, CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
+    // What was asked for safely is not answered otherwise.
+    const bool is_safe = running->transfer.url.starts_with("https");
+    curl_easy_setopt(easy, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
     curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 1L);
     curl_easy_setopt(easy, CURLOPT_MAXREDIRS, most_redirects);
     curl_easy_setopt(easy, CURLOPT_USERAGENT, agent.c_str());
