@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "archive/packed_stream.h"
 #include "base/file_system.h"
 
 namespace stormcellar::archive {
@@ -25,11 +26,6 @@ constexpr std::size_t read_block_bytes = std::size_t{256} << 10;
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_name_bytes = 1024;
 constexpr std::size_t most_left_out = 100;  // that are named
-
-struct CloseArchive {
-    void operator()(::archive* archive) const { archive_read_free(archive); }
-};
-using Handle = std::unique_ptr<::archive, CloseArchive>;
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
     return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
@@ -61,23 +57,18 @@ bool is_packed(std::span<const std::byte> start) {
 }
 
 // Whether it may be an archive, by its first 512 bytes. What is packed must be looked into.
-bool may_be_archive(std::span<const std::byte> start, const Limits& limits) {
+bool may_be_archive(std::span<const std::byte> start) {
     return begins_with(start, "PK\x03\x04") || begins_with(start, "PK\x05\x06") ||
-           is_tar_header(start) || (!limits.small_codecs && is_packed(start));
+           is_tar_header(start) || is_packed(start);
 }
 
-// No filter of these starts another program.
-Handle new_reader(const Limits& limits) {
+// No filters: what is packed comes through a PackedStream.
+Handle new_reader() {
     Handle handle{archive_read_new()};
     const auto support = [&](auto function) { return function(handle.get()) >= ARCHIVE_WARN; };
     const bool formats =
         support(archive_read_support_format_tar) && support(archive_read_support_format_zip);
-    const bool filters =
-        limits.small_codecs ||
-        (support(archive_read_support_filter_gzip) && support(archive_read_support_filter_bzip2) &&
-         support(archive_read_support_filter_compress) && support(archive_read_support_filter_xz) &&
-         support(archive_read_support_filter_zstd));
-    return formats && filters ? std::move(handle) : Handle{};
+    return formats ? std::move(handle) : Handle{};
 }
 
 bool is_zip(::archive* handle) {
@@ -90,11 +81,6 @@ bool is_small_codec(::archive* handle) {
     const std::string_view name = text == nullptr ? std::string_view{} : std::string_view{text};
     return !is_zip(handle) || name.find("deflation") != std::string_view::npos ||
            name.find("uncompressed") != std::string_view::npos;
-}
-
-std::string text_of(::archive* handle) {
-    const char* text = archive_error_string(handle);
-    return text == nullptr ? "it is damaged" : text;
 }
 
 std::string name_of(::archive_entry* entry) {
@@ -121,7 +107,8 @@ std::string_view refusal_of(::archive_entry* entry, const std::string& name) {
 
 struct ArchiveReader::Impl {
     Limits limits;
-    Handle handle;
+    std::unique_ptr<PackedStream> packed;  // none: the archive is not packed
+    Handle handle;                         // ends before what it reads
     std::uint64_t source_bytes = 0;    // of the archive; 0: not known, what was read of it counts
     ::archive_entry* first = nullptr;  // the header that opening has read
     std::size_t members = 0;
@@ -139,7 +126,16 @@ struct ArchiveReader::Impl {
     std::unique_ptr<Impl> inner;
 
     // False where it is no archive. Zeros are an empty one to some.
-    bool begin() {
+    bool begin(std::span<const std::byte> start, const PackedStream::OpenSource& source) {
+        handle = new_reader();
+        if (!handle) return false;
+        if (is_packed(start)) {
+            packed = PackedStream::open(source, limits.small_codecs,
+                                        [this](std::uint64_t read) { return most_bytes(read); });
+            if (!packed || !packed->feed(handle.get())) return false;
+        } else if (!source(handle.get())) {
+            return false;
+        }
         const int code = archive_read_next_header(handle.get(), &first);
         return code >= ARCHIVE_WARN && code != ARCHIVE_EOF;
     }
@@ -169,9 +165,18 @@ struct ArchiveReader::Impl {
             leave_out({}, "the archive has no end");
             return nullptr;
         }
+        if (end_at_bound()) return nullptr;
         is_cut = true;
-        leave_out({}, "the archive is cut or damaged: " + text_of(handle.get()));
+        leave_out({}, "the archive is cut or damaged: " + error_text_of(handle.get()));
         return nullptr;
+    }
+
+    // Whether reading ended since too much came out of what is packed.
+    bool end_at_bound() {
+        if (!packed || packed->met_bound() == 0) return false;
+        end_with(fmt::format("unpacks to more than {} bytes: the rest is not read",
+                             packed->met_bound()));
+        return true;
     }
 
     // A zip ends with its directory, whose last record has 22 bytes and maybe a comment.
@@ -187,19 +192,41 @@ struct ArchiveReader::Impl {
     [[nodiscard]] bool has_its_end() const {
         const bool is_plain_tar =
             (archive_format(handle.get()) & ARCHIVE_FORMAT_BASE_MASK) == ARCHIVE_FORMAT_TAR &&
-            archive_filter_code(handle.get(), 0) == ARCHIVE_FILTER_NONE;
+            !packed;
         if (!is_plain_tar || !tail) return true;
         const std::vector<std::byte> last = tail();
         return last.size() == tar_block_bytes &&
                std::ranges::all_of(last, [](std::byte b) { return b == std::byte{0}; });
     }
 
-    // What may come out of the archive by its own size.
-    [[nodiscard]] std::uint64_t most_bytes() const {
-        const auto read = static_cast<std::uint64_t>(
-            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1)));
+    // What may come out of the archive when so many of its bytes were read.
+    [[nodiscard]] std::uint64_t most_bytes(std::uint64_t read) const {
         return std::min(limits.all_bytes,
                         limits.unbounded_bytes + limits.expansion * std::max(source_bytes, read));
+    }
+    [[nodiscard]] std::uint64_t most_bytes() const {
+        return most_bytes(static_cast<std::uint64_t>(
+            std::max<la_int64_t>(0, archive_filter_bytes(handle.get(), -1))));
+    }
+
+    // Reads on in the entry's data, at most `room` bytes to `into`; 0: the end. None: they are
+    // not whole or too many, which is named.
+    std::optional<std::size_t> read_on(const std::string& name, std::byte* into, std::size_t room) {
+        const la_ssize_t got = archive_read_data(handle.get(), into, room);
+        if (got < 0) {
+            if (end_at_bound()) return std::nullopt;
+            is_cut = is_cut || got == ARCHIVE_FATAL;
+            at_end = at_end || got == ARCHIVE_FATAL;
+            leave_out(name, "is cut or damaged: " + error_text_of(handle.get()));
+            return std::nullopt;
+        }
+        given_bytes += static_cast<std::uint64_t>(got);
+        if (given_bytes > most_bytes()) {
+            end_with(
+                fmt::format("unpacks to more than {} bytes: the rest is not read", most_bytes()));
+            return std::nullopt;
+        }
+        return static_cast<std::size_t>(got);
     }
 
     // The entry's data; none where they are not whole, which is named.
@@ -211,26 +238,26 @@ struct ArchiveReader::Impl {
         for (;;) {
             const std::size_t at = bytes.size();
             bytes.resize(at + piece_bytes);
-            const la_ssize_t got = archive_read_data(handle.get(), bytes.data() + at, piece_bytes);
-            if (got < 0) {
-                is_cut = is_cut || got == ARCHIVE_FATAL;
-                at_end = at_end || got == ARCHIVE_FATAL;
-                leave_out(name, "is cut or damaged: " + text_of(handle.get()));
-                return std::nullopt;
-            }
-            bytes.resize(at + static_cast<std::size_t>(got));
-            given_bytes += static_cast<std::uint64_t>(got);
-            if (given_bytes > most_bytes()) {
-                end_with(fmt::format("unpacks to more than {} bytes: the rest is not read",
-                                     most_bytes()));
-                return std::nullopt;
-            }
+            const auto got = read_on(name, bytes.data() + at, piece_bytes);
+            if (!got) return std::nullopt;
+            bytes.resize(at + *got);
             if (bytes.size() > limits.member_bytes) {
                 leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
+                bytes = {};
+                pass_over(name);
                 return std::nullopt;
             }
-            if (got == 0) return bytes;
+            if (*got == 0) return bytes;
         }
+    }
+
+    // To the end of the entry. In a zip without a directory a member's end is found by unpacking
+    // it: so it is read here, where it is counted.
+    void pass_over(const std::string& name) {
+        if (!is_zip(handle.get())) return;
+        std::vector<std::byte> piece(piece_bytes);
+        for (auto got = read_on(name, piece.data(), piece.size()); got && *got > 0;)
+            got = read_on(name, piece.data(), piece.size());
     }
 
     // A second member of a name has a number behind it.
@@ -294,6 +321,7 @@ struct ArchiveReader::Impl {
             if (archive_entry_filetype(entry) == AE_IFDIR) continue;
             if (const auto refusal = refusal_of(entry, name); !refusal.empty()) {
                 leave_out(name, std::string{refusal});
+                if (archive_entry_is_encrypted(entry) == 0) pass_over(name);
                 continue;
             }
             if (limits.small_codecs && !is_small_codec(handle.get())) {
@@ -311,8 +339,7 @@ struct ArchiveReader::Impl {
                 archive_entry_size_is_set(entry) != 0
                     ? static_cast<std::uint64_t>(std::max<la_int64_t>(0, archive_entry_size(entry)))
                     : 0;
-            const bool is_plain = archive_filter_code(handle.get(), 0) == ARCHIVE_FILTER_NONE &&
-                                  !is_zip(handle.get());
+            const bool is_plain = !packed && !is_zip(handle.get());
             auto bytes = data_of(name, is_plain ? std::min(claimed, source_bytes) : 0);
             if (!bytes) continue;
             if (begin_inner(name, *bytes)) continue;
@@ -321,21 +348,19 @@ struct ArchiveReader::Impl {
     }
 
     static std::unique_ptr<Impl> make(std::span<const std::byte> bytes, const Limits& limits) {
-        if (!may_be_archive(bytes.first(std::min(bytes.size(), tar_block_bytes)), limits))
-            return nullptr;
+        const auto start = bytes.first(std::min(bytes.size(), tar_block_bytes));
+        if (!may_be_archive(start)) return nullptr;
         auto impl = std::make_unique<Impl>();
         impl->limits = limits;
-        impl->handle = new_reader(limits);
         impl->source_bytes = bytes.size();
         impl->tail = [bytes] {
             const auto last = bytes.last(std::min(bytes.size(), tar_block_bytes));
             return std::vector<std::byte>(last.begin(), last.end());
         };
-        const bool opened =
-            impl->handle &&
-            archive_read_open_memory(impl->handle.get(), bytes.data(), bytes.size()) == ARCHIVE_OK;
-        if (!opened || !impl->begin()) return nullptr;
-        return impl;
+        const bool begun = impl->begin(start, [bytes](::archive* handle) {
+            return archive_read_open_memory(handle, bytes.data(), bytes.size()) == ARCHIVE_OK;
+        });
+        return begun ? std::move(impl) : nullptr;
     }
 };
 
@@ -353,13 +378,11 @@ std::optional<ArchiveReader> ArchiveReader::open(std::span<const std::byte> byte
 std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) {
     std::array<std::byte, tar_block_bytes> start{};
     const ssize_t got = ::pread(descriptor, start.data(), start.size(), 0);
-    if (got <= 0 ||
-        !may_be_archive(std::span{start}.first(static_cast<std::size_t>(got)), limits)) {
-        return std::nullopt;
-    }
+    if (got <= 0) return std::nullopt;
+    const auto head = std::span{start}.first(static_cast<std::size_t>(got));
+    if (!may_be_archive(head)) return std::nullopt;
     auto impl = std::make_unique<Impl>();
     impl->limits = limits;
-    impl->handle = new_reader(limits);
     struct stat whole {};
     if (::fstat(descriptor, &whole) == 0) {
         impl->source_bytes = static_cast<std::uint64_t>(std::max<off_t>(0, whole.st_size));
@@ -375,9 +398,10 @@ std::optional<ArchiveReader> ArchiveReader::open(int descriptor, Limits limits) 
         return last;
     };
     ::lseek(descriptor, 0, SEEK_SET);
-    const bool opened = impl->handle && archive_read_open_fd(impl->handle.get(), descriptor,
-                                                             read_block_bytes) == ARCHIVE_OK;
-    if (!opened || !impl->begin()) return std::nullopt;
+    const bool begun = impl->begin(head, [descriptor](::archive* handle) {
+        return archive_read_open_fd(handle, descriptor, read_block_bytes) == ARCHIVE_OK;
+    });
+    if (!begun) return std::nullopt;
     return ArchiveReader(std::move(impl));
 }
 

@@ -4,9 +4,9 @@
 // memory, never unpacked under their own names. Links, devices, directories and encrypted members
 // are no files and left out, as are names that lead out of the archive. An archive in an archive is
 // gone through too, once. What the input can claim is bounded (Limits): at a bound the reader stops
-// and says so. Of a damaged archive it gives what is whole.
-// Formats: tar (also compressed: gzip, bzip2, xz, zstd, compress) and zip, by content, with
-// libarchive. Thread contract: one thread at a time.
+// and says so; what is unpacked to be passed over counts, too. Of a damaged archive it gives what
+// is whole. Formats: tar (also compressed: gzip, bzip2, xz, zstd, compress) and zip, by content,
+// with libarchive. Thread contract: one thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ struct Limits {
     std::uint64_t expansion = 200;                             // times the archive's own bytes
     std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;  // that no expansion counts for
     int nesting = 1;  // archives in archives that are gone through
-    // Only tar that is not packed, and of zip what is deflated or stored: there nothing has to be
-    // unpacked to be passed over, and no codec takes as much memory as the input says.
+    // Only codecs that take a few megabytes of memory whatever the input says: of tar gzip, bzip2
+    // and compress, of zip what is deflated or stored. Not xz and zstd.
     bool small_codecs = false;
 };
 

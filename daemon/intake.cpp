@@ -241,6 +241,15 @@ void Intake::job_failed(const Finished& finished) {
     }
 }
 
+// Behind everything that has come meanwhile.
+void Intake::give_next_turn(const Finished& finished) {
+    schedule_.finished(finished.job.path);
+    Job job = job_for(finished.job.path, Urgency::backlog);
+    job.finish_partial = finished.job.finish_partial;
+    job.newest_ns = finished.job.newest_ns;
+    offer(std::move(job), finished.taken->stamp);
+}
+
 void Intake::job_ended(const Finished& finished) {
     const std::filesystem::path& path = finished.job.path;
     schedule_.worked(path, finished.ended - finished.started, finished.ended, is_good(finished));
@@ -250,6 +259,7 @@ void Intake::job_ended(const Finished& finished) {
     note_going_on(path, finished.taken->ingest.goes_on);
     switch (finished.taken->ingest.result) {
         case pipeline::IngestResult::incomplete:
+            if (finished.taken->ingest.has_next_turn) return give_next_turn(finished);
             if (!finished.taken->ingest.followed) again = finished.ended + reread_;
             if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
                                          finished.taken->ingest.followed, station_of(path))) {

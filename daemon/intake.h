@@ -107,6 +107,7 @@ class Intake final : public WatchListener {
     // The station that a path names, where data of it are taken in; else empty.
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
+    void give_next_turn(const Finished& finished);
     // What had to give its place is found again by a scan.
     void note_displaced();
     void note_going_on(const std::filesystem::path& path, bool goes_on);

@@ -38,6 +38,7 @@ struct IngestOutcome {
     bool followed = false;  // incomplete: what is appended will be read without the rest
     // Incomplete or registered: its volume is followed, and a sweep of it has closed.
     bool goes_on = false;
+    bool has_next_turn = false;  // incomplete: an archive of which more can be taken in at once
     // It looks like one chunk of a volume, and its name is none that chunks are put together by.
     bool lone_chunk = false;
     bool partial = false;  // gridded: some volume had not ended, or was damaged

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "archive/archive_reader.h"
+#include "base/descriptor.h"
 #include "base/member_name.h"
 #include "level2/decode.h"
 #include "pipeline/chunk_volumes.h"
@@ -53,6 +55,29 @@ struct Reading {
     }
 };
 
+// An archive whose members are taken in by turns, from one to the next.
+struct OpenArchive {
+    std::filesystem::path path;
+    FileStamp stamp;
+    Descriptor file;
+    archive::ArchiveReader reader;
+    std::size_t taken = 0, rejected = 0;
+    std::size_t known = 0;  // to the catalog, from an earlier time
+};
+
+// Those that wait for their next turn, a few of them; the others are opened again. Any thread.
+class OpenArchives {
+  public:
+    // None where it is not open, or has changed since.
+    [[nodiscard]] std::optional<OpenArchive> take(const std::filesystem::path& path,
+                                                  const FileStamp& stamp);
+    void keep(OpenArchive archive);
+
+  private:
+    std::mutex mutex_;
+    std::vector<OpenArchive> open_;  // the one that has waited longest first
+};
+
 struct Ingestor::Impl {
     Impl(catalog::Catalog& its_catalog, const cache::Store* its_store, IngestOptions its_options);
 
@@ -65,6 +90,7 @@ struct Ingestor::Impl {
     std::optional<LivingFiles> living;
     std::optional<ChunkVolumes> chunks;
     std::atomic<int> running{0};
+    OpenArchives archives;
 
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial);
     // A file that was tried often enough. `why`: of the last try.
@@ -96,6 +122,9 @@ struct Ingestor::Impl {
     std::optional<Result<IngestOutcome>> take_archive(const std::filesystem::path& path,
                                                       const FileStamp& before, bool finish_partial,
                                                       const IngestOutcome& outcome);
+    std::optional<OpenArchive> open_archive(const std::filesystem::path& path,
+                                            const FileStamp& stamp);
+    Status take_next(OpenArchive& open, const archive::Member& member, IngestOutcome& all);
     [[nodiscard]] level2::DecodeOptions decode_options_for(const std::string& station);
     Result<IngestOutcome> take_member(const std::filesystem::path& archive, const FileStamp& stamp,
                                       const archive::Member& member);

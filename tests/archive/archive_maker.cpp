@@ -45,7 +45,28 @@ void put_entry(::archive* writer, const Put& put) {
     archive_entry_free(entry);
 }
 
+void add_filter(::archive* writer, Kind kind) {
+    if (kind == Kind::tar_gz) archive_write_add_filter_gzip(writer);
+    if (kind == Kind::tar_bz2) archive_write_add_filter_bzip2(writer);
+    if (kind == Kind::tar_xz) archive_write_add_filter_xz(writer);
+    if (kind == Kind::tar_zst) archive_write_add_filter_zstd(writer);
+}
+
 }  // namespace
+
+std::vector<std::byte> packed(Kind kind, const std::vector<std::byte>& bytes) {
+    std::vector<std::byte> whole(2 * bytes.size() + (1 << 20));
+    std::size_t used = 0;
+    ::archive* const writer = archive_write_new();
+    archive_write_set_format_raw(writer);
+    add_filter(writer, kind);
+    check(writer, archive_write_open_memory(writer, whole.data(), whole.size(), &used));
+    put_entry(writer, {"raw", bytes});
+    check(writer, archive_write_close(writer));
+    archive_write_free(writer);
+    whole.resize(used);
+    return whole;
+}
 
 std::vector<std::byte> make_archive(Kind kind, const std::vector<Put>& puts) {
     std::size_t room = 1 << 20;
@@ -59,10 +80,7 @@ std::vector<std::byte> make_archive(Kind kind, const std::vector<Put>& puts) {
     } else {
         archive_write_set_format_pax_restricted(writer);
     }
-    if (kind == Kind::tar_gz) archive_write_add_filter_gzip(writer);
-    if (kind == Kind::tar_bz2) archive_write_add_filter_bzip2(writer);
-    if (kind == Kind::tar_xz) archive_write_add_filter_xz(writer);
-    if (kind == Kind::tar_zst) archive_write_add_filter_zstd(writer);
+    add_filter(writer, kind);
     check(writer, archive_write_open_memory(writer, bytes.data(), bytes.size(), &used));
     for (const Put& put : puts)
         put_entry(writer, put);

@@ -125,9 +125,28 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     int turns = 1;
     while (by_turns.ingest(path, true)->result == IngestResult::incomplete && turns < 10)
         ++turns;
-    EXPECT_EQ(turns, 2);
+    EXPECT_EQ(turns, 3) << "a file that is no volume has one, too";
     EXPECT_EQ(grids(), 2U);
     EXPECT_EQ(by_turns.ingest(path, true)->result, IngestResult::unchanged);
+}
+
+TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
+    IngestOptions options = small_grid();
+    options.archive_turn = std::chrono::milliseconds{0};
+    Ingestor by_turns(catalog_, store_, options);
+    for (const auto kind : {archive::Kind::tar_gz, archive::Kind::tar_bz2}) {
+        const fs::path path = put("order.tar.packed", archive::make_archive(kind, two_volumes()));
+        int turns = 1;
+        for (; turns < 10; ++turns) {
+            const auto outcome = by_turns.ingest(path, true);
+            ASSERT_TRUE(outcome);
+            if (outcome->result != IngestResult::incomplete) break;
+            EXPECT_TRUE(outcome->has_next_turn);
+        }
+        EXPECT_EQ(turns, 4) << "three members, and the end";
+        EXPECT_EQ(grids(), 2U);
+        fs::remove(path);
+    }
 }
 
 TEST_F(IngestArchiveTest, ItsRowsAreGoneWhenItIs) {

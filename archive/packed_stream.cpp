@@ -1,0 +1,77 @@
+#include "archive/packed_stream.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include <archive.h>
+#include <archive_entry.h>
+
+namespace stormcellar::archive {
+namespace {
+
+constexpr std::size_t unpacked_block_bytes = std::size_t{256} << 10;
+constexpr int one_filter = 2;  // libarchive counts the source itself as one
+
+// None of these filters starts another program.
+bool support_filters(::archive* handle, bool small_codecs) {
+    const auto support = [&](auto function) { return function(handle) >= ARCHIVE_WARN; };
+    const bool small = support(archive_read_support_filter_gzip) &&
+                       support(archive_read_support_filter_bzip2) &&
+                       support(archive_read_support_filter_compress);
+    return small && (small_codecs || (support(archive_read_support_filter_xz) &&
+                                      support(archive_read_support_filter_zstd)));
+}
+
+}  // namespace
+
+void CloseArchive::operator()(::archive* archive) const {
+    archive_read_free(archive);
+}
+
+std::string error_text_of(::archive* handle) {
+    const char* text = archive_error_string(handle);
+    return text == nullptr ? "it is damaged" : text;
+}
+
+PackedStream::PackedStream(Handle source, Bound bound)
+    : source_(std::move(source)), bound_(std::move(bound)), block_(unpacked_block_bytes) {}
+
+std::unique_ptr<PackedStream> PackedStream::open(const OpenSource& source, bool small_codecs,
+                                                 Bound bound) {
+    Handle handle{archive_read_new()};
+    const bool ready = handle && support_filters(handle.get(), small_codecs) &&
+                       archive_read_support_format_raw(handle.get()) >= ARCHIVE_WARN &&
+                       source(handle.get());
+    if (!ready || archive_filter_count(handle.get()) != one_filter) return nullptr;
+    ::archive_entry* whole = nullptr;
+    if (archive_read_next_header(handle.get(), &whole) < ARCHIVE_WARN) return nullptr;
+    return std::unique_ptr<PackedStream>(new PackedStream(std::move(handle), std::move(bound)));
+}
+
+bool PackedStream::feed(::archive* handle) {
+    const auto read = [](::archive* reader, void* self, const void** bytes) -> la_ssize_t {
+        return static_cast<PackedStream*>(self)->read_more(reader, bytes);
+    };
+    return archive_read_open(handle, this, nullptr, read, nullptr) == ARCHIVE_OK;
+}
+
+std::int64_t PackedStream::read_more(::archive* handle, const void** bytes) {
+    const la_ssize_t got = archive_read_data(source_.get(), block_.data(), block_.size());
+    if (got < 0) {
+        archive_set_error(handle, EIO, "%s", error_text_of(source_.get()).c_str());
+        return ARCHIVE_FATAL;
+    }
+    unpacked_ += static_cast<std::uint64_t>(got);
+    const auto source_bytes = static_cast<std::uint64_t>(
+        std::max<la_int64_t>(0, archive_filter_bytes(source_.get(), -1)));
+    if (const std::uint64_t most = bound_(source_bytes); unpacked_ > most) {
+        met_bound_ = most;
+        archive_set_error(handle, EFBIG, "it unpacks to too many bytes");
+        return ARCHIVE_FATAL;
+    }
+    *bytes = block_.data();
+    return got;
+}
+
+}  // namespace stormcellar::archive
