@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -22,21 +23,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view standard_input = "standard input";
-constexpr std::uint64_t most_stdin_bytes = std::uint64_t{4} << 30;
+constexpr std::uint64_t most_piped_bytes = std::uint64_t{4} << 30;
 
-Result<std::vector<std::byte>> read_stdin() {
+// All that comes of what can be read once only.
+Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label) {
     std::vector<std::byte> bytes;
     for (;;) {
         const std::size_t at = bytes.size();
-        if (at > most_stdin_bytes) {
-            return fail(ErrorCode::unsupported, "{}: more than {} bytes", standard_input,
-                        most_stdin_bytes);
+        if (at > most_piped_bytes) {
+            return fail(ErrorCode::unsupported, "{}: more than {} bytes", label, most_piped_bytes);
         }
         bytes.resize(at + (std::size_t{1} << 20));
-        const ssize_t got = ::read(STDIN_FILENO, bytes.data() + at, bytes.size() - at);
+        const ssize_t got = ::read(descriptor, bytes.data() + at, bytes.size() - at);
         if (got < 0 && errno != EINTR) {
-            return fail(ErrorCode::io, "{}: {}", standard_input,
-                        std::system_category().message(errno));
+            return fail(ErrorCode::io, "{}: {}", label, std::system_category().message(errno));
         }
         bytes.resize(at + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
         if (got == 0) return bytes;
@@ -49,11 +49,12 @@ Result<std::vector<std::byte>> read_stdin() {
 class OpenArchive {
   public:
     // None where it is no archive.
+    // `piped`: its bytes, where they came through a pipe.
     static std::unique_ptr<OpenArchive> open(const fs::path& path,
-                                             std::span<const std::byte> bytes) {
+                                             const std::vector<std::byte>* piped) {
         auto opened = std::make_unique<OpenArchive>();
-        if (path.empty()) {
-            opened->reader_ = archive::ArchiveReader::open(bytes);
+        if (piped != nullptr) {
+            opened->reader_ = archive::ArchiveReader::open(*piped);
         } else {
             opened->file_ = Descriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
             if (opened->file_.number() < 0) return nullptr;
@@ -93,25 +94,27 @@ std::string InputFile::file_name() const {
 struct InputFiles::Impl {
     std::vector<InputFile> files;
     std::vector<std::string> left_out;
-    std::optional<std::vector<std::byte>> stdin_bytes;
+    // What came through pipes, by path; standard input has an empty one.
+    std::map<fs::path, std::vector<std::byte>> piped;
     // The archive that was read last, and where in it.
     std::unique_ptr<OpenArchive> open;
     fs::path open_path;
 
     Status add(const std::string& name);
-    Status add_stdin();
+    Status add_piped(const std::string& label, const fs::path& path, int descriptor);
     Status add_directory(const fs::path& directory);
     // False where it is no archive.
     bool add_archive(const std::string& label, const fs::path& path);
     Result<std::vector<std::byte>> read_member(const InputFile& file);
-    [[nodiscard]] std::span<const std::byte> stdin_span() const {
-        return stdin_bytes ? std::span<const std::byte>{*stdin_bytes}
-                           : std::span<const std::byte>{};
+    // None: the file is read where it lies.
+    [[nodiscard]] const std::vector<std::byte>* piped_of(const fs::path& path) const {
+        const auto found = piped.find(path);
+        return found == piped.end() ? nullptr : &found->second;
     }
 };
 
 bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& path) {
-    auto archive = OpenArchive::open(path, stdin_span());
+    auto archive = OpenArchive::open(path, piped_of(path));
     if (!archive) return false;
     while (const auto member = archive->reader().next()) {
         files.push_back(
@@ -125,15 +128,14 @@ bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& pat
     return true;
 }
 
-Status InputFiles::Impl::add_stdin() {
-    if (stdin_bytes) {
-        return fail(ErrorCode::bad_argument, "-: standard input can be named once only");
+Status InputFiles::Impl::add_piped(const std::string& label, const fs::path& path, int descriptor) {
+    if (piped.contains(path)) {
+        return fail(ErrorCode::bad_argument, "{}: can be read once only", label);
     }
-    auto bytes = read_stdin();
+    auto bytes = read_piped(descriptor, label);
     if (!bytes) return pass_on(bytes);
-    stdin_bytes = std::move(*bytes);
-    const std::string label{standard_input};
-    if (!add_archive(label, {})) files.push_back({label, {}, {}, false});
+    piped[path] = std::move(*bytes);
+    if (!add_archive(label, path)) files.push_back({label, path, {}, false});
     return {};
 }
 
@@ -160,13 +162,20 @@ Status InputFiles::Impl::add_directory(const fs::path& directory) {
 }
 
 Status InputFiles::Impl::add(const std::string& name) {
-    if (name == "-") return add_stdin();
+    if (name == "-") return add_piped(std::string{standard_input}, {}, STDIN_FILENO);
     const fs::path path{name};
     std::error_code error;
     if (fs::is_directory(path, error)) return add_directory(path);
     if (const auto member = archive::member_path_of(path)) {
         files.push_back({name, member->archive, member->member, false});
         return {};
+    }
+    if (fs::is_fifo(path, error) || fs::is_character_file(path, error)) {
+        const Descriptor pipe{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+        if (!pipe.is_open()) {
+            return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));
+        }
+        return add_piped(name, path, pipe.number());
     }
     if (!fs::is_regular_file(path, error) || !add_archive(name, path)) {
         files.push_back({name, path, {}, false});
@@ -178,7 +187,7 @@ Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& fi
     // Once on from where the last one was read, and once from the start.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!open || open_path != file.path || attempt > 0) {
-            open = OpenArchive::open(file.path, stdin_span());
+            open = OpenArchive::open(file.path, piped_of(file.path));
             open_path = file.path;
             attempt = 1;
         }
@@ -201,10 +210,12 @@ Result<InputFiles> InputFiles::find(const std::vector<std::string>& names) {
     auto impl = std::make_unique<Impl>();
     for (const std::string& name : names) {
         const std::size_t before = impl->files.size();
+        const std::size_t left_out_before = impl->left_out.size();
         if (Status added = impl->add(name); !added) return pass_on(added);
         if (impl->files.size() == before) {
-            return fail(ErrorCode::not_found, "{}: holds no file{}", name,
-                        impl->left_out.empty() ? "" : "; " + impl->left_out.back());
+            return fail(
+                ErrorCode::not_found, "{}: holds no file{}", name,
+                impl->left_out.size() == left_out_before ? "" : "; " + impl->left_out.back());
         }
     }
     return InputFiles(std::move(impl));
@@ -232,7 +243,7 @@ const std::vector<std::string>& InputFiles::left_out() const {
 
 Result<std::vector<std::byte>> InputFiles::read(const InputFile& file) {
     if (!file.member.empty()) return impl_->read_member(file);
-    if (file.path.empty()) return *impl_->stdin_bytes;
+    if (const auto* const piped = impl_->piped_of(file.path)) return *piped;
     return read_file(file.path);
 }
 

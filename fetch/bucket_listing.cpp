@@ -38,6 +38,7 @@ std::optional<BucketObject> read_object(const pugi::xml_node& node) {
     const char* const end = size.data() + size.size();
     const auto [stopped, error] = std::from_chars(size.data(), end, object.size_bytes);
     if (object.key.empty() || error != std::errc{} || stopped != end) return std::nullopt;
+    object.tag = node.child_value("ETag");
     if (const auto time = parse_utc(node.child_value("LastModified"), {})) object.modified = *time;
     return object;
 }

@@ -22,6 +22,7 @@ struct BucketObject {
     std::string key;
     std::uint64_t size_bytes = 0;
     std::optional<UtcTime> modified;
+    std::string tag;  // of its contents (ETag), in quotes; empty: the listing has none
 };
 
 struct ListingPage {

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/checksum.h"
 #include "base/descriptor.h"
 #include "fetch/bucket_listing.h"
 #include "fetch/fetch.h"
@@ -20,8 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_listing_bytes = std::size_t{16} << 20;
-constexpr std::size_t most_pages = 1000;  // of one station and day
+constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // of one page
+// Of one station and day: a page has 1,000 names, and a radar makes some 600 files a day.
+constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
 // A file on its way: what has come stands beside its place, hidden.
@@ -50,6 +52,22 @@ void set_time(const fs::path& path, UtcTime time) {
     const timespec at{static_cast<time_t>(ms / 1000), static_cast<long>(ms % 1000) * 1'000'000};
     const timespec times[2] = {at, at};
     (void)::utimensat(AT_FDCWD, path.c_str(), times, 0);
+}
+
+// Where a file is put while it comes. What was begun of other contents goes by another name.
+std::string part_name_of(const BucketObject& object) {
+    const std::int64_t modified = object.modified ? object.modified->time_since_epoch().count() : 0;
+    const std::string contents =
+        fmt::format("{} {} {} {}", object.key, object.size_bytes, modified, object.tag);
+    return fmt::format(".{}.{:016x}.part", name_of_key(object.key),
+                       xxh3_64(std::as_bytes(std::span{contents})));
+}
+
+// A header is made of it, so it must be one quoted word.
+bool is_plain_tag(std::string_view tag) {
+    const auto is_plain = [](char c) { return c > ' ' && c < 0x7F && c != '"'; };
+    return tag.size() > 2 && tag.front() == '"' && tag.back() == '"' &&
+           std::ranges::all_of(tag.substr(1, tag.size() - 2), is_plain);
 }
 
 // Letters, digits, '_', '-' and dots inside: what the names of raw files have.
@@ -144,7 +162,7 @@ class Fetching {
         }
         auto download = std::make_shared<Download>();
         download->target = request_.directory / name;
-        download->part = request_.directory / fmt::format(".{}.part", name);
+        download->part = request_.directory / part_name_of(object);
         download->object = std::move(object);
         if (size_of(download->target) == download->object.size_bytes) {
             ++report_.present;
@@ -164,6 +182,7 @@ class Fetching {
         download->have = size_of(download->part);
         if (download->have >= download->object.size_bytes) download->have = 0;
         transfer.from_byte = download->have;
+        if (is_plain_tag(download->object.tag)) transfer.tag = download->object.tag;
         transfer.begin = [download](std::uint64_t from) {
             const int flags =
                 O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | (from == 0 ? O_TRUNC : 0);
@@ -204,10 +223,11 @@ class Fetching {
         const BucketObject& object = download->object;
         std::string reason = outcome.reason;
         bool again = outcome.may_be_tried_again;
+        std::error_code ignored;
+        if (outcome.part_is_useless) fs::remove(download->part, ignored);
         if (std::exchange(download->too_long, false)) {
             reason = fmt::format("more than the {} bytes that the listing says", object.size_bytes);
             again = true;
-            std::error_code ignored;
             fs::remove(download->part, ignored);
         } else if (const std::string trouble = std::exchange(download->write_error, {});
                    !trouble.empty()) {

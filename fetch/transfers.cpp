@@ -15,7 +15,10 @@ constexpr long most_redirects = 5;
 constexpr long http_ok = 200;
 constexpr long http_partial = 206;
 constexpr long http_range = 416;
+constexpr long http_changed = 412;
 constexpr long http_too_many = 429;
+constexpr long slowest_bytes_per_s = 200;
+constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
 
 // Whether the same may go well later: what the network or the server's load does.
 bool is_passing(CURLcode code, long status) {
@@ -45,10 +48,26 @@ struct Transfers::Running {
     CURL* easy = nullptr;
     bool has_begun = false;
     bool was_refused = false;
+    bool has_wrong_range = false;   // it answers with another part than was asked for
+    std::uint64_t error_bytes = 0;  // the body of an error
+    curl_slist* headers = nullptr;
     std::array<char, CURL_ERROR_SIZE> error{};
 
+    Running() = default;
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
     ~Running() {
         if (easy != nullptr) curl_easy_cleanup(easy);
+        curl_slist_free_all(headers);
+    }
+    // Whether the part begins where it was asked for: "Content-Range: bytes 500-999/1000".
+    [[nodiscard]] bool has_right_range() const {
+        curl_header* header = nullptr;
+        if (curl_easy_header(easy, "Content-Range", 0, CURLH_HEADER, -1, &header) != CURLHE_OK) {
+            return false;
+        }
+        return std::string_view{header->value}.starts_with(
+            fmt::format("bytes {}-", transfer.from_byte));
     }
     [[nodiscard]] long status() const {
         long status = 0;
@@ -59,10 +78,15 @@ struct Transfers::Running {
         auto& running = *static_cast<Running*>(self);
         const long status = running.status();
         const std::size_t length = size * count;
-        // The body of an error is nobody's.
-        if (status != http_ok && status != http_partial) return length;
+        // The body of an error is nobody's, and one without an end an error of its own.
+        if (status != http_ok && status != http_partial) {
+            running.error_bytes += length;
+            return running.error_bytes <= most_error_bytes ? length : 0;
+        }
         if (!running.has_begun) {
             running.has_begun = true;
+            running.has_wrong_range = status == http_partial && !running.has_right_range();
+            if (running.has_wrong_range) return 0;
             const std::uint64_t from = status == http_partial ? running.transfer.from_byte : 0;
             running.was_refused = !running.transfer.begin(from);
         }
@@ -113,13 +137,18 @@ bool Transfers::start(Transfer transfer) {
     curl_easy_setopt(easy, CURLOPT_NOSIGNAL, 1L);
     curl_easy_setopt(easy, CURLOPT_FILETIME, 1L);
     curl_easy_setopt(easy, CURLOPT_CONNECTTIMEOUT, connect_timeout_s);
-    curl_easy_setopt(easy, CURLOPT_LOW_SPEED_LIMIT, 1L);
+    curl_easy_setopt(easy, CURLOPT_LOW_SPEED_LIMIT, slowest_bytes_per_s);
     curl_easy_setopt(easy, CURLOPT_LOW_SPEED_TIME, static_cast<long>(options_.stall.count()));
     curl_easy_setopt(easy, CURLOPT_ERRORBUFFER, running->error.data());
     curl_easy_setopt(easy, CURLOPT_WRITEFUNCTION, &Running::take_body);
     curl_easy_setopt(easy, CURLOPT_WRITEDATA, running.get());
     curl_easy_setopt(easy, CURLOPT_PRIVATE, running.get());
     if (running->transfer.from_byte > 0) curl_easy_setopt(easy, CURLOPT_RANGE, range.c_str());
+    if (running->transfer.from_byte > 0 && !running->transfer.tag.empty()) {
+        const std::string wanted = fmt::format("If-Match: {}", running->transfer.tag);
+        running->headers = curl_slist_append(nullptr, wanted.c_str());
+        curl_easy_setopt(easy, CURLOPT_HTTPHEADER, running->headers);
+    }
     if (curl_multi_add_handle(multi_, easy) != CURLM_OK) return false;
     running_.push_back(std::move(running));
     return true;
@@ -136,7 +165,11 @@ void Transfers::start_due() {
         Transfer transfer = std::move(one->transfer);
         one = waiting_.erase(one);
         const auto ended = transfer.ended;
-        if (!start(std::move(transfer))) ended({false, true, "no transfer can be begun", {}});
+        if (start(std::move(transfer))) continue;
+        Transfer::Outcome none;
+        none.may_be_tried_again = true;
+        none.reason = "no transfer can be begun";
+        ended(none);
     }
 }
 
@@ -159,11 +192,17 @@ void Transfers::finish_done() {
         if (modified >= 0) outcome.modified = UtcTime{std::chrono::seconds{modified}};
         if (!outcome.good) {
             outcome.may_be_tried_again =
-                !running->was_refused && (is_passing(code, status) || status == http_range);
+                !running->was_refused && (is_passing(code, status) || status == http_range ||
+                                          status == http_changed || running->has_wrong_range);
+            outcome.part_is_useless =
+                status == http_range || status == http_changed || running->has_wrong_range;
             const char* const text =
                 running->error[0] != '\0' ? running->error.data() : curl_easy_strerror(code);
-            outcome.reason =
-                code == CURLE_OK ? fmt::format("the server answers {}", status) : std::string{text};
+            outcome.reason = running->has_wrong_range
+                                 ? "the server answers with another part of the file"
+                             : code == CURLE_OK || running->error_bytes > 0
+                                 ? fmt::format("the server answers {}", status)
+                                 : std::string{text};
         }
         curl_multi_remove_handle(multi_, running->easy);
         running->transfer.ended(outcome);

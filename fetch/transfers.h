@@ -26,6 +26,8 @@ namespace stormcellar::fetch {
 struct Transfer {
     std::string url;
     std::uint64_t from_byte = 0;  // 0: all of it
+    // Of the contents that are wanted, where not all of them are: what has others answers 412.
+    std::string tag;
     // Takes the body; false: it cannot be taken, and the transfer fails for good.
     std::function<bool(const std::byte* bytes, std::size_t count)> take;
     // Called before the body of each answer. `from_byte`: where it begins, which is 0 where the
@@ -34,7 +36,8 @@ struct Transfer {
     struct Outcome {
         bool good = false;
         bool may_be_tried_again = false;
-        std::string reason;  // where it is not good
+        bool part_is_useless = false;  // it cannot go on at from_byte: only all of it can be had
+        std::string reason;            // where it is not good
         std::optional<UtcTime> modified;
     };
     // May add further transfers, this one with another from_byte among them.

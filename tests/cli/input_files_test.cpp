@@ -111,6 +111,10 @@ TEST_F(InputFilesTest, StandardInputIsAFileOrAnArchive) {
     const ProgramResult packed = shell("cat " + path + " | " + program + " info - --json");
     ASSERT_EQ(packed.status, 0) << packed.err;
     EXPECT_EQ(nlohmann::json::parse(packed.out).size(), 2U);
+    const ProgramResult pipe = shell("mkfifo " + at("pipe") + "; cat " + path + " > " + at("pipe") +
+                                     " & exec " + program + " info " + at("pipe") + " --json");
+    ASSERT_EQ(pipe.status, 0) << pipe.err;
+    EXPECT_EQ(nlohmann::json::parse(pipe.out).size(), 2U);
     EXPECT_EQ(shell(program + " grid - - -o " + at("a.nc") + " < " + path).status, 2);
 }
 

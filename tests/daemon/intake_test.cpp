@@ -177,6 +177,21 @@ TEST_F(IntakeTest, AnIncompleteFileIsFinishedWhenItWasQuiet) {
     EXPECT_EQ(intake_.pending().growing, 0U);
 }
 
+TEST_F(IntakeTest, AnArchiveGoesOnAtOnceBehindWhatHasCome) {
+    pipeline::IngestOutcome turn = outcome_of(IngestResult::incomplete);
+    turn.has_next_turn = true;
+    intake_.file_closed(at("archive"), make("archive"));
+    ASSERT_EQ(next(), "archive");
+    intake_.file_closed(at("new"), make("new"));
+    end("archive", turn);
+    EXPECT_EQ(intake_.pending().growing, 0U);
+    EXPECT_EQ(next(), "new");
+    EXPECT_EQ(next(), "archive");
+    end("archive", IngestResult::gridded);
+    end("new", IngestResult::gridded);
+    EXPECT_EQ(next(), "");
+}
+
 TEST_F(IntakeTest, AFileClosedForEachChunkIsNotReadForEachChunk) {
     intake_.file_closed(at("a"), make("a", "1"));
     ASSERT_EQ(next(), "a");

@@ -153,6 +153,38 @@ TEST_F(FetchTest, ACutFileGoesOnWhereItEnded) {
     expect_all_there();
 }
 
+// 2026-11-25: the rest of the new file was appended to the beginning of the old one.
+TEST_F(FetchTest, APartOfOtherContentsIsNotGoneOnWith) {
+    request_.tries = 1;
+    bucket_.fail_next(key(first_), {Fault::cut});
+    ASSERT_TRUE(fetch(request_));
+    contents_[first_] = std::string(contents_[first_].size(), 'Z');
+    bucket_.put(key(first_), contents_[first_]);
+    ASSERT_TRUE(fetch(request_));
+    EXPECT_EQ(bucket_.last_from(key(first_)), 0U);
+    EXPECT_TRUE(read(first_) == contents_[first_]);
+}
+
+TEST_F(FetchTest, APartThatTheServerDoesNotGoOnWithIsFetchedAnew) {
+    for (const Fault fault : {Fault::changed, Fault::other_part}) {
+        fs::remove(request_.directory / first_);
+        bucket_.fail_next(key(first_), {Fault::cut, fault});
+        const auto report = fetch(request_);
+        ASSERT_TRUE(report);
+        EXPECT_THAT(report->failures, IsEmpty());
+        EXPECT_EQ(bucket_.last_from(key(first_)), 0U);
+        EXPECT_TRUE(read(first_) == contents_[first_]);
+    }
+}
+
+TEST_F(FetchTest, AnErrorWithoutAnEndEnds) {
+    bucket_.fail_next(key(first_), {Fault::endless_error});
+    const auto report = fetch(request_);
+    ASSERT_TRUE(report);
+    ASSERT_EQ(report->failures.size(), 1U);
+    EXPECT_THAT(report->failures[0].reason, HasSubstr("403"));
+}
+
 TEST_F(FetchTest, ATransferThatStandsStillIsGivenUpAndTriedAgain) {
     bucket_.fail_next(key(first_), {Fault::stalled});
     const auto report = fetch(request_);

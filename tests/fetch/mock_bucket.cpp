@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -36,12 +37,17 @@ std::string parameter(const std::string& query, const std::string& name) {
     return percent_decoded(query.substr(begin, query.find('&', begin) - begin));
 }
 
-void send_all(int connection, std::string_view text) {
+bool send_all(int connection, std::string_view text) {
     while (!text.empty()) {
         const ssize_t sent = ::send(connection, text.data(), text.size(), MSG_NOSIGNAL);
-        if (sent <= 0) return;
+        if (sent <= 0) return false;
         text.remove_prefix(static_cast<std::size_t>(sent));
     }
+    return true;
+}
+
+std::string tag_of(const std::string& contents) {
+    return fmt::format("\"{:x}\"", std::hash<std::string>{}(contents));
 }
 
 std::string read_head(int connection) {
@@ -141,8 +147,8 @@ std::string MockBucket::listing(const std::string& prefix, const std::string& to
         }
         entries += fmt::format(
             "<Contents><Key>{}</Key><LastModified>2017-01-01T03:07:30.000Z"
-            "</LastModified><Size>{}</Size></Contents>",
-            one->first, one->second.size());
+            "</LastModified><ETag>{}</ETag><Size>{}</Size></Contents>",
+            one->first, tag_of(one->second), one->second.size());
     }
     return fmt::format(
         "<?xml version=\"1.0\"?><ListBucketResult><IsTruncated>{}</IsTruncated>{}{}"
@@ -175,6 +181,15 @@ void MockBucket::answer(int connection) {
         const std::size_t range = head.find("Range: bytes=");
         if (range != std::string::npos) from = std::stoul(head.substr(range + 13));
         last_from_[key] = from;
+        const std::size_t match = head.find("If-Match: ");
+        const bool changed = match != std::string::npos &&
+                             !std::string_view{head}.substr(match + 10).starts_with(tag_of(body));
+        if (changed || fault == Fault::changed) {
+            send_all(connection,
+                     "HTTP/1.1 412 Precondition Failed\r\nContent-Length: 0\r\n"
+                     "Connection: close\r\n\r\n");
+            return;
+        }
     }
     if (fault == Fault::unavailable || fault == Fault::missing || !known) {
         const int status = fault == Fault::unavailable ? 503 : 404;
@@ -183,13 +198,20 @@ void MockBucket::answer(int connection) {
                                          status));
         return;
     }
+    if (fault == Fault::endless_error) {
+        send_all(connection, "HTTP/1.1 403 No\r\nConnection: close\r\n\r\n");
+        while (!stop_ && send_all(connection, std::string(100'000, 'x'))) {
+        }
+        return;
+    }
     if (fault == Fault::longer) body += "and more";
     if (fault == Fault::shorter) body.resize(body.size() / 2);
     const std::string rest = body.substr(std::min(from, body.size()));
-    send_all(connection,
-             fmt::format("HTTP/1.1 {}\r\nContent-Length: {}\r\nLast-Modified: {}\r\n"
-                         "Connection: close\r\n\r\n",
-                         from > 0 ? "206 Partial Content" : "200 OK", rest.size(), modified));
+    const std::size_t said = fault == Fault::other_part ? 0 : from;
+    send_all(connection, fmt::format("HTTP/1.1 {}\r\nContent-Length: {}\r\nLast-Modified: {}\r\n"
+                                     "Content-Range: bytes {}-{}/{}\r\nConnection: close\r\n\r\n",
+                                     from > 0 ? "206 Partial Content" : "200 OK", rest.size(),
+                                     modified, said, said + rest.size() - 1, body.size()));
     const bool half = fault == Fault::cut || fault == Fault::stalled;
     send_all(connection, std::string_view{rest}.substr(0, half ? rest.size() / 2 : rest.size()));
     for (int i = 0; fault == Fault::stalled && i < 200 && !stop_; ++i)

@@ -24,6 +24,9 @@ class MockBucket {
         stalled,      // half of the body, and then nothing
         missing,      // 404
         no_xml,       // of a listing: something else
+        changed,      // 412: other contents than those that are asked for
+        other_part,   // 206, from another byte than was asked for
+        endless_error,
     };
 
     MockBucket();
