@@ -17,7 +17,7 @@
 #include "cli/mosaic_accuracy.h"
 #include "cli/picture_ladder.h"
 #include "cli/site_pairs.h"
-#include "cli/stopwatch.h"
+#include "base/stopwatch.h"
 #include "cli/truth_errors.h"
 #include "cli/volume_source.h"
 #include "grid/ladder.h"

@@ -15,7 +15,7 @@
 #include "cli/grid_notes.h"
 #include "cli/grid_request.h"
 #include "cli/output_file.h"
-#include "cli/stopwatch.h"
+#include "base/stopwatch.h"
 #include "cli/volume_source.h"
 #include "export/grid_netcdf.h"
 #include "grid/column_geometry.h"

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
-#include "cli/stopwatch.h"
+#include "base/stopwatch.h"
 #include "grid/effects.h"
 #include "grid/projection.h"
 #include "grid/site_frame.h"

@@ -5,7 +5,7 @@
 #include "base/file_system.h"
 #include "base/station_table.h"
 #include "cli/problem_notes.h"
-#include "cli/stopwatch.h"
+#include "base/stopwatch.h"
 #include "level2/chunk_directory.h"
 #include "level2/decode.h"
 #include "level2/volume_checks.h"

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "daemon/pulse.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 #include "daemon/sink.h"
 
 namespace stormcellar::daemon {

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "daemon/file_stamp.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::daemon {
 

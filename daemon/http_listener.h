@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "daemon/listening_socket.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 struct MHD_Daemon;
 struct MHD_Connection;

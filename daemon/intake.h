@@ -20,7 +20,7 @@
 #include "daemon/growing_files.h"
 #include "daemon/schedule.h"
 #include "daemon/seen_files.h"
-#include "daemon/status.h"
+#include "daemon/pending.h"
 #include "daemon/watcher.h"
 #include "daemon/worker_pool.h"
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "daemon/log_event.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::daemon {
 

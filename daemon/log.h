@@ -25,7 +25,7 @@
 #include "base/utc_time.h"
 #include "daemon/line_limiter.h"
 #include "daemon/log_event.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::daemon {
 

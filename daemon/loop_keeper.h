@@ -21,7 +21,7 @@
 #include "daemon/file_stamp.h"
 #include "daemon/loop_config.h"
 #include "daemon/pulse.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 #include "daemon/wake_up.h"
 
 namespace stormcellar::daemon {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "daemon/pulse.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::daemon {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::daemon {
 

@@ -12,7 +12,7 @@
 
 #include "base/file_system.h"
 #include "base/result.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 
 namespace stormcellar::daemon {
 

@@ -10,7 +10,7 @@
 #include <future>
 
 #include "daemon/pulse.h"
-#include "daemon/schedule.h"
+#include "base/steady_time.h"
 #include "daemon/sink.h"
 
 namespace stormcellar::daemon {

@@ -29,12 +29,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/steady_time.h"
 #include "daemon/ready_jobs.h"
 #include "daemon/work_shares.h"
 
 namespace stormcellar::daemon {
-
-using SteadyTime = std::chrono::steady_clock::time_point;
 
 struct Job {
     std::filesystem::path path;

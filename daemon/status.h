@@ -19,6 +19,7 @@
 #include "base/utc_time.h"
 #include "cache/store.h"
 #include "daemon/loop_config.h"
+#include "daemon/pending.h"
 #include "daemon/rejected_paths.h"
 #include "daemon/sink.h"
 #include "daemon/station_book.h"
@@ -28,12 +29,6 @@
 #include "pipeline/site_watch.h"
 
 namespace stormcellar::daemon {
-
-struct Pending {
-    std::size_t waiting = 0, running = 0, growing = 0;
-    std::size_t retrying = 0;  // failed, and wait for their time; not among those waiting
-    bool operator==(const Pending&) const = default;
-};
 
 // Names and reasons of all these are printable.
 struct RecentVolume {

@@ -5,7 +5,6 @@
 
 #include "base/floating_point.h"
 #include "grid/frame_table.h"
-#include "grid/gridder.h"
 #include "grid/projection.h"
 #include "grid/sphere_frame.h"
 

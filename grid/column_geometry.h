@@ -1,15 +1,17 @@
 // grid/column_geometry.h -- azimuth and arc from one site to every column of a grid spec.
 //
-// Made by make_column_geometry() (grid/gridder.h), immutable, shared between volumes and threads.
+// Made once, immutable, shared between volumes and threads.
 // Accuracy: arc 0.02 m within 500 km, azimuth 2e-5 deg and what 1e-3 m (`table`) or 1e-6 m
 // (`geodesic`) make of it close to the site: floats of exact geodesics, or of places so far from
 // them; enforced by tests/grid/column_geometry_test.cpp. In metres, and for `sphere`:
 // grid/frame_ladder.h.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "base/result.h"
 #include "grid/frame_ladder.h"
 #include "grid/grid.h"
 #include "grid/tile.h"
@@ -50,5 +52,10 @@ class ColumnGeometry {
     std::vector<ColumnPlace> places_;
     std::vector<Tile> tiles_;
 };
+
+// Azimuth and arc from one site to every column of a spec. Errors: bad_argument for an invalid spec
+// or a site that is not on the earth.
+[[nodiscard]] Result<std::shared_ptr<const ColumnGeometry>> make_column_geometry(
+    const SitePosition& site, const GridSpec& spec, ChosenFrame kind = {});
 
 }  // namespace stormcellar::grid

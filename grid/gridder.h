@@ -22,6 +22,7 @@
 
 #include "base/result.h"
 #include "base/utc_time.h"
+#include "grid/column_geometry.h"
 #include "grid/frame_ladder.h"
 #include "grid/grid.h"
 #include "grid/method.h"
@@ -50,12 +51,6 @@ struct GridderOptions {
 
 // Half-power beam width: 0.55 degrees for a TDWR of the station table, else 0.95 (WSR-88D).
 [[nodiscard]] double beam_width_of(std::string_view icao);
-
-// Azimuth and arc from one site to every column of a spec; made once and shared between volumes.
-// See grid/column_geometry.h.
-class ColumnGeometry;
-[[nodiscard]] Result<std::shared_ptr<const ColumnGeometry>> make_column_geometry(
-    const SitePosition& site, const GridSpec& spec, ChosenFrame kind = {});
 
 // The sweeps of the moment that make_grid() grids, by its beam width and `repeats`.
 [[nodiscard]] std::vector<ChosenSweep> sweeps_to_grid(const level2::Volume& volume,

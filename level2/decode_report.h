@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "level2/message_2.h"
+#include "level2/rda_status.h"
 #include "level2/volume.h"
 
 namespace stormcellar::level2 {

@@ -14,7 +14,7 @@
 #include "grid/gridder.h"
 #include "grid/site_columns.h"
 #include "grid/site_distance.h"
-#include "pipeline/recently_used.h"
+#include "base/recently_used.h"
 
 namespace stormcellar::pipeline {
 

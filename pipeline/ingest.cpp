@@ -14,7 +14,7 @@
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
 #include "pipeline/read_whole.h"
-#include "pipeline/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {

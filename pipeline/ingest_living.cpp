@@ -8,7 +8,7 @@
 #include "pipeline/drop_names.h"
 #include "pipeline/ingest_parts.h"
 #include "pipeline/keep_rule.h"
-#include "pipeline/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {

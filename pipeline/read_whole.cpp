@@ -14,7 +14,7 @@
 #include "base/checksum.h"
 #include "base/descriptor.h"
 #include "level2/growing_volume.h"
-#include "pipeline/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {

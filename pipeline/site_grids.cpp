@@ -9,7 +9,7 @@
 #include "grid/column_geometry.h"
 #include "grid/position_error.h"
 #include "pipeline/keep_rule.h"
-#include "pipeline/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace stormcellar::pipeline {
 namespace {

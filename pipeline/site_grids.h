@@ -14,7 +14,8 @@
 #include "cache/store.h"
 #include "grid/gridder.h"
 #include "pipeline/geometry_cache.h"
-#include "pipeline/ingest.h"
+#include "pipeline/ingest_options.h"
+#include "pipeline/ingest_outcome.h"
 
 namespace stormcellar::pipeline {
 

@@ -3,7 +3,9 @@
 
 #include "base/result.h"
 #include "render/map/labels.h"
-#include "render/render.h"
+#include "grid/brick_view.h"
+#include "render/frame_facts.h"
+#include "render/scene.h"
 
 namespace stormcellar::render {
 

@@ -4,14 +4,9 @@
 // time over it. The same input gives the same pixels for any number of threads.
 #pragma once
 
-#include <chrono>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "base/result.h"
-#include "base/utc_time.h"
 #include "grid/brick_view.h"
+#include "render/frame_facts.h"
 #include "render/image.h"
 #include "render/scene.h"
 #include "render/view_geometry.h"
@@ -19,22 +14,6 @@
 namespace stormcellar::render {
 
 struct FrameKeeper;  // render/frame_keeper.h
-
-// What the labels say about the grid.
-struct FrameFacts {
-    std::string domain;
-    level2::Moment moment = level2::Moment::ref;
-    UtcTime time;
-    std::vector<grid::SitePosition> sites;
-    bool partial = false;
-    // The rest may be left empty. The time where somebody is, "1999-05-03 18:56:21 CDT".
-    std::string local_time = {};
-    // From the newest radial to now, of a picture made while it is news.
-    std::optional<std::chrono::seconds> antenna_to_picture = {};
-    // What radars say is wrong with them, "KTLX: standby, maintenance required".
-    std::vector<std::string> radar_troubles = {};
-    bool interpolated = false;  // between volumes, as it was called for
-};
 
 // A loop hands the same keeper to each of its frames: map and colours are then prepared once, and
 // room is taken once. The pixels are the same with it or without.

@@ -17,7 +17,7 @@
 #include "render/canvas.h"
 #include "render/map/coverage.h"
 #include "render/map/legend.h"
-#include "render/render.h"
+#include "render/frame_facts.h"
 
 namespace stormcellar::render {
 

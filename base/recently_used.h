@@ -1,4 +1,4 @@
-// pipeline/recently_used.h -- values that were made before, by key; the least recently used go
+// base/recently_used.h -- values that were made before, by key; the least recently used go
 // first.
 //
 // Thread contract: may be used by many threads; a value that two threads want at once may be made
@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-namespace stormcellar::pipeline {
+namespace stormcellar {
 
 template <class Key, class Value>
 class RecentlyUsed {
@@ -43,4 +43,4 @@ class RecentlyUsed {
     std::list<std::pair<Key, Value>> entries_;  // most recently used first
 };
 
-}  // namespace stormcellar::pipeline
+}  // namespace stormcellar

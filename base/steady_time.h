@@ -1,0 +1,10 @@
+// base/steady_time.h -- instants of the monotonic clock, which nobody sets.
+#pragma once
+
+#include <chrono>
+
+namespace stormcellar {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+}  // namespace stormcellar
