@@ -12,13 +12,14 @@
 //
 // What measuring takes counts into a budget's time: a choice is taken only if its cost and
 // the time measured so far fit. A budget of a time alone is planned and not measured.
-// Errors: as plan(), and those of `measure`. A budget that is not met is a plan (accuracy/plan.h).
-// Thread contract: calls `measure` from the calling thread, one at a time.
+// Errors: as plan(), and those of `measure`. A budget that is not met is a plan
+// (stormcellar/accuracy/plan.h). Thread contract: calls `measure` from the calling thread, one at a
+// time.
 #pragma once
 
 #include <functional>
 
-#include "accuracy/planner.h"
+#include "stormcellar/accuracy/planner.h"
 
 namespace stormcellar::accuracy {
 

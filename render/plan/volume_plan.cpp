@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 
-#include "accuracy/candidate.h"
 #include "accuracy/governor.h"
 #include "render/colour/colour_difference.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
+#include "stormcellar/accuracy/candidate.h"
 
 namespace stormcellar::render {
 namespace {

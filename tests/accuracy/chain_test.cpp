@@ -1,4 +1,4 @@
-#include "accuracy/chain.h"
+#include "stormcellar/accuracy/chain.h"
 
 #include <limits>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "cli/status_table.h"
+#include "cli/query/status_table.h"
 
 #include <limits>
 

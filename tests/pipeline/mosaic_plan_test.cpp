@@ -4,15 +4,15 @@
 //   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
 //   scene for each effect;
 //   the frame it chose is within the budget of the exact chain's.
-#include "pipeline/mosaic_plan.h"
+#include "pipeline/plan/mosaic_plan.h"
 
 #include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "grid/compare_bricks.h"
-#include "level2/decode.h"
+#include "grid/cells/compare_bricks.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 #include "tests/testing/forced_choice.h"
 
