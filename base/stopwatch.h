@@ -3,12 +3,12 @@
 // Thread contract: one thread at a time.
 #pragma once
 
-#include <chrono>
+#include "base/steady_time.h"
 
 namespace stormcellar {
 
-[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+[[nodiscard]] inline double seconds_since(SteadyTime start) {
+    return std::chrono::duration<double>(steady_now() - start).count();
 }
 
 // Seconds from one lap to the next.
@@ -16,12 +16,12 @@ class Stopwatch {
   public:
     double lap_s() {
         const double lap = seconds_since(last_);
-        last_ = std::chrono::steady_clock::now();
+        last_ = steady_now();
         return lap;
     }
 
   private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    SteadyTime last_ = steady_now();
 };
 
 }  // namespace stormcellar

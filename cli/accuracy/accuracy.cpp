@@ -48,7 +48,7 @@ struct Subject {
 
 struct Measured {
     std::vector<accuracy::LadderRow> rows;
-    std::vector<TruthRow> truth;  // of a simulated scene
+    std::vector<synth::TruthRow> truth;  // of a simulated scene
 };
 
 Result<Subject> load_subject(const AccuracyOptions& options, const GridRequest& request) {
@@ -166,7 +166,7 @@ Result<Measured> measure(const Subject& subject, const GridRequest& request,
     if (!rows) return pass_on(rows);
     Measured measured{std::move(*rows), {}};
     if (!subject.scene) return measured;
-    auto truth = compare_with_truth(*scene, *subject.scene, ladder.columns);
+    auto truth = synth::compare_with_truth(*scene, *subject.scene, ladder.columns);
     if (!truth) return pass_on(truth);
     measured.truth = std::move(*truth);
     return measured;
@@ -212,7 +212,7 @@ Status check_options(AccuracyOptions& options) {
 }
 
 int report_over_time(const AccuracyOptions& options, const GridRequest& request,
-                     const Result<std::vector<TimedVolume>>& sequence) {
+                     const Result<std::vector<grid::TimedVolume>>& sequence) {
     if (!sequence) return report_error(sequence.error());
     const auto rows = score_sequence(*sequence, request);
     if (!rows) return report_error(rows.error());

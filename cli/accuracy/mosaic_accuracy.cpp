@@ -17,7 +17,8 @@ Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(const MosaicSources& s
     grid::MosaicOptions overlap;
     overlap.moment = request.moment;
     overlap.overlap = grid::default_overlap(request.moment);
-    auto scene = mosaic_scene(sources, request, overlap, effects);
+    const auto volumes = sources.scene_volumes();
+    auto scene = pipeline::scene_of(volumes, mosaic_request(sources, request, overlap, effects));
     if (!scene) return pass_on(scene);
     return pipeline::run_ladder(*scene, effects.chain, rounds);
 }

@@ -43,10 +43,12 @@ Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
         return fail(ErrorCode::bad_argument, "sites are compared by REF, not {}",
                     level2::moment_name(request.moment));
     }
-    pipeline::GeometryCache geometries(mosaic_geometries);
     const auto sources = load_mosaic(files, request);
     if (!sources) return pass_on(sources);
-    const auto partials = grid_sources(*sources, request, effects, geometries);
+    pipeline::GeometryCache geometries(pipeline::mosaic_geometries);
+    const auto volumes = sources->scene_volumes();
+    const auto partials =
+        pipeline::grid_volumes(volumes, mosaic_request(*sources, request, {}, effects), geometries);
     if (!partials) return pass_on(partials);
     const std::vector<pipeline::PartialView> views = pipeline::views_of(*partials);
     SitePairs compared;

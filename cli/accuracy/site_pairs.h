@@ -22,7 +22,7 @@ struct SitePairs {
 
 // Files of two sites or more; of a site with two volumes the motion of the weather is known, and
 // with it clocks can be compared. Errors: bad_argument for another moment than REF or files of one
-// site; those of load_mosaic() and grid_sources().
+// site; those of load_mosaic() and pipeline::grid_volumes().
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
                                                    const EffectRequest& effects);

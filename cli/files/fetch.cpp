@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/byte_size.h"
-#include "cli/loop/archive_options.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/progress.h"

@@ -234,13 +234,16 @@ Status check_output(const GridOptions& options, const InputFiles& inputs) {
 Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& mosaic,
                         const GridRequest& request, const EffectRequest& effects,
                         Timings& timings) {
-    auto made = make_mosaic(options.files, request, mosaic, effects);
+    const auto sources = load_mosaic(options.files, request);
+    if (!sources) return pass_on(sources);
+    auto made = pipeline::make_mosaic(sources->scene_volumes(),
+                                      mosaic_request(*sources, request, mosaic, effects));
     if (!made) return pass_on(made);
-    timings.read_s = made->timings.read_s;
-    timings.decode_s = made->timings.decode_s;
-    timings.plan_s = made->timings.plan_s;
-    timings.grid_s = made->timings.grid_s;
-    timings.merge_s = made->timings.merge_s;
+    timings.read_s = sources->read_s;
+    timings.decode_s = sources->decode_s;
+    timings.plan_s = made->plan_s;
+    timings.grid_s = made->grid_s;
+    timings.merge_s = made->merge_s;
     return Made{std::move(made->grid), std::move(made->plan)};
 }
 

@@ -10,9 +10,9 @@
 #include "cli/grid/volume_source.h"
 #include "cli/shared/effect_options.h"
 #include "pipeline/mosaic/mosaic_scene.h"
-#include "pipeline/plan/mosaic_plan.h"
+#include "pipeline/plan/mosaic_of_volumes.h"
 #include "stormcellar/base/result.h"
-#include "stormcellar/grid/grid.h"
+#include "stormcellar/grid/grid_spec.h"
 
 namespace stormcellar::cli {
 
@@ -35,19 +35,12 @@ void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& ef
 [[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                                  GridRequest request);
 
-struct MosaicTimings {
-    double read_s = 0, decode_s = 0, plan_s = 0, grid_s = 0, merge_s = 0;
-};
-
-// How many geometries of sites are kept at once.
-inline constexpr std::size_t mosaic_geometries = 4;
-
 // The volumes of a mosaic and the grid that holds them.
 struct MosaicSources {
     std::vector<SourceVolume> volumes;
     std::vector<std::string> files;  // one a volume
     grid::GridSpec spec;
-    MosaicTimings timings;
+    double read_s = 0, decode_s = 0;
 
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes() const;
     [[nodiscard]] std::size_t site_count() const;
@@ -55,30 +48,13 @@ struct MosaicSources {
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// One a volume, gridded the default way as the effects' settings change it.
-// Errors name the file: those of gridding; bad_argument for a site that sees nothing of the grid.
-[[nodiscard]] Result<std::vector<pipeline::MadePartial>> grid_sources(
-    const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
-    pipeline::GeometryCache& geometries);
-
-// What the accuracy planner measures on. The sources must outlive it.
-[[nodiscard]] Result<pipeline::MosaicScene> mosaic_scene(const MosaicSources& sources,
-                                                         const GridRequest& request,
-                                                         const grid::MosaicOptions& overlap,
-                                                         const EffectRequest& effects);
-
-struct MadeMosaic {
-    grid::Grid grid;                     // empty where the plan does not meet its budget
-    std::optional<accuracy::Plan> plan;  // where one was asked for
-    MosaicTimings timings;
-};
-
-// Without --center the middle of the sites, without an extent 230 km beyond them; without --time
-// the middle of what the newest volumes of all sites show, or the newest of them where they lie
-// more than 15 minutes from that middle; notes name what is left out for it.
-[[nodiscard]] Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files,
-                                             const GridRequest& request,
-                                             const grid::MosaicOptions& overlap,
-                                             const EffectRequest& effects);
+// What the options ask for. Without --center the grid lies about the middle of the sites, without
+// an extent it reaches 230 km beyond them; without --time it is for the middle of what the newest
+// volumes of all sites show, or of the newest of them where they lie more than 15 minutes from
+// that.
+[[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
+                                                     const GridRequest& request,
+                                                     const grid::MosaicOptions& overlap,
+                                                     const EffectRequest& effects);
 
 }  // namespace stormcellar::cli

@@ -2,23 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <future>
 #include <set>
-#include <span>
 #include <system_error>
 #include <thread>
 
 #include <fmt/ranges.h>
 
 #include "base/byte_size.h"
-#include "base/checksum.h"
+#include "base/stopwatch.h"
 #include "cli/picture/picture.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/progress.h"
-#include "pipeline/drop/station_place.h"
 #include "pipeline/mosaic/mosaic_keeper.h"
-#include "stormcellar/base/version.h"
 #include "stormcellar/grid/grid_window.h"
 
 namespace stormcellar::cli {
@@ -31,34 +27,6 @@ using pipeline::Domain;
 constexpr auto glance = std::chrono::milliseconds{50};  // how often the bar and Ctrl-C are seen to
 constexpr std::size_t most_names = 6;                   // of stations in a mosaic's name
 
-// What is to be filled, and where.
-struct Plan {
-    std::vector<std::string> stations;
-    std::optional<Domain> mosaic;
-    pipeline::ArchiveOptions fill;
-    fs::path cache;
-    std::vector<pipeline::LeftOut> left_out;  // stations that nobody places
-};
-
-// Stations of which nobody says where they stand are left out.
-std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
-                                         const std::vector<std::string>& stations,
-                                         std::vector<pipeline::LeftOut>& left_out) {
-    std::vector<grid::SitePosition> sites;
-    for (const std::string& icao : stations) {
-        if (icao.empty()) continue;  // of which nobody knows the station
-        if (auto site = pipeline::place_of_station(catalog, icao)) {
-            sites.push_back(std::move(*site));
-        } else {
-            left_out.push_back(
-                {{},
-                 fmt::format("{}: neither its files nor the station table say where it stands",
-                             icao)});
-        }
-    }
-    return sites;
-}
-
 std::string mosaic_name(const ArchiveCall& call, const std::vector<std::string>& stations) {
     if (!call.domain.empty()) return call.domain;
     if (stations.size() > most_names) return fmt::format("mosaic-of-{}", stations.size());
@@ -70,7 +38,7 @@ Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
     const ArchiveRequest& request = call.request;
     Domain domain;
     domain.stations = request.stations;
-    const auto sites = sites_of(catalog, domain.stations, left_out);
+    const auto sites = pipeline::sites_of(catalog, domain.stations, left_out);
     if (sites.empty() && !request.bounds && !request.place.center_deg) {
         return fail(ErrorCode::bad_argument,
                     "where {} stands is not known: give --center or --bounds",
@@ -82,7 +50,7 @@ Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
     if (domain.stations.empty()) {
         const auto names = catalog.station_names();
         if (!names) return pass_on(names);
-        for (const grid::SitePosition& site : sites_of(catalog, *names, left_out)) {
+        for (const grid::SitePosition& site : pipeline::sites_of(catalog, *names, left_out)) {
             if (grid::site_window(domain.spec, site)) domain.stations.push_back(site.icao);
         }
     }
@@ -95,48 +63,8 @@ Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
     return domain;
 }
 
-std::string text_of(const grid::GridSpec& spec) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {}", static_cast<int>(spec.projection),
-                       spec.center_latitude_deg, spec.center_longitude_deg, spec.spacing_m,
-                       spec.spacing_deg, spec.parallels_deg[0], spec.parallels_deg[1], spec.nx,
-                       spec.ny, fmt::join(spec.levels_m, " "));
-}
-
-// Below the user's cache directory; a name of all that determines the grids.
-Result<fs::path> private_cache(const ArchiveCall& call, const Plan& plan) {
-    const char* xdg = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    fs::path base = xdg != nullptr ? fs::path(xdg) : fs::path();
-    if (!base.is_absolute()) {
-        if (home == nullptr || !fs::path(home).is_absolute()) {
-            return fail(ErrorCode::bad_argument,
-                        "neither XDG_CACHE_HOME nor HOME says where grids may be kept: give "
-                        "--cache");
-        }
-        base = fs::path(home) / ".cache";
-    }
-    std::error_code error;
-    const fs::path catalog = fs::weakly_canonical(call.catalog, error);
-    std::string recipe =
-        fmt::format("{}\n{}\n{}\n{}\n", software_version, (error ? call.catalog : catalog).native(),
-                    level2::moment_name(call.moment), fmt::join(plan.stations, " "));
-    if (plan.mosaic) {
-        const auto rules = pipeline::frame_options(*plan.mosaic, call.moment, 1);
-        recipe += fmt::format("{}\n{}\n{} {} {}", plan.mosaic->name, text_of(plan.mosaic->spec),
-                              grid::overlap_name(rules.overlap.overlap), rules.overlap.length_m,
-                              grid::time_method_name(rules.time));
-    } else {
-        recipe += fmt::format("{} {} {} {}", plan.fill.spacing_m, plan.fill.nx, plan.fill.ny,
-                              fmt::join(plan.fill.levels_m, " "));
-    }
-    const auto hash = xxh3_64(std::as_bytes(std::span(recipe.data(), recipe.size())));
-    const std::string name = plan.mosaic ? plan.mosaic->name : plan.stations.front();
-    return base / "stormcellar" / "loops" /
-           fmt::format("{}-{}-{:016x}", name, level2::moment_name(call.moment), hash);
-}
-
-Result<Plan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
-    Plan plan;
+Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
+    pipeline::ArchivePlan plan;
     plan.stations = call.request.stations;
     plan.fill.moment = call.moment;
     plan.fill.threads = call.threads;
@@ -159,7 +87,7 @@ Result<Plan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
         if (error) return fail(ErrorCode::io, "{}: {}", call.cache.native(), error.message());
         return plan;
     }
-    auto cache = private_cache(call, plan);
+    auto cache = pipeline::private_cache(call.catalog, call.moment, plan);
     if (!cache) return pass_on(cache);
     plan.cache = std::move(*cache);
     return plan;
@@ -215,31 +143,9 @@ void note_without_volumes(const ArchiveCall& call, const std::vector<ArchiveVolu
     }
 }
 
-// Grids must not be mixed with files of others, a drop directory's least of all: a cache holds
-// directories of domains, and these directories of moments.
-Status check_cache_directory(const fs::path& directory) {
-    std::error_code error;
-    for (const auto& domain : fs::directory_iterator(directory, error)) {
-        const std::string name = domain.path().filename().string();
-        if (name.starts_with('.')) continue;
-        std::error_code inner;
-        bool is_domain = domain.is_directory(inner);
-        for (const auto& moment : fs::directory_iterator(domain.path(), inner)) {
-            const std::string moment_name = moment.path().filename().string();
-            is_domain = is_domain && (moment_name.starts_with('.') ||
-                                      level2::moment_from_name(moment_name).has_value());
-        }
-        if (is_domain) continue;
-        return fail(ErrorCode::bad_argument,
-                    "--cache: {} is no cache: it holds {}, which is no grid's", directory.native(),
-                    name);
-    }
-    return {};
-}
-
 // Refuses what will not fit; says what is to be done.
-Status announce(const ArchiveCall& call, const Plan& plan, const pipeline::ArchiveFill& fill,
-                const std::vector<ArchiveVolume>& volumes,
+Status announce(const ArchiveCall& call, const pipeline::ArchivePlan& plan,
+                const pipeline::ArchiveFill& fill, const std::vector<ArchiveVolume>& volumes,
                 const std::vector<ArchiveVolume>& missing, std::size_t frames) {
     std::uint64_t raw_bytes = 0;
     for (const ArchiveVolume& volume : missing)
@@ -296,7 +202,7 @@ void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& mis
 Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
             const std::vector<ArchiveVolume>& missing, const std::vector<UtcTime>& instants,
             Interrupt& interrupt, ArchiveGrids& grids) {
-    const auto start = Clock::now();
+    const auto start = steady_now();
     pipeline::FillReport& report = grids.report;
     if (!missing.empty()) {
         Status filled =
@@ -310,7 +216,7 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
     }
     grids.fill_s = seconds_since(start);
     if (instants.empty()) return {};
-    const auto frames_start = Clock::now();
+    const auto frames_start = steady_now();
     const auto notes = static_cast<std::ptrdiff_t>(report.notes.size());
     Status made =
         run_with_bar("mosaics", instants.size(), !call.quiet, interrupt,
@@ -321,18 +227,6 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
     warn({report.notes.begin() + notes, report.notes.end()}, "");
     grids.frames_s = seconds_since(frames_start);
     return {};
-}
-
-// The grids at these times, as far as they stand.
-Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
-                                                  const std::string& domain, level2::Moment moment,
-                                                  const std::set<UtcTime>& times) {
-    if (times.empty()) return std::vector<cache::StoreEntry>{};
-    auto entries = store.list(domain, moment, *times.begin(), *times.rbegin());
-    if (!entries) return entries;
-    std::erase_if(*entries,
-                  [&](const cache::StoreEntry& entry) { return !times.contains(entry.time); });
-    return entries;
 }
 
 // A process that was just killed may hold the lock a moment longer.
@@ -370,7 +264,7 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
         fmt::print(stderr, "stormcellar: warning: {}\n", printable(trouble.error.message));
     if (volumes->empty()) return std::optional<ArchiveGrids>{};
     note_without_volumes(call, *volumes);
-    if (auto fit = check_cache_directory(plan->cache); !fit) return pass_on(fit);
+    if (auto fit = pipeline::check_cache_directory(plan->cache); !fit) return pass_on(fit);
 
     ArchiveGrids grids;
     auto store = open_cache(plan->cache);
@@ -406,7 +300,7 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
         for (const ArchiveVolume& volume : *volumes)
             times.insert(volume.start);
     }
-    auto entries = entries_at(*grids.store, grids.domain, call.moment, times);
+    auto entries = pipeline::entries_at(*grids.store, grids.domain, call.moment, times);
     if (!entries) return pass_on(entries);
     grids.entries = std::move(*entries);
     return std::optional{std::move(grids)};

@@ -16,6 +16,7 @@
 #include "cli/shared/interrupt.h"
 #include "cli/shared/query_options.h"
 #include "pipeline/care/archive_fill.h"
+#include "pipeline/care/archive_plan.h"
 #include "pipeline/options/domain.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"

@@ -78,18 +78,6 @@ Result<std::vector<std::string>> parse_stations(const std::string& text) {
     return std::vector<std::string>(names.begin(), names.end());
 }
 
-Result<pipeline::Bounds> parse_bounds(const std::string& text) {
-    const auto given = parse_numbers(text, ',');
-    pipeline::Bounds bounds{};
-    if (given && given->size() == bounds.size()) {
-        std::copy(given->begin(), given->end(), bounds.begin());
-        if (pipeline::is_bounds(bounds)) return bounds;
-    }
-    return fail(ErrorCode::bad_argument,
-                "--bounds takes WEST,SOUTH,EAST,NORTH in degrees, as in -80,40,-72,45, not '{}'",
-                text);
-}
-
 void add_archive_options(CLI::App& app, ArchiveOptions& options) {
     const std::string group = "From an archive's raw files";
     app.add_option("--catalog", options.catalog,

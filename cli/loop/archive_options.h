@@ -54,11 +54,6 @@ struct ArchiveRequest {
 [[nodiscard]] Result<grid::GridSpec> archive_spec(const ArchiveRequest& request,
                                                   const std::vector<grid::SitePosition>& sites);
 
-// "KBGM,KENX", sorted, each once. Errors: bad_argument.
-[[nodiscard]] Result<std::vector<std::string>> parse_stations(const std::string& text);
-// "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
-[[nodiscard]] Result<pipeline::Bounds> parse_bounds(const std::string& text);
-
 // "300", "90s", "5min", "1h"; bad_argument names the option.
 [[nodiscard]] Result<std::chrono::seconds> parse_interval(const std::string& option,
                                                           const std::string& text);

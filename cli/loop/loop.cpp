@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/stopwatch.h"
 #include "cli/loop/loop_draw.h"
 #include "cli/loop/loop_encoding.h"
 #include "cli/loop/loop_grids.h"
@@ -130,7 +131,7 @@ void turn_back(std::vector<LoopFrame>& frames) {
 
 // Gives the exit status. An interrupted loop that is followed is no failure.
 int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
-              Clock::time_point start) {
+              SteadyTime start) {
     options.domain = grids.domain;
     auto& frames = grids.frames;
     if (options.last > 0 && frames.size() > options.last) {
@@ -197,7 +198,7 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
                    [&](const auto& entries) {
                        kept.next_loop();
                        return draw_loop(grids_of(*store, options.domain, entries), options, scene,
-                                        interrupt, Clock::now());
+                                        interrupt, steady_now());
                    },
                    options.quiet},
                   options.follow, interrupt.flag());
@@ -249,7 +250,7 @@ Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
 }
 
 int run_loop(LoopOptions options) {
-    const auto start = Clock::now();
+    const auto start = steady_now();
     auto piped = take_stdout(options);
     if (!piped) return report_error(piped.error());
     const auto scene = check(options);

@@ -1,5 +1,6 @@
 #include "cli/loop/loop_draw.h"
 
+#include "base/stopwatch.h"
 #include "cli/picture/kept_frames.h"
 #include "cli/picture/picture.h"
 #include "stormcellar/cache/grid_file.h"
@@ -45,7 +46,7 @@ Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::Betwee
 Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOptions& options,
                                           std::optional<pipeline::BetweenGrids>& between,
                                           Drawing& drawing, LoopReport& report) {
-    const auto start = Clock::now();
+    const auto start = steady_now();
     const auto skip = [&](const Error& error) {
         report.skipped.push_back(
             {frame.stored ? frame.stored->path : std::filesystem::path{}, error.message});
@@ -54,7 +55,7 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     const auto grid = grid_of(frame, between);
     (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
     if (!grid) return skip(grid.error());
-    const auto opened = Clock::now();
+    const auto opened = steady_now();
     auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
     facts.interpolated = grid->made && options.time_method != "nearest";
     const int threads = thread_count(options.scene);

@@ -1,5 +1,6 @@
 #include "cli/loop/loop_encoding.h"
 
+#include "base/stopwatch.h"
 #include "cli/picture/picture.h"
 
 namespace stormcellar::cli {
@@ -22,7 +23,7 @@ Status Encoding::add(render::Image frame) {
     frame_ = std::move(frame);
     for (const auto& writer : writers_) {
         running_.push_back(std::async(std::launch::async, [this, &writer]() -> Timed {
-            const auto start = Clock::now();
+            const auto start = steady_now();
             auto status = writer->add(frame_);
             return {std::move(status), seconds_since(start)};
         }));
@@ -32,7 +33,7 @@ Status Encoding::add(render::Image frame) {
 
 Status Encoding::finish(const std::atomic<bool>& stop) {
     if (auto before = wait(); !before) return before;
-    const auto start = Clock::now();
+    const auto start = steady_now();
     for (const auto& writer : writers_) {
         if (stop) return {};
         if (auto finished = writer->finish(); !finished) return finished;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/floating_point.h"
+#include "base/stopwatch.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
@@ -172,7 +173,7 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
 }
 
 Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scene,
-                          const cache::GridFile& file, Clock::time_point start) {
+                          const cache::GridFile& file, SteadyTime start) {
     Timing timing;
     timing.read_s = seconds_since(start);
     const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
@@ -212,7 +213,7 @@ Status check_options(const FrameOptions& options) {
 }
 
 int run_frame(FrameOptions options) {
-    const auto start = Clock::now();
+    const auto start = steady_now();
     if (options.scene_file.error) return report_error(*options.scene_file.error);
     if (const Status fine = check_options(options); !fine) return report_error(fine.error());
     const auto scene = scene_with(options.scene_file, options.scene);

@@ -8,10 +8,6 @@
 
 namespace stormcellar::cli {
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 namespace {
 
 // Of which the domain keeps grids, whenever they are from.

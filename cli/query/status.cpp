@@ -8,6 +8,7 @@
 #include "cli/query/status_table.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/short_duration.h"
 #include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::cli {

@@ -1,9 +1,12 @@
 #include "cli/shared/query_options.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/number_list.h"
 #include "cli/shared/commands.h"
 
 namespace stormcellar::cli {
@@ -53,6 +56,18 @@ int report_nothing_matched() {
 
 nlohmann::json json_time(const std::optional<UtcTime>& time) {
     return time ? nlohmann::json(format_utc(*time)) : nlohmann::json(nullptr);
+}
+
+Result<pipeline::Bounds> parse_bounds(const std::string& text) {
+    const auto given = parse_numbers(text, ',');
+    pipeline::Bounds bounds{};
+    if (given && given->size() == bounds.size()) {
+        std::copy(given->begin(), given->end(), bounds.begin());
+        if (pipeline::is_bounds(bounds)) return bounds;
+    }
+    return fail(ErrorCode::bad_argument,
+                "--bounds takes WEST,SOUTH,EAST,NORTH in degrees, as in -80,40,-72,45, not '{}'",
+                text);
 }
 
 }  // namespace stormcellar::cli

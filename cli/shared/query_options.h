@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "pipeline/options/domain.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
 
@@ -40,5 +41,10 @@ void warn_of_future(UtcTime newest);
 int report_nothing_matched();
 
 [[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none
+
+// "KBGM,KENX", sorted, each once. Errors: bad_argument.
+[[nodiscard]] Result<std::vector<std::string>> parse_stations(const std::string& text);
+// "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
+[[nodiscard]] Result<pipeline::Bounds> parse_bounds(const std::string& text);
 
 }  // namespace stormcellar::cli

@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
-#include "cli/picture/picture.h"
-#include "cli/query/status_table.h"
+#include "base/stopwatch.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/progress.h"
 #include "cli/shared/query_options.h"
+#include "cli/shared/short_duration.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -123,7 +123,7 @@ void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
 }
 
 int run_replay(const ReplayCommandOptions& options) {
-    const auto start = Clock::now();
+    const auto start = steady_now();
     const std::vector<std::filesystem::path> sources(options.places.begin(),
                                                      options.places.end() - 1);
     synth::ReplayOptions replay_options;

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/picture/picture.h"
+#include "base/stopwatch.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/progress.h"
@@ -38,7 +38,7 @@ void print_report(const synth::WrittenScene& written, double total_s, bool as_js
 }
 
 int run_synth(const SynthOptions& options) {
-    const auto start = Clock::now();
+    const auto start = steady_now();
     const auto scene = synth::read_scene(options.scene);
     if (!scene) return report_error(scene.error());
     Interrupt interrupt;

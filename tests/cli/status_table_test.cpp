@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/shared/short_duration.h"
+
 namespace stormcellar::cli {
 namespace {
 

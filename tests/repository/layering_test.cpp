@@ -31,7 +31,7 @@ const std::map<std::string, Rooms> allowed = {
     {"grid", {"base", "accuracy", "level2"}},
     {"cache", {"base", "grid", "level2"}},
     {"render", {"base", "accuracy", "grid", "cache", "level2"}},
-    {"synth", {"archive", "base", "level2", "grid"}},
+    {"synth", {"accuracy", "archive", "base", "level2", "grid"}},
     {"export", {"base", "level2", "grid"}},
     {"pipeline", {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache"}},
     {"daemon",
@@ -97,7 +97,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"picture", {"grid", "shared"}},
       {"loop", {"grid", "picture", "shared"}},
       {"accuracy", {"grid", "picture", "shared"}},
-      {"synth", {"picture", "query", "shared"}},
+      {"synth", {"shared"}},
       {"reference", {"shared"}}}},
 };
 
