@@ -49,6 +49,15 @@ std::string_view name_of(Evidence evidence) {
     return "sample";
 }
 
+Effect make_effect(std::string name, std::string rung, std::string what, double effort) {
+    Effect made;
+    made.name = std::move(name);
+    made.rung = std::move(rung);
+    made.what = std::move(what);
+    made.effort = effort;
+    return made;
+}
+
 bool is_effect_name(std::string_view name) {
     if (name.empty() || name.size() > longest_name) return false;
     if (name.front() < 'a' || name.front() > 'z' || name.back() == '_') return false;

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "stormcellar/accuracy/planner.h"
 
@@ -32,5 +33,14 @@ struct GovernorOptions {
 
 [[nodiscard]] Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& measure,
                                   const GovernorOptions& options = {});
+
+// The plan of one choice as it is, met and not measured: what a caller without a budget gets of its
+// default. Sizes and costs are the chain's predictions.
+[[nodiscard]] Plan plan_of_default(const Chain& chain, Choice choice);
+
+// With a budget what govern() finds, without one the plan of `by_default`.
+[[nodiscard]] Result<Plan> govern_or_default(const Chain& chain,
+                                             const std::optional<Budget>& budget,
+                                             const Choice& by_default, const Measure& measure);
 
 }  // namespace stormcellar::accuracy

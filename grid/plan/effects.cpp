@@ -31,19 +31,15 @@ constexpr std::array<std::pair<std::string_view, double>, 11> efforts{{
 }};
 
 Effect effect(std::string name, std::string rung, std::string what) {
-    Effect made;
-    for (const auto& [known, effort] : efforts) {
-        if (known == name) made.effort = effort;
-    }
-    made.name = std::move(name);
-    made.rung = std::move(rung);
-    made.what = std::move(what);
-    return made;
+    const auto* const known = std::find_if(efforts.begin(), efforts.end(),
+                                           [&](const auto& each) { return each.first == name; });
+    const double effort = known != efforts.end() ? known->second : 0;
+    return accuracy::make_effect(std::move(name), std::move(rung), std::move(what), effort);
 }
 
 Step frame_step() {
     return {
-        "frame",
+        std::string{step::frame},
         "sphere",
         {effect("ellipsoid", "WGS84 table", "The earth is an ellipsoid, not a sphere of 6371 km."),
          effect("exact_geodesic", "WGS84 geodesic",
@@ -51,7 +47,7 @@ Step frame_step() {
 }
 
 Step beam_step() {
-    return {"beam",
+    return {std::string{step::beam},
             "flat earth",
             {effect("earth_curvature", "4/3 earth",
                     "The earth falls away below the beam, which air bends down a little."),
@@ -60,14 +56,14 @@ Step beam_step() {
 }
 
 Step elevation_step() {
-    return {"elevation",
+    return {std::string{step::elevation},
             "one a sweep",
             {effect("antenna_jitter", "each radial's",
                     "Each radial was measured at an elevation of its own.")}};
 }
 
 Step interpolation_step() {
-    return {"interpolation",
+    return {std::string{step::interpolation},
             "nearest",
             {effect("column_interpolation", "linear up the column",
                     "Between two sweeps a value lies between theirs."),
@@ -78,7 +74,7 @@ Step interpolation_step() {
 }
 
 Step cell_step() {
-    return {"cell",
+    return {std::string{step::cell},
             "point",
             {effect("cell_size", "area", "A cell is the mean of all gates inside, not a point.")}};
 }
@@ -86,7 +82,8 @@ Step cell_step() {
 constexpr const char* in_z = "in Z";
 
 Step averaging_step(Averaging averaging) {
-    return {"averaging", averaging == Averaging::in_z ? in_z : "in its own unit", {}};
+    return {
+        std::string{step::averaging}, averaging == Averaging::in_z ? in_z : "in its own unit", {}};
 }
 
 Step circle_step(level2::Moment moment) {
@@ -95,15 +92,7 @@ Step circle_step(level2::Moment moment) {
         wrap = effect("velocity_folding", "on the Nyquist circle",
                       "Velocities beyond the Nyquist velocity come back on the other side.");
     }
-    return {"circle", "as numbers", {wrap}};
-}
-
-std::size_t rung_of(const accuracy::Chain& chain, const accuracy::Choice& choice,
-                    std::string_view name) {
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        if (chain.steps[i].name == name) return choice.rungs[i];
-    }
-    return 0;
+    return {std::string{step::circle}, "as numbers", {wrap}};
 }
 
 }  // namespace
@@ -118,22 +107,33 @@ accuracy::Chain effects_of(level2::Moment moment, Averaging averaging) {
 }
 
 SceneChoice scene_choice(const accuracy::Chain& chain, const accuracy::Choice& choice) {
-    const auto rung = [&](std::string_view step) { return rung_of(chain, choice, step); };
+    const auto rung = [&](std::string_view step) { return accuracy::rung_of(chain, choice, step); };
     SceneChoice scene;
-    scene.frame = static_cast<FrameKind>(rung("frame"));
-    scene.method.beam = static_cast<BeamKind>(rung("beam"));
-    scene.method.radial_elevations = rung("elevation") > 0;
-    scene.method.interpolation = static_cast<Interpolation>(rung("interpolation"));
-    scene.method.cell = rung("cell") > 0 ? CellExtent::area : CellExtent::point;
+    scene.frame = static_cast<FrameKind>(rung(step::frame));
+    scene.method.beam = static_cast<BeamKind>(rung(step::beam));
+    scene.method.radial_elevations = rung(step::elevation) > 0;
+    scene.method.interpolation = static_cast<Interpolation>(rung(step::interpolation));
+    scene.method.cell = rung(step::cell) > 0 ? CellExtent::area : CellExtent::point;
     scene.method.averaging = Averaging::in_db;
     scene.method.on_circle = true;
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        if (chain.steps[i].name == "averaging" && chain.steps[i].cheapest == in_z) {
-            scene.method.averaging = Averaging::in_z;
-        }
-        if (chain.steps[i].name == "circle") scene.method.on_circle = choice.rungs[i] > 0;
+    const auto averaging = accuracy::find_step(chain, step::averaging);
+    if (averaging && chain.steps[*averaging].cheapest == in_z) {
+        scene.method.averaging = Averaging::in_z;
     }
+    if (accuracy::find_step(chain, step::circle)) scene.method.on_circle = rung(step::circle) > 0;
     return scene;
+}
+
+accuracy::Choice reference_choice(const accuracy::Chain& chain) {
+    accuracy::Choice choice;
+    for (const Step& step : chain.steps)
+        choice.rungs.push_back(step.name == step::frame ? 1 : step.effects.size());
+    return choice;
+}
+
+SceneChoice as_measured(SceneChoice choice) {
+    if (choice.frame == FrameKind::geodesic) choice.frame = FrameKind::table;
+    return choice;
 }
 
 double joint_effort(Interpolation interpolation, CellExtent cell) {
@@ -146,7 +146,7 @@ accuracy::Choice usual_choice(const accuracy::Chain& chain) {
     accuracy::Choice choice;
     for (const Step& step : chain.steps) {
         const std::size_t rung =
-            step.name == "cell" ? 0 : std::min<std::size_t>(1, step.effects.size());
+            step.name == step::cell ? 0 : std::min<std::size_t>(1, step.effects.size());
         const accuracy::RungRange allowed = accuracy::allowed_rungs(step);
         choice.rungs.push_back(std::clamp(rung, allowed.least, allowed.most));
     }
@@ -158,11 +158,8 @@ accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& sp
     accuracy::Choice choice = usual_choice(chain);
     const double beam_m = wide_cells_arc_m * beam_width_deg * degree;
     if (std::max(spec.cell_width_m(), spec.cell_height_m()) <= beam_m) return choice;
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        if (chain.steps[i].name == "cell") {
-            choice.rungs[i] = accuracy::allowed_rungs(chain.steps[i]).most;
-        }
-    }
+    const auto cell = accuracy::find_step(chain, step::cell);
+    if (cell) choice.rungs[*cell] = accuracy::allowed_rungs(chain.steps[*cell]).most;
     return choice;
 }
 

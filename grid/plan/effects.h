@@ -26,6 +26,17 @@
 
 namespace stormcellar::grid {
 
+// The steps by name. A step is found by these, so that a misspelled one does not compile.
+namespace step {
+inline constexpr std::string_view frame = "frame";
+inline constexpr std::string_view beam = "beam";
+inline constexpr std::string_view elevation = "elevation";
+inline constexpr std::string_view interpolation = "interpolation";
+inline constexpr std::string_view cell = "cell";
+inline constexpr std::string_view averaging = "averaging";
+inline constexpr std::string_view circle = "circle";
+}  // namespace step
+
 // Names, rungs and sentences; sizes and costs are 0 and settings automatic. The chain's exact form
 // averages as stated, too: neither dB nor Z is the other's approximation.
 [[nodiscard]] accuracy::Chain effects_of(level2::Moment moment,
@@ -37,6 +48,13 @@ namespace stormcellar::grid {
 // The table, the 4/3 earth, each radial's elevation, linear along the column at a point, in the
 // moment's unit on its circle. The effects' settings change it.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
+
+// What choices are measured against: the last rung of every step, but for the frame's, which is the
+// table. A geodesic for each column differs from it by a millimeter and takes half a second.
+[[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
+
+// The same choice as it is measured: by the table in place of geodesics.
+[[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
 // Effort (stormcellar/accuracy/effect.h) that these two rungs take together beyond what each takes
 // alone.

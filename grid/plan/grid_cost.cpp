@@ -126,10 +126,9 @@ void set_joint_costs(const Fills& fills, std::size_t interpolation, std::size_t 
     }
 }
 
-std::size_t step_named(const accuracy::Chain& chain, std::string_view name) {
-    const auto at = std::find_if(chain.steps.begin(), chain.steps.end(),
-                                 [&](const accuracy::Step& step) { return step.name == name; });
-    return static_cast<std::size_t>(at - chain.steps.begin());
+// A grid's chain has each of these steps but the circle.
+accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
+    return chain.steps[accuracy::find_step(chain, name).value()];
 }
 
 }  // namespace
@@ -157,8 +156,8 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     const auto threads = static_cast<std::size_t>(std::max(1, scene.options().threads));
     const TileSample sample =
         draw_tiles(scene, tiles_a_piece * std::clamp(threads, fewest_pieces, most_pieces));
-    const std::size_t interpolation = step_named(chain, "interpolation");
-    const std::size_t cell = step_named(chain, "cell");
+    const std::size_t interpolation = accuracy::find_step(chain, step::interpolation).value();
+    const std::size_t cell = accuracy::find_step(chain, step::cell).value();
     accuracy::Choice cheapest;
     cheapest.rungs.resize(chain.steps.size());
     Method usual;  // but for the averaging, which is nobody's choice
@@ -170,29 +169,29 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
 
     const double usual_s = (*fills)[static_cast<std::size_t>(Interpolation::linear)][0];
     double cheapest_s = (*fills)[0][0];
-    const auto set_cost_without = [&](std::string_view step, const Method& method) -> Status {
+    const auto set_cost_without = [&](std::string_view name, const Method& method) -> Status {
         const auto without_s = predicted_fill_s(scene, method, sample);
         if (!without_s) return pass_on(without_s);
         const double cost_s = more(usual_s, *without_s);
-        chain.steps[step_named(chain, step)].effects[0].cost_s = cost_s;
+        step_named(chain, name).effects[0].cost_s = cost_s;
         cheapest_s -= cost_s;
         return {};
     };
     Method method = usual;
     method.radial_elevations = false;
-    if (auto done = set_cost_without("elevation", method); !done) return done;
-    if (step_named(chain, "circle") < chain.steps.size()) {
+    if (auto done = set_cost_without(step::elevation, method); !done) return done;
+    if (accuracy::find_step(chain, step::circle)) {
         method = usual;
         method.on_circle = false;
-        if (auto done = set_cost_without("circle", method); !done) return done;
+        if (auto done = set_cost_without(step::circle, method); !done) return done;
     }
     // Closed formulas are all alike, and sampling takes the same along any path.
     method = usual;
     method.beam = BeamKind::traced;
     const double traced_s = scene.stack_seconds(method);
     const double tables_s = scene.stack_seconds(usual);
-    chain.steps[step_named(chain, "beam")].effects[1].cost_s = more(traced_s, tables_s);
-    chain.steps[step_named(chain, "frame")].effects[1].cost_s = geodesics_s(scene);
+    step_named(chain, step::beam).effects[1].cost_s = more(traced_s, tables_s);
+    step_named(chain, step::frame).effects[1].cost_s = geodesics_s(scene);
 
     // The base is the default chain in the moment's own unit.
     const auto base_fill_s = predicted_fill_s(scene, Method{}, sample);

@@ -105,11 +105,11 @@ Position elevation_position(const GridScene& scene) {
     return errors.summary();
 }
 
-Result<Position> position_of(GridScene& scene, const std::string& step, std::size_t rung,
+Result<Position> position_of(GridScene& scene, const std::string& name, std::size_t rung,
                              std::size_t rungs) {
-    if (step == "frame") return frame_position(scene, static_cast<FrameKind>(rung));
-    if (step == "beam") return beam_position(scene, static_cast<BeamKind>(rung));
-    if (step == "elevation" && rung + 1 < rungs) return elevation_position(scene);
+    if (name == step::frame) return frame_position(scene, static_cast<FrameKind>(rung));
+    if (name == step::beam) return beam_position(scene, static_cast<BeamKind>(rung));
+    if (name == step::elevation && rung + 1 < rungs) return elevation_position(scene);
     return Position{};
 }
 
@@ -208,9 +208,8 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,
         const accuracy::Step& step = chain.steps[i];
         if (step.effects.empty()) continue;
         for (std::size_t rung = 0; rung < step.rung_count(); ++rung) {
-            accuracy::Choice errors = exact_choice;
-            accuracy::Choice times = usual;
-            errors.rungs[i] = times.rungs[i] = rung;
+            const accuracy::Choice errors = accuracy::with_rung(exact_choice, i, rung);
+            const accuracy::Choice times = accuracy::with_rung(usual, i, rung);
             accuracy::LadderRow row;
             row.step = step.name;
             row.rung = rung;

@@ -11,19 +11,6 @@
 namespace stormcellar::grid {
 namespace {
 
-struct Rung {
-    std::size_t step = 0, rung = 0;
-};
-
-// The chain's exact form but for one step. Geodesics differ from the table by a millimetre: what
-// that does to values is not worth half a second.
-accuracy::Choice all_exact(const accuracy::Chain& chain) {
-    accuracy::Choice choice;
-    for (const accuracy::Step& step : chain.steps)
-        choice.rungs.push_back(step.name == "frame" ? 1 : step.effects.size());
-    return choice;
-}
-
 PositionScene position_scene(const GridScene& scene) {
     return {scene.volume(),          scene.site(),          scene.spec(), scene.chosen(),
             scene.options().profile, scene.options().moment};
@@ -52,13 +39,12 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
                     std::size_t index, accuracy::Chain& chain) {
     accuracy::Step& step = chain.steps[index];
     const bool centered = is_centered_at(scene.site(), scene.spec());
-    const accuracy::Choice top = all_exact(chain);
+    const accuracy::Choice top = reference_choice(chain);
     SampledCells above = exact;
     for (std::size_t k = top.rungs[index]; k > 0; --k) {
         accuracy::Effect& effect = step.effects[k - 1];
-        if (step.name == "frame" && centered) continue;
-        accuracy::Choice lower = top;
-        lower.rungs[index] = k - 1;
+        if (step.name == step::frame && centered) continue;
+        const accuracy::Choice lower = accuracy::with_rung(top, index, k - 1);
         auto below = scene.evaluate(scene_choice(chain, lower), sample);
         if (!below) return pass_on(below);
         effect.predicted.value = scene.compare(*below, above, sample).p99_estimate();
@@ -94,7 +80,7 @@ Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exa
 
 Status predict(GridScene& scene, const PlanOptions& options, accuracy::Chain& chain) {
     const ColumnSample sample = scene.draw(options.predict_columns, options.seed);
-    const auto exact = scene.evaluate(scene_choice(chain, all_exact(chain)), sample);
+    const auto exact = scene.evaluate(scene_choice(chain, reference_choice(chain)), sample);
     if (!exact) return pass_on(exact);
     for (std::size_t index = 0; index < chain.steps.size(); ++index) {
         if (auto done = predict_step(scene, sample, *exact, index, chain); !done) return done;
@@ -106,20 +92,12 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                            const std::optional<accuracy::Budget>& budget,
                            const PlanOptions& options) {
     if (auto done = predict(scene, options, chain); !done) return pass_on(done);
-    if (!budget) {
-        accuracy::Candidate candidate;
-        candidate.choice = default_choice(chain, scene.spec(), scene.options().beam_width_deg);
-        candidate.left_off = accuracy::left_off(chain, candidate.choice);
-        candidate.cost_s = accuracy::cost_s(chain, candidate.choice);
-        return GridPlan{accuracy::make_plan(chain, {}, candidate, accuracy::Outcome::met),
-                        scene_choice(chain, candidate.choice)};
-    }
     // Drawn anew: what was predicted from the first sample is checked on another.
     std::optional<ColumnSample> sample;
     std::optional<SampledCells> exact;
     const auto measure = [&](const accuracy::Choice& choice) -> Result<accuracy::Measured> {
         if (!sample) {
-            const SceneChoice all = scene_choice(chain, all_exact(chain));
+            const SceneChoice all = scene_choice(chain, reference_choice(chain));
             const auto columns = columns_for_a_bound(scene, all, options);
             if (!columns) return pass_on(columns);
             sample = scene.draw(*columns, options.seed + 2);
@@ -127,9 +105,7 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
             if (!made) return pass_on(made);
             exact = std::move(*made);
         }
-        SceneChoice scene_rungs = scene_choice(chain, choice);
-        if (scene_rungs.frame == FrameKind::geodesic) scene_rungs.frame = FrameKind::table;
-        const auto cells = scene.evaluate(scene_rungs, *sample);
+        const auto cells = scene.evaluate(as_measured(scene_choice(chain, choice)), *sample);
         if (!cells) return pass_on(cells);
         const SampledErrors errors = scene.compare(*cells, *exact, *sample);
         accuracy::Measured measured;
@@ -138,7 +114,9 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
         measured.status = errors.status;
         return measured;
     };
-    auto plan = accuracy::govern(chain, *budget, measure);
+    const accuracy::Choice by_default =
+        default_choice(chain, scene.spec(), scene.options().beam_width_deg);
+    auto plan = accuracy::govern_or_default(chain, budget, by_default, measure);
     if (!plan) return pass_on(plan);
     const SceneChoice choice = scene_choice(chain, plan->choice);
     return GridPlan{std::move(*plan), choice};

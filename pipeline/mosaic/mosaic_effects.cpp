@@ -1,61 +1,55 @@
 #include "pipeline/mosaic/mosaic_effects.h"
 
 #include <algorithm>
+#include <array>
 
 namespace stormcellar::pipeline {
 namespace {
 
-using accuracy::Effect;
+using accuracy::make_effect;
+using accuracy::rung_of;
 using accuracy::Step;
 
-Effect effect(std::string name, std::string rung, std::string what) {
-    Effect made;
-    made.name = std::move(name);
-    made.rung = std::move(rung);
-    made.what = std::move(what);
-    return made;
-}
-
 Step time_step() {
-    return {"time",
-            "nearest",
-            {effect("time_blend", "blend",
-                    "Between two volumes the weather is partly the earlier, partly the later."),
-             effect("echo_motion", "advected",
-                    "Between two volumes echo moves from where it was to where it will be.")}};
+    return {
+        std::string{step::time},
+        "nearest",
+        {make_effect("time_blend", "blend",
+                     "Between two volumes the weather is partly the earlier, partly the later."),
+         make_effect("echo_motion", "advected",
+                     "Between two volumes echo moves from where it was to where it will be.")}};
 }
 
 Step sweeps_step() {
-    return {"sweeps",
+    return {std::string{step::sweeps},
             "as one",
-            {effect("sweep_times", "each at its own time",
-                    "The antenna climbs for minutes: each height was seen at a time of its own.")}};
+            {make_effect(
+                "sweep_times", "each at its own time",
+                "The antenna climbs for minutes: each height was seen at a time of its own.")}};
 }
 
 Step overlap_step(grid::Overlap overlap) {
-    Step step{"overlap", "nearest", {}};
-    if (overlap == grid::Overlap::nearest) return step;
-    step.effects.push_back(effect("site_overlap", std::string(grid::overlap_name(overlap)),
-                                  "Where several sites see a cell, each of them has a say."));
-    return step;
+    Step made{std::string{step::overlap}, "nearest", {}};
+    if (overlap == grid::Overlap::nearest) return made;
+    made.effects.push_back(make_effect("site_overlap", std::string(grid::overlap_name(overlap)),
+                                       "Where several sites see a cell, each of them has a say."));
+    return made;
 }
 
 Step codes_step() {
-    return {"codes",
-            "default steps",
-            {effect("fine_codes", "fine steps",
-                    "What is kept of a value is rounded, in the cache as in the radar's data.")}};
-}
-
-std::size_t rung_of(const accuracy::Chain& chain, const accuracy::Choice& choice,
-                    std::string_view name) {
-    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        if (chain.steps[i].name == name) return choice.rungs[i];
-    }
-    return 0;
+    return {
+        std::string{step::codes},
+        "default steps",
+        {make_effect("fine_codes", "fine steps",
+                     "What is kept of a value is rounded, in the cache as in the radar's data.")}};
 }
 
 }  // namespace
+
+bool is_of_merging(const accuracy::Step& step) {
+    constexpr std::array names = {step::time, step::sweeps, step::overlap, step::codes};
+    return std::find(names.begin(), names.end(), step.name) != names.end();
+}
 
 accuracy::Chain mosaic_effects_of(level2::Moment moment, grid::Averaging averaging,
                                   grid::Overlap overlap) {
@@ -70,10 +64,10 @@ accuracy::Chain mosaic_effects_of(level2::Moment moment, grid::Averaging averagi
 MosaicChoice mosaic_choice(const accuracy::Chain& chain, const accuracy::Choice& choice) {
     MosaicChoice made;
     made.gridding = grid::scene_choice(chain, choice);
-    made.time = static_cast<grid::TimeMethod>(rung_of(chain, choice, "time"));
-    made.sweep_times = rung_of(chain, choice, "sweeps") > 0;
-    made.mixes_sites = rung_of(chain, choice, "overlap") > 0;
-    made.fine_codes = rung_of(chain, choice, "codes") > 0;
+    made.time = static_cast<grid::TimeMethod>(rung_of(chain, choice, step::time));
+    made.sweep_times = rung_of(chain, choice, step::sweeps) > 0;
+    made.mixes_sites = rung_of(chain, choice, step::overlap) > 0;
+    made.fine_codes = rung_of(chain, choice, step::codes) > 0;
     return made;
 }
 
@@ -81,19 +75,11 @@ accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain, const grid:
                                        double beam_width_deg) {
     accuracy::Choice choice = grid::default_choice(chain, domain, beam_width_deg);
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        const Step& step = chain.steps[i];
-        const bool highest = step.name == "time" || step.name == "sweeps" || step.name == "overlap";
-        if (!highest && step.name != "codes") continue;
-        const accuracy::RungRange allowed = accuracy::allowed_rungs(step);
-        choice.rungs[i] = highest ? allowed.most : allowed.least;
+        const Step& each = chain.steps[i];
+        if (!is_of_merging(each)) continue;
+        const accuracy::RungRange allowed = accuracy::allowed_rungs(each);
+        choice.rungs[i] = each.name == step::codes ? allowed.least : allowed.most;
     }
-    return choice;
-}
-
-accuracy::Choice exact_mosaic_choice(const accuracy::Chain& chain) {
-    accuracy::Choice choice;
-    for (const Step& step : chain.steps)
-        choice.rungs.push_back(step.name == "frame" ? 1 : step.effects.size());
     return choice;
 }
 

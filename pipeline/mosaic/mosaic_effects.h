@@ -19,6 +19,15 @@
 
 namespace stormcellar::pipeline {
 
+// The steps of merging by name, beside those of gridding (grid::step).
+namespace step {
+inline constexpr std::string_view time = "time";
+inline constexpr std::string_view sweeps = "sweeps";
+inline constexpr std::string_view overlap = "overlap";
+inline constexpr std::string_view codes = "codes";
+}  // namespace step
+[[nodiscard]] bool is_of_merging(const accuracy::Step& step);
+
 // One rung of every step.
 struct MosaicChoice {
     grid::SceneChoice gridding;
@@ -41,9 +50,6 @@ struct MosaicChoice {
 [[nodiscard]] accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain,
                                                      const grid::GridSpec& domain,
                                                      double beam_width_deg);
-
-// The last rung of every step, but for geodesics: they differ from the table by a millimetre.
-[[nodiscard]] accuracy::Choice exact_mosaic_choice(const accuracy::Chain& chain);
 
 // How values are kept: the default; or in two bytes and steps of a 64th of it, of a 16th where the
 // default has two bytes.

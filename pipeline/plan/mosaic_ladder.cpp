@@ -19,33 +19,27 @@ struct Rung {
 };
 
 std::vector<Rung> rungs_of_steps(const MosaicScene& scene, const accuracy::Chain& chain) {
-    const accuracy::Choice exact = exact_mosaic_choice(chain);
+    const accuracy::Choice exact = grid::reference_choice(chain);
     const Displacements moved = displacements(scene);
     std::vector<Rung> rungs;
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-        const accuracy::Step& step = chain.steps[i];
-        const bool is_of_mosaics = step.name == "time" || step.name == "sweeps" ||
-                                   step.name == "overlap" || step.name == "codes";
-        if (!is_of_mosaics || step.effects.empty()) continue;
-        for (std::size_t k = 0; k < step.rung_count(); ++k) {
-            accuracy::Choice errors = exact;
-            errors.rungs[i] = k;
+        const accuracy::Step& of = chain.steps[i];
+        if (!is_of_merging(of) || of.effects.empty()) continue;
+        for (std::size_t k = 0; k < of.rung_count(); ++k) {
             Rung rung;
-            rung.row.step = step.name;
+            rung.row.step = of.name;
             rung.row.rung = k;
-            rung.row.name = step.rung_name(k);
-            const bool stays = k + 1 < step.rung_count();
-            rung.row.position_max_m = !stays                  ? 0
-                                      : step.name == "time"   ? moved.to_instant_m
-                                      : step.name == "sweeps" ? moved.within_volume_m
-                                                              : 0;
-            rung.with_errors = mosaic_choice(chain, errors);
+            rung.row.name = of.rung_name(k);
+            const bool stays = k + 1 < of.rung_count();
+            if (stays && of.name == step::time) rung.row.position_max_m = moved.to_instant_m;
+            if (stays && of.name == step::sweeps) rung.row.position_max_m = moved.within_volume_m;
+            rung.with_errors = mosaic_choice(chain, accuracy::with_rung(exact, i, k));
             const MosaicChoice& by_errors = rung.with_errors;
             rung.with_times = scene.default_choice();
-            if (step.name == "time") rung.with_times.time = by_errors.time;
-            if (step.name == "sweeps") rung.with_times.sweep_times = by_errors.sweep_times;
-            if (step.name == "overlap") rung.with_times.mixes_sites = by_errors.mixes_sites;
-            if (step.name == "codes") rung.with_times.fine_codes = by_errors.fine_codes;
+            if (of.name == step::time) rung.with_times.time = by_errors.time;
+            if (of.name == step::sweeps) rung.with_times.sweep_times = by_errors.sweep_times;
+            if (of.name == step::overlap) rung.with_times.mixes_sites = by_errors.mixes_sites;
+            if (of.name == step::codes) rung.with_times.fine_codes = by_errors.fine_codes;
             rungs.push_back(std::move(rung));
         }
     }
@@ -61,7 +55,7 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
     MosaicChoice area = scene.default_choice();
     area.gridding.method.interpolation = grid::Interpolation::beam_weighted;
     area.gridding.method.cell = grid::CellExtent::area;
-    const MosaicChoice exact = mosaic_choice(chain, exact_mosaic_choice(chain));
+    const MosaicChoice exact = mosaic_choice(chain, grid::reference_choice(chain));
     std::vector<Rung> rungs;
     const auto add = [&](const char* name, const MosaicChoice& choice) {
         Rung rung;
@@ -111,7 +105,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(MosaicScene& scene,
     std::vector<Rung> rungs = rungs_of_steps(scene, chain);
     for (Rung& rung : rungs_of_chains(scene, chain))
         rungs.push_back(std::move(rung));
-    const auto exact = scene.frame(mosaic_choice(chain, exact_mosaic_choice(chain)));
+    const auto exact = scene.frame(mosaic_choice(chain, grid::reference_choice(chain)));
     if (!exact) return pass_on(exact);
     for (Rung& rung : rungs) {
         const auto frame = scene.frame(rung.with_errors);

@@ -19,9 +19,9 @@ constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
+// A mosaic's chain has each of the steps of merging.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
-    return *std::find_if(chain.steps.begin(), chain.steps.end(),
-                         [&](const accuracy::Step& step) { return step.name == name; });
+    return chain.steps[accuracy::find_step(chain, name).value()];
 }
 
 Result<double> p99_between(const MosaicFrame& a, const MosaicFrame& b, int threads) {
@@ -41,8 +41,7 @@ class GriddingSizes {
         moment_ = made_by.partial.gridder.moment;
         gridding_.value_unit = chain.value_unit;
         for (const accuracy::Step& step : chain.steps) {
-            if (step.name == "time") break;
-            gridding_.steps.push_back(step);
+            if (!is_of_merging(step)) gridding_.steps.push_back(step);
         }
     }
 
@@ -137,14 +136,18 @@ Result<TimedFrame> timed_frame(MosaicScene& scene, const MosaicChoice& choice) {
     return TimedFrame{std::move(*frame), scene.now_s() - start_s};
 }
 
-// One step from its exact rung downwards; all frames are of the default grids in fine codes.
-Status predict_step(MosaicScene& scene, const TimedFrame& exact, MosaicChoice choice,
-                    accuracy::Step& step,
-                    const std::function<void(MosaicChoice&, std::size_t)>& set) {
+// One step from its exact rung downwards, every other step of merging exact; all frames are of
+// `gridding` in fine codes.
+Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::SceneChoice& gridding,
+                    std::string_view name, accuracy::Chain& chain) {
+    const std::size_t index = accuracy::find_step(chain, name).value();
+    accuracy::Step& step = chain.steps[index];
+    const accuracy::Choice top = grid::reference_choice(chain);
     const TimedFrame* above = &exact;
     std::optional<TimedFrame> kept;
     for (std::size_t k = step.effects.size(); k > 0; --k) {
-        set(choice, k - 1);
+        MosaicChoice choice = mosaic_choice(chain, accuracy::with_rung(top, index, k - 1));
+        choice.gridding = gridding;
         auto below = timed_frame(scene, choice);
         if (!below) return pass_on(below);
         const auto p99 = p99_between(below->frame, above->frame, scene.options().frame.threads);
@@ -167,7 +170,7 @@ void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFram
                          static_cast<double>(quantization_of(moment, true).step);
     const int roundings =
         1 + (scene.pair_count() > 0 ? 1 : 0) + (scene.brackets().size() > 1 ? 1 : 0);
-    accuracy::Effect& effect = step_named(chain, "codes").effects[0];
+    accuracy::Effect& effect = step_named(chain, step::codes).effects[0];
     effect.evidence = accuracy::Evidence::proven_bound;
     effect.predicted.value = roundings * steps / 2;
     effect.cost_s = std::max(0.0, fine.seconds - coarse.seconds);
@@ -176,42 +179,24 @@ void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFram
 void set_efforts(const MosaicScene& scene, accuracy::Chain& chain) {
     const double pairs =
         static_cast<double>(scene.pair_count()) / static_cast<double>(scene.volumes().size());
-    accuracy::Step& time = step_named(chain, "time");
+    accuracy::Step& time = step_named(chain, step::time);
     time.effects[0].effort = blend_effort * pairs;
     time.effects[1].effort = motion_effort * pairs;
-    step_named(chain, "sweeps").effects[0].effort = sweep_times_effort * pairs;
-    accuracy::Step& overlap = step_named(chain, "overlap");
+    step_named(chain, step::sweeps).effects[0].effort = sweep_times_effort * pairs;
+    accuracy::Step& overlap = step_named(chain, step::overlap);
     if (!overlap.effects.empty() && scene.brackets().size() > 1) {
         overlap.effects[0].effort = overlap_effort;
     }
-    step_named(chain, "codes").effects[0].effort = fine_codes_effort;
+    step_named(chain, step::codes).effects[0].effort = fine_codes_effort;
 }
 
 Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
-    MosaicChoice top = mosaic_choice(chain, exact_mosaic_choice(chain));
+    MosaicChoice top = mosaic_choice(chain, grid::reference_choice(chain));
     top.gridding = scene.default_choice().gridding;
     const auto fine = timed_frame(scene, top);
     if (!fine) return pass_on(fine);
-    const auto sized = [&](std::string_view name,
-                           const std::function<void(MosaicChoice&, std::size_t)>& set) {
-        return predict_step(scene, *fine, top, step_named(chain, name), set);
-    };
-    if (auto done = sized("time",
-                          [](MosaicChoice& choice, std::size_t rung) {
-                              choice.time = static_cast<grid::TimeMethod>(rung);
-                          });
-        !done) {
-        return done;
-    }
-    if (auto done = sized("sweeps", [](MosaicChoice& choice,
-                                       std::size_t rung) { choice.sweep_times = rung > 0; });
-        !done) {
-        return done;
-    }
-    if (auto done = sized("overlap", [](MosaicChoice& choice,
-                                        std::size_t rung) { choice.mixes_sites = rung > 0; });
-        !done) {
-        return done;
+    for (const std::string_view name : {step::time, step::sweeps, step::overlap}) {
+        if (auto done = predict_step(scene, *fine, top.gridding, name, chain); !done) return done;
     }
     MosaicChoice coarse = top;
     coarse.fine_codes = false;
@@ -219,9 +204,9 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     if (!rounded) return pass_on(rounded);
     set_codes(scene, *fine, *rounded, chain);
     const Displacements moved = displacements(scene);
-    step_named(chain, "time").effects[1].predicted.position_m = moved.to_instant_m;
-    step_named(chain, "sweeps").effects[0].predicted.position_m = moved.within_volume_m;
-    step_named(chain, "time").effects[1].cost_s += scene.motion_seconds();
+    step_named(chain, step::time).effects[1].predicted.position_m = moved.to_instant_m;
+    step_named(chain, step::sweeps).effects[0].predicted.position_m = moved.within_volume_m;
+    step_named(chain, step::time).effects[1].cost_s += scene.motion_seconds();
     set_efforts(scene, chain);
     // What the cheapest frame takes beside its gridding.
     MosaicChoice cheapest = coarse;

@@ -150,7 +150,7 @@ TEST_P(MosaicHonesty, WhatIsLeftOffIsLessThanTheBudget) {
     EXPECT_LE(position_m, *prepared->budget.position_m);
     EXPECT_LE(difference(chosen, frame_of(*prepared, all)), *prepared->budget.value)
         << "all that was left off";
-    const MosaicFrame exact = frame_of(*prepared, exact_mosaic_choice(prepared->chain));
+    const MosaicFrame exact = frame_of(*prepared, grid::reference_choice(prepared->chain));
     EXPECT_LE(difference(chosen, exact), *prepared->budget.value) << "the exact chain";
 }
 

@@ -7,8 +7,10 @@
 // Thread contract: values and pure functions.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "stormcellar/accuracy/effect.h"
@@ -44,6 +46,15 @@ struct Choice {
     std::vector<std::size_t> rungs;  // one a step
     bool operator==(const Choice&) const = default;
 };
+
+// The number of the step of this name; none where the chain has no such step.
+[[nodiscard]] std::optional<std::size_t> find_step(const Chain& chain, std::string_view name);
+
+// The rung that the choice takes of the step of this name; 0 where the chain has no such step.
+[[nodiscard]] std::size_t rung_of(const Chain& chain, const Choice& choice, std::string_view name);
+
+// The same choice, but for one step.
+[[nodiscard]] Choice with_rung(Choice choice, std::size_t step, std::size_t rung);
 
 // Predicted, of the whole chain: the cheapest, what each effect that is on adds, and what the rungs
 // take jointly. Never negative.

@@ -41,6 +41,10 @@ struct Effect {
     double effort = 0;
 };
 
+// An effect that nothing was predicted of yet: its name, the rung that it reaches, its sentence.
+[[nodiscard]] Effect make_effect(std::string name, std::string rung, std::string what,
+                                 double effort = 0);
+
 // A lower-case letter, then lower-case letters, digits and single underscores; at most 40.
 [[nodiscard]] bool is_effect_name(std::string_view name);
 
