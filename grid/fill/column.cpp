@@ -3,22 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "grid/fill/beam_choice.h"
+
 namespace stormcellar::grid {
 namespace {
-
-CellResult alone(const Sample& sample) {
-    return {sample.status, sample.value};
-}
-
-// Between two sweeps that are not adjacent: only what a beam itself covers.
-CellResult beside_a_gap(const BeamSample& below, const BeamSample& above, float level_m) {
-    const bool in_below = level_m <= below.upper_edge_m;
-    const bool in_above = level_m >= above.lower_edge_m;
-    const bool below_is_nearer = level_m - below.height_m <= above.height_m - level_m;
-    if (in_below && (below_is_nearer || !in_above)) return alone(below.sample);
-    if (in_above) return alone(above.sample);
-    return {};
-}
 
 // Fills levels from the lowest up; what is not seen stays as it is.
 template <bool nearest, bool circular>
@@ -45,8 +33,10 @@ class Filler {
         const std::size_t end = levels_.first_from(high.height_m);
         if (end <= level_) return;
         if (!low.adjacent_to_next) {
-            for (; level_ < end; ++level_)
-                put(beside_a_gap(low, high, levels_[level_]));
+            for (; level_ < end; ++level_) {
+                const BeamSample* const beam = beam_alone(&low, &high, levels_[level_]);
+                if (beam != nullptr) put({beam->sample.status, beam->sample.value});
+            }
         } else if (!same_state || circular) {
             blend_between(low, high, end);
         } else {
@@ -81,11 +71,9 @@ class Filler {
         in_run_ = false;
     }
 
-    // The share of `high`; low.height_m <= level < high.height_m.
+    // The share of the beam above `low`, which lies at the level or below it.
     [[nodiscard]] float share(const BeamSample& low, float inverse_m) const {
-        const float linear = (levels_[level_] - low.height_m) * inverse_m;
-        if (!nearest) return linear;
-        return linear > 0.5F ? 1 : 0;
+        return upper_share((levels_[level_] - low.height_m) * inverse_m, nearest);
     }
 
     void blend_between(const BeamSample& low, const BeamSample& high, std::size_t end) {

@@ -6,10 +6,10 @@
 
 #include "base/parallel.h"
 #include "grid/beam/gate_places.h"
+#include "grid/fill/beam_choice.h"
 #include "grid/fill/mixed_column.h"
 #include "grid/fill/tile_columns.h"
 #include "grid/place/footprint.h"
-#include "grid/sweep/sweep_mixture.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -53,33 +53,20 @@ struct Shares {
     }
 };
 
-Shares alone(const SeenBeam& beam, float level_m) {
-    if (!(level_m >= beam.lower_edge_m && level_m <= beam.upper_edge_m)) return {};
-    return {{Share{&beam, 1}, Share{}}};
-}
-
-// Between sweeps with a lost cut between them: the nearer beam within whose edges the level lies.
-Shares beside_a_gap(const SeenBeam& below, const SeenBeam& above, float level_m) {
-    const bool below_is_nearer = level_m - below.height_m <= above.height_m - level_m;
-    const Shares nearer = alone(below_is_nearer ? below : above, level_m);
-    if (nearer.both[0].beam != nullptr) return nearer;
-    return alone(below_is_nearer ? above : below, level_m);
-}
-
-// The same sweeps and weights as those of grid/fill/column.h. Heights rise; `above` is the first
-// beam above the level, or the end.
+// `above` is the first beam above the level, or the end.
 Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level_m, bool nearest) {
-    if (beams.empty()) return {};
-    if (above == 0) return alone(beams.front(), level_m);
-    const SeenBeam& low = beams[above - 1];
-    if (above == beams.size()) return alone(low, level_m);
-    const SeenBeam& high = beams[above];
-    if (!low.adjacent_to_next) return beside_a_gap(low, high, level_m);
-    const float linear = (level_m - low.height_m) / (high.height_m - low.height_m);
-    const float high_weight = !nearest ? linear : linear > 0.5F ? 1.0F : 0.0F;
+    const SeenBeam* const low = above > 0 ? &beams[above - 1] : nullptr;
+    const SeenBeam* const high = above < beams.size() ? &beams[above] : nullptr;
     Shares shares;
-    if (high_weight < 1) shares.both[0] = {&low, 1 - high_weight};
-    if (high_weight > 0) shares.both[1] = {&high, high_weight};
+    if (low == nullptr || high == nullptr || !low->adjacent_to_next) {
+        const SeenBeam* const alone = beam_alone(low, high, level_m);
+        if (alone != nullptr) shares.both[0] = {alone, 1};
+        return shares;
+    }
+    const float linear = (level_m - low->height_m) / (high->height_m - low->height_m);
+    const float high_weight = upper_share(linear, nearest);
+    if (high_weight < 1) shares.both[0] = {low, 1 - high_weight};
+    if (high_weight > 0) shares.both[1] = {high, high_weight};
     return shares;
 }
 
@@ -166,13 +153,12 @@ class DetailColumns {
         for (std::size_t at = 0; at < work_.stack.sweeps.size(); ++at) {
             const PolarSweep& sweep = work_.stack.sweeps[at];
             const int position = sweep.radial_at(column.azimuth_deg);
-            auto heights = heights_of(sweep, position, place);
-            if (!(heights.center_m < highest_beam_m)) continue;
-            heights = sweep.without_lost_edges(place, heights);
+            const BeamMixture over = beam_over(sweep, method_, column.azimuth_deg, place);
+            if (!(over.height_m < highest_beam_m)) continue;
             SeenBeam beam;
-            beam.height_m = heights.center_m;
-            beam.lower_edge_m = heights.lower_m;
-            beam.upper_edge_m = heights.upper_m;
+            beam.height_m = over.height_m;
+            beam.lower_edge_m = over.lower_edge_m;
+            beam.upper_edge_m = over.upper_edge_m;
             beam.adjacent_to_next = work_.stack.adjacent_to_next[at];
             beam.is_seen = sweep.sample(position, place).status != CellStatus::not_seen;
             if (beam.is_seen) {
@@ -184,13 +170,6 @@ class DetailColumns {
             beams_.push_back(beam);
         }
         put_in_order(std::span(beams_));
-    }
-
-    [[nodiscard]] PolarSweep::BeamHeights heights_of(const PolarSweep& sweep, int position,
-                                                     ArcPlace place) const {
-        const bool own = method_.radial_elevations && position != AzimuthTable::none;
-        return own ? sweep.heights(place, sweep.elevation_offset_deg(position))
-                   : sweep.heights(place);
     }
 
     [[nodiscard]] std::optional<NearGate> near_gate(std::size_t at, int position,
@@ -250,28 +229,15 @@ class DetailColumns {
         const ArcPlace place = ArcTable::place_of(column.arc_m);
         for (std::size_t at = 0; at < work_.stack.sweeps.size(); ++at) {
             const PolarSweep& sweep = work_.stack.sweeps[at];
-            const auto heights = heights_of(sweep, sweep.radial_at(column.azimuth_deg), place);
-            if (!(heights.center_m < highest_beam_m)) continue;
-            const auto seen = sweep.without_lost_edges(place, heights);
-            mixtures_.push_back({mixture_of(sweep, column, place, area ? &footprint : nullptr),
-                                 seen.center_m, seen.lower_m, seen.upper_m,
-                                 sweep.rise_m_per_deg(heights), work_.stack.adjacent_to_next[at]});
+            BeamMixture beam = beam_over(sweep, method_, column.azimuth_deg, place);
+            if (!(beam.height_m < highest_beam_m)) continue;
+            beam.adjacent_to_next = work_.stack.adjacent_to_next[at];
+            beam.mixture = mixture_over(sweep, method_, work_.stack.beam_width_deg,
+                                        column.azimuth_deg, place, area ? &footprint : nullptr);
+            mixtures_.push_back(beam);
         }
         put_in_order(std::span(mixtures_));
         if (!mixtures_.empty()) mixed_.start(mixtures_);
-    }
-
-    [[nodiscard]] Mixture mixture_of(const PolarSweep& sweep, const ColumnPlace& column,
-                                     ArcPlace place, const Footprint* footprint) const {
-        if (footprint != nullptr) {
-            const Mixture inside = gates_inside(sweep, *footprint, place);
-            if (inside.weight() > 0) return inside;
-        }
-        if (method_.interpolation == Interpolation::eight_point)
-            return four_gates(sweep, column.azimuth_deg, place);
-        if (method_.interpolation == Interpolation::beam_weighted)
-            return gates_by_pattern(sweep, column.azimuth_deg, place, work_.stack.beam_width_deg);
-        return nearest_gate(sweep, column.azimuth_deg, place);
     }
 
     // Level after level, as they rise.

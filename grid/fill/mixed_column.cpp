@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/beam/beam_pattern.h"
+#include "grid/fill/beam_choice.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -152,12 +153,11 @@ Mixture MixedColumn::between(float height_m) {
 }
 
 Mixture MixedColumn::outside(float height_m) {
-    const bool in_below = above_ > 0 && height_m <= beams_[above_ - 1].upper_edge_m;
-    const bool in_above = above_ < beams_.size() && height_m >= beams_[above_].lower_edge_m;
-    if (!in_below && !in_above) return unseen();
-    const bool take_below = in_below && (!in_above || height_m - beams_[above_ - 1].height_m <=
-                                                          beams_[above_].height_m - height_m);
-    const std::size_t nearest = take_below ? above_ - 1 : above_;
+    const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
+    const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;
+    const BeamMixture* const alone = beam_alone(below, above, height_m);
+    if (alone == nullptr) return unseen();
+    const std::size_t nearest = alone == below ? above_ - 1 : above_;
     if (interpolation_ == Interpolation::beam_weighted)
         return by_pattern(nearest, height_m, beam_width_deg_);
     return of_one(beams_[nearest], blending_);

@@ -15,20 +15,11 @@
 #include <span>
 #include <vector>
 
+#include "grid/fill/beam_mixture.h"
 #include "grid/sweep/mixture.h"
 #include "stormcellar/grid/method.h"
 
 namespace stormcellar::grid {
-
-// Heights rise, or stay equal, from each sweep to the next.
-struct BeamMixture {
-    Mixture mixture;
-    float height_m = 0;
-    float lower_edge_m = 0;
-    float upper_edge_m = 0;
-    float rise_m_per_deg = 0;
-    bool adjacent_to_next = true;
-};
 
 // Heights at which a column is taken, for each level in turn; one or four a level.
 [[nodiscard]] std::vector<float> heights_of_levels(std::span<const float> levels_m,

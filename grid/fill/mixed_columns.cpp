@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/sweep/sweep_mixture.h"
+#include "grid/fill/beam_mixture.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -66,45 +66,15 @@ void MixedColumns::fill(std::span<const PlannedSweep> plan, const TileColumn& co
 BeamMixture MixedColumns::beam_of(const PlannedSweep& planned, const TileColumn& column,
                                   const Footprint* footprint) const {
     const PolarSweep& sweep = work_.stack.sweeps[planned.index];
-    PolarSweep::BeamHeights heights = sweep.heights(column.place);
-    if (work_.method.radial_elevations) {
-        const int position = sweep.radial_at(column.azimuth_deg);
-        if (position != AzimuthTable::none)
-            heights = sweep.offset(heights, sweep.elevation_offset_deg(position));
-    }
-    BeamMixture beam;
-    beam.mixture = mixture_of(sweep, planned, column, footprint);
-    beam.rise_m_per_deg = sweep.rise_m_per_deg(heights);
-    heights = sweep.without_lost_edges(column.place, heights);
-    beam.height_m = heights.center_m;
-    beam.lower_edge_m = heights.lower_m;
-    beam.upper_edge_m = heights.upper_m;
+    BeamMixture beam = beam_over(sweep, work_.method, column.azimuth_deg, column.place);
     beam.adjacent_to_next = planned.adjacent_to_next;
+    if (planned.sampled) {
+        beam.mixture = mixture_over(sweep, work_.method, work_.stack.beam_width_deg,
+                                    column.azimuth_deg, column.place, footprint);
+    } else {
+        beam.mixture.add({planned.status, 0, 0, 0}, 1, work_.blending);
+    }
     return beam;
-}
-
-Mixture MixedColumns::mixture_of(const PolarSweep& sweep, const PlannedSweep& planned,
-                                 const TileColumn& column, const Footprint* footprint) const {
-    if (!planned.sampled) {
-        Mixture uniform;
-        uniform.add({planned.status, 0, 0, 0}, 1, work_.blending);
-        return uniform;
-    }
-    if (footprint != nullptr) {
-        const Mixture inside = gates_inside(sweep, *footprint, column.place);
-        if (inside.weight() > 0) return inside;
-    }
-    switch (work_.method.interpolation) {
-        case Interpolation::eight_point:
-            return four_gates(sweep, column.azimuth_deg, column.place);
-        case Interpolation::beam_weighted:
-            return gates_by_pattern(sweep, column.azimuth_deg, column.place,
-                                    work_.stack.beam_width_deg);
-        case Interpolation::nearest:
-        case Interpolation::linear:
-            break;
-    }
-    return nearest_gate(sweep, column.azimuth_deg, column.place);
 }
 
 CellResult MixedColumns::cell_at(std::size_t first, std::size_t count) {

@@ -27,8 +27,6 @@ class MixedColumns {
     void fill(std::span<const PlannedSweep> plan, const TileColumn& column);
     [[nodiscard]] BeamMixture beam_of(const PlannedSweep& planned, const TileColumn& column,
                                       const Footprint* footprint) const;
-    [[nodiscard]] Mixture mixture_of(const PolarSweep& sweep, const PlannedSweep& planned,
-                                     const TileColumn& column, const Footprint* footprint) const;
     [[nodiscard]] CellResult cell_at(std::size_t first, std::size_t count);
 
     const FillWork& work_;

@@ -82,6 +82,12 @@ class PolarSweep {
         const float halves = offset_deg * halves_per_deg_;
         return {at(halves), at(halves - 1), at(halves + 1)};
     }
+    // Of the beam of the radial at that position; of the sweep's elevation where it is none.
+    [[nodiscard]] BeamHeights heights_at(int position, ArcPlace place) const {
+        const BeamHeights sweep = heights(place);
+        return position == AzimuthTable::none ? sweep
+                                              : offset(sweep, elevation_offset_deg(position));
+    }
     [[nodiscard]] float rise_m_per_deg(const BeamHeights& heights) const {
         return (heights.upper_m - heights.lower_m) / 2 * halves_per_deg_;
     }
