@@ -1,4 +1,4 @@
-#include "accuracy/budget.h"
+#include "stormcellar/accuracy/budget.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "accuracy/chain.h"
+#include "stormcellar/accuracy/chain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,6 +69,23 @@ double sum_over(const Chain& chain, const Choice& choice, double cheapest, const
 }
 
 }  // namespace
+
+std::optional<std::size_t> find_step(const Chain& chain, std::string_view name) {
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        if (chain.steps[i].name == name) return i;
+    }
+    return std::nullopt;
+}
+
+std::size_t rung_of(const Chain& chain, const Choice& choice, std::string_view name) {
+    const auto step = find_step(chain, name);
+    return step ? choice.rungs[*step] : 0;
+}
+
+Choice with_rung(Choice choice, std::size_t step, std::size_t rung) {
+    choice.rungs[step] = rung;
+    return choice;
+}
 
 const std::string& Step::rung_name(std::size_t rung) const {
     return rung == 0 ? cheapest : effects.at(rung - 1).rung;

@@ -1,4 +1,4 @@
-#include "accuracy/effect.h"
+#include "stormcellar/accuracy/effect.h"
 
 #include <algorithm>
 
@@ -47,6 +47,15 @@ std::string_view name_of(Evidence evidence) {
             break;
     }
     return "sample";
+}
+
+Effect make_effect(std::string name, std::string rung, std::string what, double effort) {
+    Effect made;
+    made.name = std::move(name);
+    made.rung = std::move(rung);
+    made.what = std::move(what);
+    made.effort = effort;
+    return made;
 }
 
 bool is_effect_name(std::string_view name) {

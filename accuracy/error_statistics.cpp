@@ -1,4 +1,4 @@
-#include "accuracy/error_statistics.h"
+#include "stormcellar/accuracy/error_statistics.h"
 
 #include <algorithm>
 #include <cmath>

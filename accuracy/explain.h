@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "accuracy/plan.h"
+#include "stormcellar/accuracy/plan.h"
 
 namespace stormcellar::accuracy {
 

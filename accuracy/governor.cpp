@@ -212,4 +212,18 @@ Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& mea
     return fail(ErrorCode::internal, "the governor tried nothing");
 }
 
+Plan plan_of_default(const Chain& chain, Choice choice) {
+    Candidate candidate;
+    candidate.left_off = left_off(chain, choice);
+    candidate.cost_s = cost_s(chain, choice);
+    candidate.choice = std::move(choice);
+    return make_plan(chain, {}, candidate, Outcome::met);
+}
+
+Result<Plan> govern_or_default(const Chain& chain, const std::optional<Budget>& budget,
+                               const Choice& by_default, const Measure& measure) {
+    if (!budget) return plan_of_default(chain, by_default);
+    return govern(chain, *budget, measure);
+}
+
 }  // namespace stormcellar::accuracy

@@ -12,13 +12,15 @@
 //
 // What measuring takes counts into a budget's time: a choice is taken only if its cost and
 // the time measured so far fit. A budget of a time alone is planned and not measured.
-// Errors: as plan(), and those of `measure`. A budget that is not met is a plan (accuracy/plan.h).
-// Thread contract: calls `measure` from the calling thread, one at a time.
+// Errors: as plan(), and those of `measure`. A budget that is not met is a plan
+// (stormcellar/accuracy/plan.h). Thread contract: calls `measure` from the calling thread, one at a
+// time.
 #pragma once
 
 #include <functional>
+#include <optional>
 
-#include "accuracy/planner.h"
+#include "stormcellar/accuracy/planner.h"
 
 namespace stormcellar::accuracy {
 
@@ -31,5 +33,14 @@ struct GovernorOptions {
 
 [[nodiscard]] Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& measure,
                                   const GovernorOptions& options = {});
+
+// The plan of one choice as it is, met and not measured: what a caller without a budget gets of its
+// default. Sizes and costs are the chain's predictions.
+[[nodiscard]] Plan plan_of_default(const Chain& chain, Choice choice);
+
+// With a budget what govern() finds, without one the plan of `by_default`.
+[[nodiscard]] Result<Plan> govern_or_default(const Chain& chain,
+                                             const std::optional<Budget>& budget,
+                                             const Choice& by_default, const Measure& measure);
 
 }  // namespace stormcellar::accuracy

@@ -1,4 +1,4 @@
-#include "accuracy/ladder.h"
+#include "stormcellar/accuracy/ladder.h"
 
 #include <algorithm>
 #include <array>

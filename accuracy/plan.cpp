@@ -1,4 +1,4 @@
-#include "accuracy/plan.h"
+#include "stormcellar/accuracy/plan.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "accuracy/planner.h"
+#include "stormcellar/accuracy/planner.h"
 
 #include <algorithm>
 

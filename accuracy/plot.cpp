@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "accuracy/plot_layout.h"
-#include "accuracy/quantity.h"
 #include "base/printable.h"
+#include "stormcellar/accuracy/quantity.h"
 
 namespace stormcellar::accuracy {
 namespace {

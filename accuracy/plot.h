@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::accuracy {
 

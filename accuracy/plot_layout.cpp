@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "accuracy/quantity.h"
+#include "stormcellar/accuracy/quantity.h"
 
 namespace stormcellar::accuracy {
 namespace {

@@ -13,7 +13,7 @@
 #include <optional>
 #include <span>
 
-#include "accuracy/error_statistics.h"
+#include "stormcellar/accuracy/error_statistics.h"
 
 namespace stormcellar::accuracy {
 

@@ -1,4 +1,4 @@
-#include "accuracy/quantity.h"
+#include "stormcellar/accuracy/quantity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "archive/archive_reader.h"
+#include "stormcellar/archive/archive_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "archive/packed_stream.h"
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::archive {
 namespace {

@@ -9,7 +9,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "base/descriptor.h"
+#include "stormcellar/base/descriptor.h"
 
 namespace stormcellar {
 namespace {

@@ -21,8 +21,8 @@
 
 #include <sys/stat.h>
 
-#include "base/file_system.h"
-#include "base/result.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar {
 

@@ -1,4 +1,4 @@
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 #include <array>
 #include <atomic>

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar {
 

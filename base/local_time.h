@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/result.h"
-#include "base/utc_time.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
 
 namespace stormcellar {
 

@@ -1,4 +1,4 @@
-#include "base/sparse_bytes.h"
+#include "stormcellar/base/sparse_bytes.h"
 
 #include <cstdlib>
 #include <new>

@@ -1,6 +1,6 @@
-#include "base/station_rule.h"
+#include "stormcellar/base/station_rule.h"
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar {
 

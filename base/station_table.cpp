@@ -1,4 +1,4 @@
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 #include <algorithm>
 #include <array>

@@ -9,10 +9,10 @@
 
 #include <toml++/toml.h>
 
-#include "base/file_system.h"
 #include "base/floating_point.h"
 #include "base/printable.h"
 #include "base/toml_depth.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar {
 namespace {

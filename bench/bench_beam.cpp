@@ -1,7 +1,7 @@
 // bench_beam: what the rungs of the beam cost, and where they put a gate.
 //
 // usage: bench_beam [--runs N] [--json] [SOUNDING]      (bench/request.h)
-//   SOUNDING   a file as grid/sounding.h reads it; else the models' own profiles
+//   SOUNDING   a file as grid/beam/sounding.h reads it; else the models' own profiles
 // Two kinds of rows, for a site at 35 N, the antenna at sea level:
 //   model           the rung
 //   paths_ms        42 paths: 14 elevations, each with both edges of the beam; least of the runs
@@ -25,8 +25,8 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "grid/beam_model.h"
-#include "grid/sounding.h"
+#include "grid/beam/sounding.h"
+#include "stormcellar/grid/beam_model.h"
 
 namespace stormcellar::bench {
 namespace {

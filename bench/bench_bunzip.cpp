@@ -25,12 +25,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
 #include "base/memory.h"
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
 #include "bunzip/bunzip.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::bench {
 namespace {

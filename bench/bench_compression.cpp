@@ -29,16 +29,16 @@
 #include <unistd.h>
 #include <zstd.h>
 
-#include "base/file_system.h"
 #include "base/memory.h"
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "cache/grid_file.h"
-#include "grid/brick_grid.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
-#include "level2/volume_checks.h"
+#include "level2/decode/volume_checks.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

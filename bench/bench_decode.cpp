@@ -26,12 +26,12 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
 #include "base/memory.h"
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "level2/decode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -23,13 +23,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
 #include "bench/feed_run.h"
 #include "bench/feed_soak.h"
 #include "bench/measure.h"
 #include "bench/national_feed.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -3,7 +3,7 @@
 // usage: bench_frame [--runs N] [--json]      (bench/request.h)
 // For each projection and rung one row:
 //   projection  of a grid of 512 x 512 columns at 1 km (0.01 degrees), 120 km off its site
-//   frame       sphere, table or geodesic (grid/frame_ladder.h)
+//   frame       sphere, table or geodesic (stormcellar/grid/frame_ladder.h)
 //   seconds     to make the geometry of all columns, least of the runs
 //   ratio       the geodesic's seconds over these
 //   error_m     largest error of any column, against exact geodesics
@@ -18,9 +18,9 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "grid/projection.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -31,16 +31,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
 #include "base/memory.h"
-#include "base/station_table.h"
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
 #include "bench/volume_site.h"
-#include "export/grid_netcdf.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/export/grid_netcdf.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -26,10 +26,10 @@
 #include <vector>
 
 #include "base/memory.h"
-#include "base/station_table.h"
 #include "bench/merge_case.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::bench {
 namespace {

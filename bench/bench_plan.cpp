@@ -27,13 +27,13 @@
 
 #include "accuracy/timing.h"
 #include "base/memory.h"
-#include "base/station_table.h"
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "grid/effects.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
+#include "grid/plan/effects.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -26,8 +26,8 @@
 
 #include <fmt/format.h>
 
-#include "base/version.h"
 #include "bench/quality_chart.h"
+#include "stormcellar/base/version.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -32,7 +32,7 @@
 #include "bench/render_scene.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "cache/grid_file.h"
+#include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -18,14 +18,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
 #include "bench/daemon_process.h"
 #include "bench/grid_watch.h"
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "cache/grid_name.h"
-#include "level2/decode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_name.h"
+#include "stormcellar/level2/decode.h"
 #include "synth/replay_pieces.h"
 
 namespace stormcellar::bench {

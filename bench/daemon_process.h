@@ -11,7 +11,7 @@
 
 #include <sys/types.h>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

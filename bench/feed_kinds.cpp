@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "level2/decode.h"
+#include "stormcellar/level2/decode.h"
 #include "synth/observe.h"
 #include "synth/scene.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "level2/volume.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::bench {
 

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "bench/stamped_records.h"
-#include "cache/grid_name.h"
-#include "level2/archive_header.h"
-#include "level2/chunk_name.h"
+#include "level2/containers/archive_header.h"
+#include "stormcellar/cache/grid_name.h"
+#include "stormcellar/level2/chunk_name.h"
 
 namespace stormcellar::bench {
 namespace {

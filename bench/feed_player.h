@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/result.h"
 #include "bench/national_feed.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

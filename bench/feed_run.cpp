@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bench/measure.h"
-#include "cache/grid_name.h"
+#include "stormcellar/cache/grid_name.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -16,10 +16,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/result.h"
 #include "bench/daemon_process.h"
 #include "bench/feed_player.h"
 #include "bench/grid_watch.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

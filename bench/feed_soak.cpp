@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
-#include "cache/grid_name.h"
-#include "catalog/catalog.h"
+#include "stormcellar/cache/grid_name.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "base/result.h"
 #include "bench/feed_run.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

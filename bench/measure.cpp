@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "bunzip/bunzip.h"
-#include "level2/gzip_stream.h"
-#include "level2/ldm_framer.h"
+#include "level2/containers/gzip_stream.h"
+#include "level2/containers/ldm_framer.h"
 
 extern char** environ;
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
-#include "level2/decode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -10,13 +10,13 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
-#include "base/station_table.h"
 #include "bench/measure.h"
 #include "bench/table.h"
-#include "grid/brick_grid.h"
-#include "grid/gridder.h"
-#include "grid/mosaic.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/mosaic.h"
 
 namespace stormcellar::bench {
 

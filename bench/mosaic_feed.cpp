@@ -10,13 +10,13 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
 #include "base/parallel.h"
 #include "bench/feed_kinds.h"
 #include "bench/restamp.h"
-#include "grid/grid_window.h"
-#include "grid/projection.h"
-#include "level2/encode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/grid/grid_window.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/level2/encode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -18,11 +18,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/result.h"
-#include "base/station_table.h"
-#include "base/utc_time.h"
-#include "grid/grid_spec.h"
-#include "level2/volume.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::bench {
 

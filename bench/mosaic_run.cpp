@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "base/file_system.h"
 #include "base/parallel.h"
 #include "bench/measure.h"
 #include "bench/restamp.h"
-#include "cache/store.h"
-#include "grid/effects.h"
-#include "level2/decode.h"
-#include "pipeline/mosaic_frame.h"
+#include "grid/plan/effects.h"
+#include "pipeline/mosaic/mosaic_frame.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -14,8 +14,8 @@
 
 #include <filesystem>
 
-#include "base/result.h"
 #include "bench/mosaic_feed.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

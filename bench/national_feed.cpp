@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
 #include "base/parallel.h"
 #include "bench/stamped_records.h"
+#include "stormcellar/base/file_system.h"
 #include "synth/replay_pieces.h"
 
 namespace stormcellar::bench {

@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "base/station_table.h"
-#include "base/utc_time.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::bench {
 

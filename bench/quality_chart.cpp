@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "grid/projection.h"
-#include "grid/site_frame.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/grid/site_frame.h"
 #include "synth/observe.h"
 #include "synth/truth.h"
 

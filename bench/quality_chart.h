@@ -10,7 +10,7 @@
 // Threads: pure functions.
 #pragma once
 
-#include "grid/gridder.h"
+#include "stormcellar/grid/gridder.h"
 #include "synth/scene.h"
 
 namespace stormcellar::bench {

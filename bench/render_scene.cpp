@@ -6,17 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
 #include "base/parallel.h"
 #include "bench/volume_site.h"
-#include "cache/grid_file.h"
-#include "grid/brick_grid.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
 #include "render/colour/colour_difference.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
 #include "render/volume/reference_marcher.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
 #include "render/volume/slicer.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "base/result.h"
 #include "bench/table.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 namespace {

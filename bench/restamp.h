@@ -5,9 +5,9 @@
 
 #include <chrono>
 
-#include "base/station_table.h"
-#include "base/utc_time.h"
-#include "level2/volume.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::bench {
 

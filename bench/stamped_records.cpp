@@ -12,9 +12,9 @@
 #include "base/byte_reader.h"
 #include "bench/restamp.h"
 #include "bunzip/bunzip.h"
-#include "level2/archive_header.h"
-#include "level2/ldm_framer.h"
-#include "level2/message_header.h"
+#include "level2/containers/archive_header.h"
+#include "level2/containers/ldm_framer.h"
+#include "level2/messages/message_header.h"
 
 namespace stormcellar::bench {
 namespace {

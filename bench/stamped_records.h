@@ -11,11 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "base/result.h"
-#include "base/station_table.h"
-#include "base/utc_time.h"
 #include "bench/measure.h"
-#include "level2/volume.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::bench {
 

@@ -11,8 +11,8 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include "base/version.h"
 #include "bench/measure.h"
+#include "stormcellar/base/version.h"
 
 namespace stormcellar::bench {
 namespace {

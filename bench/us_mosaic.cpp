@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
-#include "base/station_table.h"
 #include "bench/merge_case.h"
 #include "bench/us_storms.h"
-#include "cache/grid_file.h"
-#include "grid/projection.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::bench {
 namespace {

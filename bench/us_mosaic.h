@@ -6,9 +6,9 @@
 
 #include <filesystem>
 
-#include "base/result.h"
 #include "bench/request.h"
 #include "bench/table.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::bench {
 

@@ -3,9 +3,9 @@
 // Threads: pure functions.
 #pragma once
 
-#include "grid/brick_grid.h"
-#include "grid/grid_window.h"
-#include "grid/site_distance.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid_window.h"
+#include "stormcellar/grid/site_distance.h"
 
 namespace stormcellar::bench {
 

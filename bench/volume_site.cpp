@@ -1,6 +1,6 @@
 #include "bench/volume_site.h"
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::bench {
 

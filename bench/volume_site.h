@@ -1,9 +1,9 @@
 // bench/volume_site.h -- where a decoded volume's antenna stands.
 #pragma once
 
-#include "base/result.h"
-#include "grid/grid.h"
-#include "level2/volume.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::bench {
 

@@ -3,9 +3,9 @@
 // Pure bookkeeping: it reads no file and asks no clock. Grids are ordered by the time that counts:
 // their own, or, where that is more than 10 minutes in the future, the time at which the file was
 // written, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
-// All grids of others (cache/budget.h) stand before all of known groups. Victims are never pinned,
-// being written or evicted (busy), stuck, or protected.
-// Thread contract: one thread at a time.
+// All grids of others (stormcellar/cache/budget.h) stand before all of known groups. Victims are
+// never pinned, being written or evicted (busy), stuck, or protected. Thread contract: one thread
+// at a time.
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "cache/budget.h"
-#include "cache/grid_name.h"
+#include "stormcellar/cache/budget.h"
+#include "stormcellar/cache/grid_name.h"
 
 namespace stormcellar::cache {
 
@@ -94,7 +94,7 @@ class Account {
     // from it.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
-    // As cache/budget.h says it; none: no limit.
+    // As stormcellar/cache/budget.h says it; none: no limit.
     [[nodiscard]] std::optional<std::uint64_t> space_of(const Budget& budget) const;
     [[nodiscard]] std::optional<std::uint64_t> others_limit(const Budgets& budgets) const;
 

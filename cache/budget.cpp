@@ -1,8 +1,8 @@
-#include "cache/budget.h"
+#include "stormcellar/cache/budget.h"
 
 #include <algorithm>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::cache {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "cache/format.h"
-#include "grid/sweep_clock.h"
+#include "grid/sweep/sweep_clock.h"
 
 namespace stormcellar::cache {
 namespace {

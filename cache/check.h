@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <span>
 
-#include "base/result.h"
-#include "cache/grid_file.h"
-#include "grid/brick_view.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::cache {
 

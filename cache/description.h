@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "base/result.h"
-#include "cache/grid_file.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::cache {
 

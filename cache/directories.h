@@ -11,10 +11,10 @@
 #include <system_error>
 #include <vector>
 
-#include "base/file_system.h"
-#include "base/result.h"
-#include "base/utc_time.h"
-#include "cache/grid_name.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/grid_name.h"
 
 namespace stormcellar::cache {
 

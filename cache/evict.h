@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "base/file_system.h"
-#include "base/result.h"
-#include "cache/store.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
 
 namespace stormcellar::cache {
 
 struct EvictionOrder {
     std::string domain;  // a domain with its parts, or one part; empty: all
     // A grid goes when any of these asks for it. By time the newest go too; bytes and older_than
-    // keep the newest of each domain that is_known_group() knows (cache/budget.h), whatever its age
-    // and however much they hold. By bytes the grids of others go first.
+    // keep the newest of each domain that is_known_group() knows (stormcellar/cache/budget.h),
+    // whatever its age and however much they hold. By bytes the grids of others go first.
     std::optional<UtcTime> to;           // up to this time, itself included
     std::optional<std::uint64_t> bytes;  // the oldest, until the rest takes no more than this
     std::optional<std::chrono::milliseconds> older_than;  // before the newest of the same domain

@@ -11,8 +11,8 @@
 
 #include <sys/stat.h>
 
-#include "base/result.h"
 #include "cache/map_registry.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::cache {
 

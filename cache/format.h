@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::cache::format {
 

@@ -3,7 +3,7 @@
 // All that steers the reader (header, table, states, names) is read into memory of our own and
 // checked there, so that another program that alters or cuts the file later cannot lead us astray.
 // Only codes that are not packed stay on disk and are mapped.
-#include "cache/grid_file.h"
+#include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
 #include <cstring>

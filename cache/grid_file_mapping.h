@@ -9,8 +9,8 @@
 
 #include "cache/file_io.h"
 #include "cache/format.h"
-#include "cache/grid_file.h"
 #include "cache/packing.h"
+#include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::cache {
 

@@ -1,4 +1,4 @@
-#include "cache/grid_name.h"
+#include "stormcellar/cache/grid_name.h"
 
 #include <algorithm>
 #include <chrono>

@@ -11,8 +11,8 @@
 #include "cache/check.h"
 #include "cache/description.h"
 #include "cache/format.h"
-#include "cache/grid_file.h"
 #include "cache/packing.h"
+#include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::cache {
 namespace {

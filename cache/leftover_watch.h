@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::cache {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::cache {
 

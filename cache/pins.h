@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "base/file_system.h"
-#include "base/result.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::cache {
 

@@ -1,5 +1,5 @@
 // cache/roller.h -- keeps a cache within its budgets while it is written to. Inside the cache room
-// only; cache/store.h is the door.
+// only; stormcellar/cache/store.h is the door.
 //
 // Holds the account of what stands in the cache, made from the names at the start and corrected
 // from them at each roll(): files that others removed, added or pinned are noticed there.
@@ -22,13 +22,13 @@
 #include <string>
 #include <vector>
 
-#include "base/file_system.h"
-#include "base/result.h"
 #include "cache/account.h"
-#include "cache/budget.h"
 #include "cache/directories.h"
 #include "cache/file_io.h"
-#include "cache/store.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/budget.h"
+#include "stormcellar/cache/store.h"
 
 namespace stormcellar::cache {
 

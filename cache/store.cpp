@@ -1,4 +1,4 @@
-#include "cache/store.h"
+#include "stormcellar/cache/store.h"
 
 #include <algorithm>
 #include <mutex>

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <span>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::cache {
 

@@ -14,8 +14,8 @@
 
 #include "base/checksum.h"
 #include "cache/check.h"
-#include "cache/grid_file.h"
 #include "cache/grid_file_mapping.h"
+#include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::cache {
 

@@ -1,14 +1,14 @@
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 
 #include <algorithm>
 #include <mutex>
 #include <utility>
 
 #include "base/beneath.h"
-#include "base/file_system.h"
-#include "base/station_table.h"
 #include "catalog/catalog_parts.h"
 #include "catalog/drop_directory.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <system_error>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::catalog {
 namespace {

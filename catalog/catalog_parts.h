@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include "catalog/catalog.h"
 #include "catalog/open_databases.h"
 #include "catalog/path_filter.h"
 #include "catalog/path_homes.h"
 #include "catalog/station_database.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::catalog {
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "base/beneath.h"
-#include "base/member_name.h"
 #include "catalog/catalog_parts.h"
+#include "stormcellar/base/member_name.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -6,12 +6,12 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sys/stat.h>
 
-#include "base/file_system.h"
-#include "base/station_table.h"
 #include "catalog/catalog_parts.h"
 #include "catalog/path_homes.h"
-#include "catalog/repair.h"
 #include "catalog/station_database.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/catalog/repair.h"
 
 namespace stormcellar::catalog {
 namespace {

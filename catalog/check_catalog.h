@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
-#include "base/station_rule.h"
-#include "catalog/catalog.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/station_rule.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::catalog {
 

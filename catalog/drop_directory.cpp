@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/beneath.h"
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -7,11 +7,11 @@
 
 #include <filesystem>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::catalog {
 
-// Writes it where it says something else. Errors: those of base/file_system.h.
+// Writes it where it says something else. Errors: those of stormcellar/base/file_system.h.
 [[nodiscard]] Status write_drop_directory(const std::filesystem::path& catalog,
                                           const std::filesystem::path& drop);
 // not_found where nobody wrote it down; corrupt where it is no absolute path.

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include "base/descriptor.h"
+#include "stormcellar/base/descriptor.h"
 
 namespace stormcellar::catalog {
 

@@ -1,6 +1,6 @@
 #include "catalog/path_homes.h"
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::catalog {
 

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "base/checksum.h"
-#include "base/station_rule.h"
+#include "stormcellar/base/station_rule.h"
 
 namespace stormcellar::catalog {
 

@@ -1,9 +1,9 @@
-#include "catalog/radar_set.h"
+#include "stormcellar/catalog/radar_set.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "catalog/read_cataloged.h"
+#include "stormcellar/catalog/read_cataloged.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -1,14 +1,14 @@
-#include "catalog/read_cataloged.h"
+#include "stormcellar/catalog/read_cataloged.h"
 
 #include <algorithm>
 
 #include <sys/stat.h>
 
-#include "archive/archive_reader.h"
 #include "base/beneath.h"
 #include "base/checksum.h"
-#include "base/descriptor.h"
-#include "base/member_name.h"
+#include "stormcellar/archive/archive_reader.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/member_name.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -1,4 +1,4 @@
-#include "catalog/repair.h"
+#include "stormcellar/catalog/repair.h"
 
 #include <set>
 #include <string_view>
@@ -7,10 +7,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
-#include "base/file_system.h"
 #include "catalog/salvage.h"
 #include "catalog/schema.h"
 #include "catalog/station_database.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::catalog {
 namespace {

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::catalog {
 

@@ -16,8 +16,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "catalog/catalog.h"
 #include "catalog/salvage.h"
+#include "stormcellar/catalog/catalog.h"
 
 namespace stormcellar::catalog {
 

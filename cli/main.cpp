@@ -1,4 +1,4 @@
-// stormcellar: the command line. One subcommand a file; see cli/commands.h.
+// stormcellar: the command line. One subcommand a file; see cli/shared/commands.h.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -12,10 +12,10 @@
 #include <CLI/CLI.hpp>
 
 #include "base/memory.h"
-#include "base/version.h"
 #include "cache/map_guard.h"
-#include "cli/commands.h"
-#include "cli/reference.h"
+#include "cli/reference/reference.h"
+#include "cli/shared/commands.h"
+#include "stormcellar/base/version.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -76,7 +76,7 @@ int flushed(int status) {
     return status == exit_done ? exit_failed : status;
 }
 
-// Hidden: for the build of the package (cli/reference.h).
+// Hidden: for the build of the package (cli/reference/reference.h).
 int print_reference(const CLI::App& app, const std::string& kind) {
     const std::optional<std::string> text = reference_text(app, kind);
     if (!text) {

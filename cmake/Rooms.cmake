@@ -8,7 +8,7 @@ endfunction()
 #                  [ALONE] [BATCHES])
 #
 # Declares the static library of one room: target stormcellar_NAME, alias stormcellar::NAME.
-# Headers are included by their room, as in "level2/volume.h". The headers beside the sources are
+# Headers are included by their room, as in "stormcellar/level2/volume.h". The headers beside the sources are
 # installed with the library, unless it is a room's second one (WITHOUT_HEADERS). A room that is ALONE
 # names no other and does not use fmt, so the common precompiled headers are not for it. BATCHES is
 # for what moves files and rows, of which headers are most: see stormcellar_test. What computes is
@@ -22,7 +22,10 @@ function(stormcellar_room name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    # For one release: includes as they were before, "level2/volume.h".
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/stormcellar>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(STORMCELLAR_PRECOMPILE AND NOT ARG_ALONE)
@@ -33,9 +36,9 @@ function(stormcellar_room name)
   endif()
   install(TARGETS ${target} EXPORT stormcellarTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     COMPONENT development)
-  if(NOT ARG_WITHOUT_HEADERS)
-    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
-      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar/${name}
+  if(EXISTS ${PROJECT_SOURCE_DIR}/include/stormcellar/${name} AND NOT ARG_WITHOUT_HEADERS)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/stormcellar/${name}
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stormcellar
       COMPONENT development FILES_MATCHING PATTERN "*.h")
   endif()
 endfunction()

@@ -1,4 +1,4 @@
-#include "export/cfradial.h"
+#include "stormcellar/export/cfradial.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <netcdf.h>
 
 #include "base/printable.h"
-#include "base/station_table.h"
-#include "base/version.h"
 #include "export/cfradial_parts.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/version.h"
 
 namespace stormcellar::netcdf {
 

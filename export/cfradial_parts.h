@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "base/utc_time.h"
 #include "export/cfradial_layout.h"
 #include "export/netcdf_builder.h"
-#include "level2/volume.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::netcdf {
 

@@ -4,8 +4,8 @@
 
 #include <netcdf.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/projection.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::netcdf {
 namespace {

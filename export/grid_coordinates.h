@@ -9,7 +9,7 @@
 #pragma once
 
 #include "export/netcdf_builder.h"
-#include "grid/grid_spec.h"
+#include "stormcellar/grid/grid_spec.h"
 
 namespace stormcellar::netcdf {
 

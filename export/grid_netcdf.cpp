@@ -1,4 +1,4 @@
-#include "export/grid_netcdf.h"
+#include "stormcellar/export/grid_netcdf.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "export/grid_coordinates.h"
 #include "export/moment_text.h"
 #include "export/netcdf_builder.h"
-#include "grid/method.h"
+#include "stormcellar/grid/method.h"
 
 namespace stormcellar::netcdf {
 namespace {

@@ -1,7 +1,7 @@
 // export/moment_text.h -- what a moment is called in netCDF files; internal to export.
 #pragma once
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::netcdf {
 

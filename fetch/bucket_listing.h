@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
-#include "base/utc_time.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::fetch {
 

@@ -1,6 +1,6 @@
 // Loads the module that fetches, stormcellar_fetch.so, when something is to be fetched: libcurl
 // brings two dozen libraries, which no other command is to start with.
-#include "fetch/fetch.h"
+#include "stormcellar/fetch/fetch.h"
 
 #include "base/load_module.h"
 

@@ -11,10 +11,10 @@
 #include <unistd.h>
 
 #include "base/checksum.h"
-#include "base/descriptor.h"
 #include "fetch/bucket_listing.h"
-#include "fetch/fetch.h"
 #include "fetch/transfers.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/fetch/fetch.h"
 
 namespace stormcellar::fetch {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "base/version.h"
+#include "stormcellar/base/version.h"
 
 namespace stormcellar::fetch {
 namespace {

@@ -17,8 +17,8 @@
 
 #include <curl/curl.h>
 
-#include "base/result.h"
-#include "base/utc_time.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::fetch {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "grid/beam_geometry.h"
+#include "stormcellar/grid/beam_geometry.h"
 #include "synth/effects.h"
 #include "synth/radial_observer.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "grid/detection_limit.h"
+#include "grid/beam/detection_limit.h"
 #include "synth/counter_random.h"
 #include "synth/observe.h"
 

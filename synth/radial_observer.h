@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "grid/beam_geometry.h"
-#include "level2/volume.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/level2/volume.h"
 #include "synth/beam_quadrature.h"
 #include "synth/effects.h"
 #include "synth/scene.h"

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "archive/archive_reader.h"
-#include "level2/chunk_name.h"
+#include "stormcellar/archive/archive_reader.h"
+#include "stormcellar/level2/chunk_name.h"
 #include "synth/replay_pieces.h"
 #include "synth/replay_turns.h"
 #include "synth/replay_writer.h"

@@ -31,9 +31,9 @@
 #include <string>
 #include <vector>
 
-#include "base/file_system.h"
-#include "base/result.h"
-#include "base/utc_time.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
 #include "synth/replay_faults.h"
 
 namespace stormcellar::synth {

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::synth {
 

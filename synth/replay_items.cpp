@@ -9,11 +9,11 @@
 
 #include <fcntl.h>
 
-#include "archive/archive_reader.h"
-#include "base/descriptor.h"
-#include "base/station_table.h"
-#include "level2/archive_header.h"
-#include "level2/gzip_stream.h"
+#include "level2/containers/archive_header.h"
+#include "level2/containers/gzip_stream.h"
+#include "stormcellar/archive/archive_reader.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/station_table.h"
 #include "synth/replay.h"
 #include "synth/replay_pieces.h"
 

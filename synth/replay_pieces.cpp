@@ -1,8 +1,8 @@
 #include "synth/replay_pieces.h"
 
-#include "level2/archive_header.h"
-#include "level2/gzip_stream.h"
-#include "level2/ldm_framer.h"
+#include "level2/containers/archive_header.h"
+#include "level2/containers/gzip_stream.h"
+#include "level2/containers/ldm_framer.h"
 
 namespace stormcellar::synth {
 namespace {

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::synth {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/beam_geometry.h"
-#include "grid/site_frame.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/site_frame.h"
 
 namespace stormcellar::synth {
 namespace {

@@ -4,11 +4,11 @@
 //
 // Units    degrees (WGS84), metres, heights above mean sea level, m/s positive away from the site.
 // Model    the weather lies in the azimuthal equidistant plane about the scene's radar
-//          (grid/site_frame.h), so azimuth and arc from there are exact. East and north of a motion
-//          are those of that plane. Radial velocity is the horizontal motion times the cosine of
-//          the elevation at the antenna, as in synth/observe.h; from a site other than the scene's
-//          the direction is that in the plane, whose scale errs by (arc / earth radius)^2 / 6
-//          across the radius: 0.02 % at 230 km.
+//          (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and north
+//          of a motion are those of that plane. Radial velocity is the horizontal motion times the
+//          cosine of the elevation at the antenna, as in synth/observe.h; from a site other than
+//          the scene's the direction is that in the plane, whose scale errs by (arc / earth
+//          radius)^2 / 6 across the radius: 0.02 % at 230 km.
 // Accuracy 1e-6 m in place within 500 km; the rest is synth/truth.h. Enforced by
 //          tests/synth/sampled_truth_test.cpp.
 // Threads  immutable; the scene must outlive it.

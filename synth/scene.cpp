@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "base/station_table.h"
 #include "base/toml_file.h"
-#include "grid/site_frame.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/site_frame.h"
 #include "synth/read_instrument.h"
 
 namespace stormcellar::synth {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::synth {
 

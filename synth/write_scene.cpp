@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
-#include "level2/encode.h"
+#include "stormcellar/level2/encode.h"
 #include "synth/observe.h"
 
 namespace stormcellar::synth {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "synth/scene.h"
 
 namespace stormcellar::synth {

@@ -1,4 +1,4 @@
-#include "render/animation/animation.h"
+#include "stormcellar/render/animation.h"
 
 #include <array>
 #include <cmath>

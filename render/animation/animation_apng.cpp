@@ -1,6 +1,6 @@
-// APNG: a PNG whose further frames are private chunks. Each frame is encoded by render/png_file.h
-// as a picture of its own and taken apart again.
-// Source: W3C PNG specification, third edition, sections 5.6 and 11.3.6 (acTL, fcTL, fdAT).
+// APNG: a PNG whose further frames are private chunks. Each frame is encoded by
+// stormcellar/render/png_file.h as a picture of its own and taken apart again. Source: W3C PNG
+// specification, third edition, sections 5.6 and 11.3.6 (acTL, fcTL, fdAT).
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -10,7 +10,7 @@
 #include "base/checksum.h"
 #include "render/animation/animation_format.h"
 #include "render/animation/frame_change.h"
-#include "render/png_file.h"
+#include "stormcellar/render/png_file.h"
 
 namespace stormcellar::render {
 namespace {

@@ -1,4 +1,4 @@
-// render/animation/animation_format.h -- what the formats of render/animation/animation.h share;
+// render/animation/animation_format.h -- what the formats of stormcellar/render/animation.h share;
 // internal.
 //
 // A FrameEncoder turns frames into the bytes of one file, in memory. The checks, the errors' file
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "base/file_system.h"
-#include "render/animation/animation.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/render/animation.h"
 
 namespace stormcellar::render {
 

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "render/animation/animation_format.h"
-#include "render/png_file.h"
+#include "stormcellar/render/png_file.h"
 
 namespace stormcellar::render {
 namespace {

@@ -14,7 +14,7 @@ extern "C" {
 #include <string>
 #include <utility>
 
-#include "base/result.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::render::ffmpeg {
 

@@ -15,7 +15,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "render/image.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
 

@@ -27,8 +27,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
-#include "render/colour/colour_table.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
 

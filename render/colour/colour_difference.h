@@ -14,8 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/result.h"
-#include "render/image.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
 

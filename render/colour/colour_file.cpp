@@ -4,8 +4,8 @@
 #include <cctype>
 #include <cstring>
 
-#include "base/file_system.h"
 #include "render/colour/built_in_tables.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::render {
 namespace {

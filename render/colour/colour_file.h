@@ -33,8 +33,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/result.h"
-#include "render/colour/colour_table.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
 

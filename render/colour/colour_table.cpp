@@ -1,4 +1,4 @@
-#include "render/colour/colour_table.h"
+#include "stormcellar/render/colour_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -32,8 +32,8 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "grid/site_frame.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/site_frame.h"
 
 namespace stormcellar::render {
 

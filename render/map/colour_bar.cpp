@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "render/round_step.h"
-#include "render/shades.h"
+#include "render/image/round_step.h"
+#include "render/image/shades.h"
 
 namespace stormcellar::render {
 namespace {

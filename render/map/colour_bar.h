@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "render/canvas.h"
-#include "render/colour/colour_table.h"
+#include "render/image/canvas.h"
+#include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
 

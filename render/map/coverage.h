@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "grid/grid_spec.h"
 #include "render/products/column_summary.h"
+#include "stormcellar/grid/grid_spec.h"
 
 namespace stormcellar::render {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/canvas.h"
+#include "render/image/canvas.h"
 
 namespace stormcellar::render {
 

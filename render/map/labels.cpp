@@ -6,13 +6,13 @@
 
 #include <fmt/ranges.h>
 
-#include "base/station_table.h"
-#include "base/version.h"
+#include "render/image/shades.h"
 #include "render/map/base_map.h"
 #include "render/map/colour_bar.h"
 #include "render/products/ground.h"
 #include "render/products/product.h"
-#include "render/shades.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/base/version.h"
 
 namespace stormcellar::render {
 namespace {

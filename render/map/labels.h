@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "render/canvas.h"
+#include "render/image/canvas.h"
 #include "render/map/coverage.h"
 #include "render/map/legend.h"
-#include "render/render.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/frame_facts.h"
 
 namespace stormcellar::render {
 

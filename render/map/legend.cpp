@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "render/image/shades.h"
 #include "render/products/ground.h"
 #include "render/products/product.h"
-#include "render/shades.h"
 #include "render/volume/haze.h"
 
 namespace stormcellar::render {

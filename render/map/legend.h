@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/colour/colour_table.h"
-#include "render/scene.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
 

@@ -1,12 +1,12 @@
 // render/map/map_ground.h -- between places on the earth and the picture's ground, in metres.
 //
 // The ground is the plane of the grid's projection about the grid's middle, as ViewGeometry has it.
-// Accuracy: that of grid/projection.h, 1e-7 m.
+// Accuracy: that of stormcellar/grid/projection.h, 1e-7 m.
 // Thread contract: immutable.
 #pragma once
 
-#include "grid/projection.h"
-#include "render/view_geometry.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/image/shades.h"
 #include "render/map/map_ground.h"
-#include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "render/canvas.h"
+#include "render/image/canvas.h"
 #include "render/map/base_map.h"
-#include "render/view_geometry.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

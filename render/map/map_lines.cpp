@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/image/shades.h"
 #include "render/map/map_ground.h"
-#include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {

@@ -11,10 +11,10 @@
 
 #include <vector>
 
-#include "grid/grid.h"
-#include "render/canvas.h"
+#include "render/image/canvas.h"
 #include "render/map/map_layer.h"
-#include "render/view_geometry.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

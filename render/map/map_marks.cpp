@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "render/image/shades.h"
 #include "render/map/label_places.h"
 #include "render/map/map_ground.h"
-#include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {

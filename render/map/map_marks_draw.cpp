@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/image/shades.h"
 #include "render/map/map_marks.h"
-#include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {

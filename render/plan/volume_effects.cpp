@@ -8,6 +8,8 @@
 namespace stormcellar::render {
 namespace {
 
+using accuracy::make_effect;
+
 constexpr int fewest_slices = 32;
 constexpr int most_slices = 2048;
 // In a scale of its own: a slice counts one, whatever the scene.
@@ -26,29 +28,20 @@ enum StepNumber : std::size_t {
     light_step
 };
 
-accuracy::Effect effect(std::string name, std::string what, std::string rung, double effort) {
-    accuracy::Effect made;
-    made.name = std::move(name);
-    made.what = std::move(what);
-    made.rung = std::move(rung);
-    made.effort = effort;
-    return made;
-}
-
 accuracy::Step slices() {
     accuracy::Step step{"slices", fmt::format("{} slices", fewest_slices), {}};
     for (int count = 2 * fewest_slices; count <= most_slices; count *= 2) {
         step.effects.push_back(
-            effect(fmt::format("slices_{}", count),
-                   fmt::format("What lies between {} slices is seen by {}.", count / 2, count),
-                   fmt::format("{} slices", count), effort_of_a_slice * count / 2));
+            make_effect(fmt::format("slices_{}", count), fmt::format("{} slices", count),
+                        fmt::format("What lies between {} slices is seen by {}.", count / 2, count),
+                        effort_of_a_slice * count / 2));
     }
     return step;
 }
 
 accuracy::Effect light(std::string name, std::string what, std::string rung, double effort,
                        bool is_asked) {
-    accuracy::Effect made = effect(std::move(name), std::move(what), std::move(rung), effort);
+    accuracy::Effect made = make_effect(std::move(name), std::move(rung), std::move(what), effort);
     if (!is_asked) made.setting = accuracy::Setting::not_asked;
     return made;
 }
@@ -61,14 +54,15 @@ accuracy::Chain volume_chain(const Light& asked) {
     chain.steps.push_back(
         {"integration",
          "the nearer value of each step",
-         {effect("value_span", "A step crosses all values between its two ends.",
-                 "all values of each step", effort_of_a_table),
-          effect("step_attenuation", "The near part of a step hides its far part.",
-                 "all values of each step in their order", effort_of_a_table)}});
-    chain.steps.push_back({"pixels",
-                           "interpolated where the picture is straight",
-                           {effect("every_pixel", "The picture bends between two rays.",
-                                   "a ray for each pixel", effort_of_every_pixel)}});
+         {make_effect("value_span", "all values of each step",
+                      "A step crosses all values between its two ends.", effort_of_a_table),
+          make_effect("step_attenuation", "all values of each step in their order",
+                      "The near part of a step hides its far part.", effort_of_a_table)}});
+    chain.steps.push_back(
+        {"pixels",
+         "interpolated where the picture is straight",
+         {make_effect("every_pixel", "a ray for each pixel", "The picture bends between two rays.",
+                      effort_of_every_pixel)}});
     chain.steps.push_back(
         {"surface",
          "as bright whatever way it faces",

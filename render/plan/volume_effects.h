@@ -7,16 +7,16 @@
 //   surface      as bright whatever way it faces; gradient_light: darker turned away from the sun
 //   light        everywhere the same; shadow_light: sun and sky that come through;
 //                scattering_light: that, scattered once towards the camera
-// What light the scene has not (render/volume/light.h) it does not ask for, and the exact picture
-// is without, too. Camera, exaggeration and the earth's curve are the scene's own: they say what is
-// to be seen. Sizes are colours (CIEDE2000). The exact form has every effect on; how far 2048
-// slices still are from infinitely many is in docs/accuracy.md. Thread contract: values and pure
-// functions.
+// What light the scene has not (stormcellar/render/light.h) it does not ask for, and the exact
+// picture is without, too. Camera, exaggeration and the earth's curve are the scene's own: they say
+// what is to be seen. Sizes are colours (CIEDE2000). The exact form has every effect on; how far
+// 2048 slices still are from infinitely many is in docs/accuracy.md. Thread contract: values and
+// pure functions.
 #pragma once
 
-#include "accuracy/chain.h"
-#include "render/scene.h"
 #include "render/volume/slicer.h"
+#include "stormcellar/accuracy/chain.h"
+#include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
 

@@ -3,26 +3,22 @@
 #include <algorithm>
 #include <chrono>
 
-#include "accuracy/candidate.h"
 #include "accuracy/governor.h"
 #include "render/colour/colour_difference.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
+#include "stormcellar/accuracy/candidate.h"
 
 namespace stormcellar::render {
 namespace {
 
 using accuracy::Chain;
 using accuracy::Choice;
+using accuracy::with_rung;
 
 Result<double> difference(const Image& one, const Image& other) {
     const auto found = image_difference(one, other);
     if (!found) return pass_on(found);
     return found->percentile_99;
-}
-
-Choice with_rung(Choice choice, std::size_t step, std::size_t rung) {
-    choice.rungs[step] = rung;
-    return choice;
 }
 
 }  // namespace
@@ -87,25 +83,19 @@ Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
                     "a picture's tolerance is a colour difference (\"dE 2\") or a time");
     }
     if (auto done = predict(scene, chain, which); !done) return pass_on(done);
-    if (!budget) {
-        accuracy::Candidate candidate;
-        candidate.choice = rungs_of(chain, by_default);
-        candidate.left_off = accuracy::left_off(chain, candidate.choice);
-        candidate.cost_s = accuracy::cost_s(chain, candidate.choice);
-        return VolumePlan{accuracy::make_plan(chain, {}, candidate, accuracy::Outcome::met),
-                          by_default};
-    }
-    const Image& exact = scene.draw(volume_choice(chain, accuracy::exact_choice(chain))).picture;
     const auto measure = [&](const Choice& choice) -> Result<accuracy::Measured> {
+        const Image& exact =
+            scene.draw(volume_choice(chain, accuracy::exact_choice(chain))).picture;
         const auto off = difference(scene.draw(volume_choice(chain, choice)).picture, exact);
         if (!off) return pass_on(off);
         accuracy::Measured measured;
         measured.image_de = *off;
         return measured;
     };
-    auto plan = accuracy::govern(chain, *budget, measure);
+    auto plan = accuracy::govern_or_default(chain, budget, rungs_of(chain, by_default), measure);
     if (!plan) return pass_on(plan);
-    const VolumeChoice choice = volume_choice(chain, plan->choice);
+    // The default may have a number of slices between two rungs.
+    const VolumeChoice choice = budget ? volume_choice(chain, plan->choice) : by_default;
     return VolumePlan{std::move(*plan), choice};
 }
 

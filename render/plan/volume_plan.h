@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/budget.h"
-#include "accuracy/ladder.h"
-#include "accuracy/plan.h"
-#include "base/result.h"
 #include "render/plan/volume_effects.h"
+#include "stormcellar/accuracy/budget.h"
+#include "stormcellar/accuracy/ladder.h"
+#include "stormcellar/accuracy/plan.h"
+#include "stormcellar/base/result.h"
 
 namespace stormcellar::render {
 

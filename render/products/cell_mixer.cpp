@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/floating_point.h"
-#include "render/view_geometry.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

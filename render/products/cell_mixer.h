@@ -1,19 +1,19 @@
 // render/products/cell_mixer.h -- what lies between a grid's cells.
 //
-// The status rule of DESIGN section 5 (grid/mixture.h), with the weights of the cells: not seen if
-// more than half is; else range folded if that is the largest part; else no echo if that outweighs
-// the values; else the mean of the values by their weights. No echo enters no value: a grid does
-// not say what its cells could have seen. PHI is averaged on its circle of 360 degrees; of VEL,
-// whose circle a grid does not tell, the value that weighs most stands.
-// Thread contract: plain values.
+// The status rule of DESIGN section 5 (grid/sweep/mixture.h), with the weights of the cells: not
+// seen if more than half is; else range folded if that is the largest part; else no echo if that
+// outweighs the values; else the mean of the values by their weights. No echo enters no value: a
+// grid does not say what its cells could have seen. PHI is averaged on its circle of 360 degrees;
+// of VEL, whose circle a grid does not tell, the value that weighs most stands. Thread contract:
+// plain values.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "grid/brick_view.h"
-#include "grid/mixture.h"
-#include "level2/volume.h"
+#include "grid/sweep/mixture.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::render {
 

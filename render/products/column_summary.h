@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::render {
 

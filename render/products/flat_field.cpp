@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "render/products/cell_mixer.h"
-#include "render/view_geometry.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 namespace {

@@ -24,10 +24,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/result.h"
-#include "grid/brick_view.h"
-#include "level2/volume.h"
 #include "render/products/column_summary.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::render {
 

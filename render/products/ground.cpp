@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "render/colour/colour_table.h"
-#include "render/round_step.h"
-#include "render/shades.h"
+#include "render/image/round_step.h"
+#include "render/image/shades.h"
+#include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
 namespace {

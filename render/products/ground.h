@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/brick_view.h"
-#include "render/colour/colour_table.h"
-#include "render/image.h"
 #include "render/products/column_summary.h"
 #include "render/products/flat_field.h"
-#include "render/view_geometry.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "render/shades.h"
+#include "render/image/shades.h"
 
 namespace stormcellar::render {
 namespace {

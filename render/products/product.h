@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "grid/brick_view.h"
-#include "render/image.h"
 #include "render/products/column_summary.h"
 #include "render/products/flat_field.h"
-#include "render/scene.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
 

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "grid/projection.h"
 #include "render/products/cell_mixer.h"
 #include "render/products/ground.h"
-#include "render/view_geometry.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 namespace {

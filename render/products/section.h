@@ -5,21 +5,21 @@
 // outermost centres the outermost cells stand, as everywhere; further out there is no grid. Heights
 // run from sea level (or the lowest cells, if these lie below it) to the highest cells; air under
 // the lowest cells counts as not seen.
-// Accuracy: places 1e-6 m of the geodesic (grid/site_frame.h).
+// Accuracy: places 1e-6 m of the geodesic (stormcellar/grid/site_frame.h).
 // The same bits for any number of threads.
 #pragma once
 
 #include <vector>
 
-#include "base/result.h"
-#include "grid/brick_view.h"
-#include "grid/site_frame.h"
-#include "level2/volume.h"
-#include "render/canvas.h"
-#include "render/colour/colour_table.h"
-#include "render/image.h"
+#include "render/image/canvas.h"
 #include "render/products/flat_field.h"
-#include "render/scene.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/grid/site_frame.h"
+#include "stormcellar/level2/volume.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/image/round_step.h"
+#include "render/image/shades.h"
 #include "render/products/ground.h"
 #include "render/products/section.h"
-#include "render/round_step.h"
-#include "render/shades.h"
 
 namespace stormcellar::render {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/volume/block_codes.cpp"

@@ -16,7 +16,7 @@ struct BlockCodes {
     std::array<std::uint16_t, most> least, largest;
 };
 
-// Of the codes of one whole brick (grid/brick_view.h), 1 or 2 bytes each.
+// Of the codes of one whole brick (stormcellar/grid/brick_view.h), 1 or 2 bytes each.
 void find_block_codes(const std::byte* codes, int code_bytes, int edge, BlockCodes& found);
 
 }  // namespace stormcellar::render

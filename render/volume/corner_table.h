@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::render {
 

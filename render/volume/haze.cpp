@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
 #include "render/volume/level_position.h"
 
 namespace stormcellar::render {

@@ -8,9 +8,9 @@
 // edges that matter. Thread contract: pure; the same bits for any number of threads.
 #pragma once
 
-#include "grid/brick_view.h"
-#include "render/image.h"
-#include "render/view_geometry.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

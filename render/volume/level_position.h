@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/grid_spec.h"
+#include "stormcellar/grid/grid_spec.h"
 
 namespace stormcellar::render {
 

@@ -11,10 +11,10 @@
 #include <array>
 #include <vector>
 
-#include "grid/brick_view.h"
-#include "render/view_geometry.h"
-#include "render/volume/light.h"
 #include "render/volume/transfer_function.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/light.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

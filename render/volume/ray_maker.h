@@ -7,9 +7,9 @@
 #include <optional>
 #include <span>
 
-#include "render/view_geometry.h"
 #include "render/volume/level_position.h"
 #include "render/volume/ray_packet.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

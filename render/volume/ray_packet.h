@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "grid/brick_view.h"
 #include "render/volume/corner_table.h"
 #include "render/volume/level_position.h"
 #include "render/volume/light_volume.h"
 #include "render/volume/transfer_function.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::render {
 
@@ -23,7 +23,7 @@ struct CurvedLevels {
     float curve_x = 0, curve_y = 0, middle_x = 0, middle_y = 0;
 };
 
-// How samples are lit (render/volume/light.h).
+// How samples are lit (stormcellar/render/light.h).
 struct PacketLight {
     const LightVolume* volume = nullptr;  // none: no shadows
     bool gradient = false;

@@ -12,9 +12,9 @@
 #include <array>
 #include <vector>
 
-#include "grid/brick_view.h"
-#include "render/colour/colour_table.h"
-#include "render/view_geometry.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

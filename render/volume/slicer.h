@@ -11,7 +11,8 @@
 //            multiplied by the mean of their shares and by the length of the ray's way through it,
 //            where the box cuts the step too. An end without any value takes that of the other.
 //            Colours mix in sRGB, as drawn.
-//   light    where it is asked for: one factor a sample (render/volume/light.h), the mean of both
+//   light    where it is asked for: one factor a sample (stormcellar/render/light.h), the mean of
+//   both
 //            ends of a step
 //   skipped  stretches of a ray in bricks whose range of values is clear (exact), and what lies
 //            behind an opacity of 0.999 (changes no channel by more than 0.26 of 255).
@@ -22,16 +23,16 @@
 #include <memory>
 #include <optional>
 
-#include "grid/brick_view.h"
-#include "render/colour/colour_table.h"
-#include "render/layer.h"
-#include "render/view_geometry.h"
+#include "render/image/layer.h"
 #include "render/volume/corner_table.h"
-#include "render/volume/light.h"
 #include "render/volume/light_volume.h"
 #include "render/volume/ray_packet.h"
 #include "render/volume/slice_mask.h"
 #include "render/volume/transfer_keeper.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/light.h"
+#include "stormcellar/render/view_geometry.h"
 
 namespace stormcellar::render {
 

@@ -7,7 +7,7 @@
 // the table or its first extinction. The others are equally wide, so wide that the last holds the
 // table's highest stop, and where that is possible so that each stop begins a bin. For each pair of
 // bins at the two ends of a step the table holds what the step looks like from its first end:
-// render/volume/integration.h says how.
+// stormcellar/render/integration.h says how.
 // Thread contract: immutable.
 #pragma once
 
@@ -16,9 +16,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/brick_view.h"
-#include "render/colour/colour_table.h"
-#include "render/volume/integration.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/colour_table.h"
+#include "stormcellar/render/integration.h"
 
 namespace stormcellar::render {
 

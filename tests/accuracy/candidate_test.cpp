@@ -1,4 +1,4 @@
-#include "accuracy/candidate.h"
+#include "stormcellar/accuracy/candidate.h"
 
 #include <random>
 #include <set>

@@ -1,4 +1,4 @@
-#include "accuracy/chain.h"
+#include "stormcellar/accuracy/chain.h"
 
 #include <limits>
 #include <vector>
@@ -138,6 +138,18 @@ TEST(Chain, NamesAreNamesAndStandOnce) {
     chain = small_chain();
     chain.steps[2].name = "beam";
     EXPECT_THAT(error_of(chain), HasSubstr("\"beam\""));
+}
+
+TEST(Chain, StepsAreFoundByName) {
+    const Chain chain = small_chain();
+    for (std::size_t i = 0; i < chain.steps.size(); ++i) {
+        EXPECT_EQ(find_step(chain, chain.steps[i].name), i);
+        EXPECT_EQ(rung_of(chain, with_rung(exact_choice(chain), i, 0), chain.steps[i].name), 0U);
+        EXPECT_EQ(rung_of(chain, exact_choice(chain), chain.steps[i].name),
+                  exact_choice(chain).rungs[i]);
+    }
+    EXPECT_FALSE(find_step(chain, "no such step"));
+    EXPECT_EQ(rung_of(chain, exact_choice(chain), "no such step"), 0U);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "accuracy/effect.h"
+#include "stormcellar/accuracy/effect.h"
 
 #include <string>
 #include <vector>

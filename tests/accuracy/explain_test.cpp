@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "accuracy/planner.h"
+#include "stormcellar/accuracy/planner.h"
 #include "tests/accuracy/small_chain.h"
 
 namespace stormcellar::accuracy {

@@ -183,5 +183,27 @@ TEST(Governor, NeverTakesWhatWasNotShown) {
     EXPECT_GT(met, 1000);
 }
 
+TEST(Governor, WithoutABudgetTheDefaultIsPlannedAndNothingIsMeasured) {
+    Sample sample{[](const Choice&) { return 0.0; }};
+    const Chain chain = small_chain();
+    const Choice by_default{Rungs{0, 1, 0}};
+    const auto plan = govern_or_default(chain, std::nullopt, by_default, sample.measure());
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(plan->choice, by_default);
+    EXPECT_TRUE(sample.seen.empty());
+    EXPECT_FALSE(plan->measured);
+    EXPECT_DOUBLE_EQ(plan->cost_s, cost_s(chain, by_default));
+    EXPECT_DOUBLE_EQ(plan->left_off.value, left_off(chain, by_default).value);
+}
+
+TEST(Governor, WithABudgetTheDefaultIsNotAskedFor) {
+    Sample sample{[](const Choice&) { return 0.4; }};
+    const auto budget = parse_budget("250 m, 0.5 dB").value();
+    const auto plan =
+        govern_or_default(small_chain(), budget, Choice{Rungs{0, 0, 0}}, sample.measure());
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(plan->choice.rungs, (Rungs{0, 1, 0}));
+}
+
 }  // namespace
 }  // namespace stormcellar::accuracy

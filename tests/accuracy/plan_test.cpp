@@ -1,10 +1,10 @@
-#include "accuracy/plan.h"
+#include "stormcellar/accuracy/plan.h"
 
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "accuracy/planner.h"
+#include "stormcellar/accuracy/planner.h"
 #include "tests/accuracy/small_chain.h"
 
 namespace stormcellar::accuracy {

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "accuracy/chain.h"
-#include "accuracy/planner.h"
+#include "stormcellar/accuracy/chain.h"
+#include "stormcellar/accuracy/planner.h"
 
 namespace stormcellar::accuracy::testing {
 

@@ -1,4 +1,4 @@
-#include "archive/archive_reader.h"
+#include "stormcellar/archive/archive_reader.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/archive/archive_maker.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "base/descriptor.h"
+#include "stormcellar/base/descriptor.h"
 
 #include <array>
 #include <cerrno>

@@ -1,10 +1,10 @@
-#include "base/station_rule.h"
+#include "stormcellar/base/station_rule.h"
 
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar {
 namespace {

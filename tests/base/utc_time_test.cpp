@@ -1,4 +1,4 @@
-#include "base/utc_time.h"
+#include "stormcellar/base/utc_time.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
 #include "bench/feed_player.h"
 #include "bench/feed_run.h"
 #include "bench/feed_soak.h"
@@ -14,9 +13,10 @@
 #include "bench/national_feed.h"
 #include "bench/restamp.h"
 #include "bench/stamped_records.h"
-#include "level2/chunk_directory.h"
-#include "level2/decode.h"
-#include "level2/volume_difference.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/volume_difference.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
 #include "bench/feed_kinds.h"
 #include "bench/mosaic_feed.h"
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 

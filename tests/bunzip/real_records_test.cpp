@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include "bunzip/bunzip.h"
-#include "level2/bzip2_stream.h"
-#include "level2/gzip_stream.h"
-#include "level2/ldm_framer.h"
+#include "level2/containers/bzip2_stream.h"
+#include "level2/containers/gzip_stream.h"
+#include "level2/containers/ldm_framer.h"
 #include "tests/bunzip/each_path.h"
 #include "tests/bunzip/stream_maker.h"
 #include "tests/testing/data.h"

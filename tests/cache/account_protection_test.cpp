@@ -1,4 +1,5 @@
-// Who is protected, up to how much, and in which order grids go: the promises of cache/budget.h.
+// Who is protected, up to how much, and in which order grids go: the promises of
+// stormcellar/cache/budget.h.
 #include <algorithm>
 #include <random>
 
@@ -238,7 +239,7 @@ struct SlowGrid {
     bool newest = false;
 };
 
-// The choice as cache/budget.h says it, the slow way.
+// The choice as stormcellar/cache/budget.h says it, the slow way.
 std::vector<GridName> slow_choice(const std::map<GridName, GridFacts>& grids, std::uint64_t target,
                                   std::uint64_t space) {
     std::vector<SlowGrid> going, protected_ones;

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "cache/store.h"
+#include "stormcellar/cache/store.h"
 #include "tests/cache/sized_grid.h"
 
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cache/store.h"
+#include "stormcellar/cache/store.h"
 #include "tests/cache/sized_grid.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/temporary_directory.h"

@@ -10,7 +10,7 @@
 
 #include "base/checksum.h"
 #include "cache/format.h"
-#include "cache/grid_file.h"
+#include "stormcellar/cache/grid_file.h"
 #include "tests/cache/small_grid.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -1,4 +1,4 @@
-#include "cache/grid_file.h"
+#include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cache/grid_file.h"
+#include "stormcellar/cache/grid_file.h"
 #include "tests/cache/small_grid.h"
 #include "tests/testing/temporary_directory.h"
 

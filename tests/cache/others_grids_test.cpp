@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/station_table.h"
 #include "cache/pins.h"
-#include "cache/store.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/cache/store.h"
 #include "tests/cache/sized_grid.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/temporary_directory.h"

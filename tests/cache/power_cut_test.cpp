@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "cache/pins.h"
-#include "cache/store.h"
+#include "stormcellar/cache/store.h"
 #include "tests/cache/sized_grid.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/power_cut_file_system.h"

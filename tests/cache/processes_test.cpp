@@ -9,7 +9,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include "cache/store.h"
+#include "stormcellar/cache/store.h"
 #include "tests/cache/sized_grid.h"
 #include "tests/testing/metered_file_system.h"
 #include "tests/testing/slow_down.h"

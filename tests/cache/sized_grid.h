@@ -1,9 +1,9 @@
 // tests/cache/sized_grid.h -- small grids of several sizes on disk, made once.
 #pragma once
 
-#include "cache/grid_file.h"
-#include "cache/store.h"
-#include "grid/brick_grid.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/brick_grid.h"
 
 namespace stormcellar::testing {
 

@@ -1,8 +1,8 @@
 // tests/cache/small_grid.h -- a grid with every kind of brick, small enough to damage byte by byte.
 #pragma once
 
-#include "grid/brick_grid.h"
-#include "grid/grid.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid.h"
 
 namespace stormcellar::testing {
 

@@ -1,4 +1,4 @@
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::catalog {

@@ -7,8 +7,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "catalog/catalog.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/catalog/power_cut_vfs.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "catalog/catalog.h"
-#include "catalog/repair.h"
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/catalog/repair.h"
 #include "tests/catalog/power_cut_vfs.h"
 #include "tests/testing/slow_down.h"
 #include "tests/testing/temporary_directory.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "base/descriptor.h"
+#include "stormcellar/base/descriptor.h"
 #include "tests/catalog/catalog_fixture.h"
 
 namespace stormcellar::catalog {

@@ -8,7 +8,7 @@
 
 #include <sqlite3.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::testing {
 namespace {

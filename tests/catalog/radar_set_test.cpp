@@ -1,11 +1,11 @@
-#include "catalog/radar_set.h"
+#include "stormcellar/catalog/radar_set.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 

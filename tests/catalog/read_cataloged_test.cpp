@@ -1,5 +1,5 @@
 // A raw file is read again only where it is the one that was cataloged.
-#include "catalog/read_cataloged.h"
+#include "stormcellar/catalog/read_cataloged.h"
 
 #include <fstream>
 
@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/catalog/catalog_fixture.h"
 
 namespace stormcellar::catalog {

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::catalog {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cache/store.h"
-#include "pipeline/rebuild_catalog.h"
+#include "pipeline/care/rebuild_catalog.h"
+#include "stormcellar/cache/store.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "base/file_system.h"
-#include "catalog/catalog.h"
-#include "pipeline/instance_lock.h"
+#include "pipeline/keep/instance_lock.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "cache/store.h"
-#include "grid/brick_grid.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/brick_grid.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"
 

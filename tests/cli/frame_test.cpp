@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cache/store.h"
-#include "cli/commands.h"
-#include "grid/brick_grid.h"
+#include "cli/shared/commands.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/brick_grid.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {

@@ -1,5 +1,5 @@
 // What the options of `stormcellar grid` ask for.
-#include "cli/grid_request.h"
+#include "cli/grid/grid_request.h"
 
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Archives, directories and standard input, wherever a command takes raw files.
-#include "cli/input_files.h"
+#include "cli/shared/input_files.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/archive/archive_maker.h"
 #include "tests/cli/run_stormcellar.h"
 #include "tests/testing/data.h"

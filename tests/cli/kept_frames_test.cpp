@@ -1,4 +1,4 @@
-#include "cli/kept_frames.h"
+#include "cli/picture/kept_frames.h"
 
 #include <fstream>
 

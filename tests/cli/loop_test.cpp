@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/ingest.h"
+#include "pipeline/ingest/ingest.h"
 #include "tests/cli/loop_fixture.h"
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/data.h"

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/file_system.h"
-#include "pipeline/ingest.h"
-#include "pipeline/instance_lock.h"
+#include "pipeline/ingest/ingest.h"
+#include "pipeline/keep/instance_lock.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/testing/data.h"
 #include "tests/testing/program.h"
 #include "tests/testing/temporary_directory.h"

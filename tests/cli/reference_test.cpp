@@ -1,5 +1,5 @@
 // What tests/packaging/check-reference compares with --help is looked at here in the small.
-#include "cli/reference.h"
+#include "cli/reference/reference.h"
 
 #include <CLI/CLI.hpp>
 #include <gmock/gmock.h>

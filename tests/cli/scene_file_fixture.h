@@ -8,11 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "cache/store.h"
-#include "cli/commands.h"
-#include "cli/scene_file.h"
-#include "grid/brick_grid.h"
+#include "cli/picture/scene_file.h"
+#include "cli/shared/commands.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/grid/brick_grid.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::cli {

@@ -1,4 +1,4 @@
-#include "cli/scene_file.h"
+#include "cli/picture/scene_file.h"
 
 #include <functional>
 

@@ -1,4 +1,4 @@
-#include "cli/scene_options.h"
+#include "cli/picture/scene_options.h"
 
 #include <sstream>
 #include <tuple>

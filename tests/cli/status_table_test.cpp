@@ -1,9 +1,11 @@
-#include "cli/status_table.h"
+#include "cli/query/status_table.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "cli/shared/short_duration.h"
 
 namespace stormcellar::cli {
 namespace {

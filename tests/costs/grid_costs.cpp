@@ -4,8 +4,8 @@
 // 512 x 512 x 32 cells at 1 km on one thread, centred EAST_DEG east of the site, by the default
 // chain or with every effect off. Prints one line, "CHECKSUM STATION MOMENT CHAIN", of the cells'
 // bits. scripts/check-costs runs it under callgrind, in a library with every rung and in one with
-// that chain alone (grid/chosen.h), and compares what counted_geometry() and counted_grid()
-// execute. Status: 0 done, 1 the work failed, 2 bad usage.
+// that chain alone (stormcellar/grid/chosen.h), and compares what counted_geometry() and
+// counted_grid() execute. Status: 0 done, 1 the work failed, 2 bad usage.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -19,10 +19,10 @@
 #include <fmt/format.h>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
-#include "base/station_table.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 
 namespace stormcellar::grid {
 

@@ -1,4 +1,4 @@
-#include "daemon/cache_keeper.h"
+#include "daemon/care/cache_keeper.h"
 
 #include <atomic>
 #include <thread>

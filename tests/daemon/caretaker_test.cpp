@@ -1,11 +1,11 @@
-#include "daemon/caretaker.h"
+#include "daemon/care/caretaker.h"
 
 #include <atomic>
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "daemon/ingest_sink.h"
+#include "daemon/service/ingest_sink.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::daemon {

@@ -1,8 +1,8 @@
-#include "daemon/config.h"
+#include "daemon/config/config.h"
 
 #include <gtest/gtest.h>
 
-#include "grid/grid_spec.h"
+#include "stormcellar/grid/grid_spec.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

@@ -1,8 +1,8 @@
-#include "daemon/descriptor_plan.h"
+#include "daemon/config/descriptor_plan.h"
 
 #include <gtest/gtest.h>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::daemon {
 namespace {

@@ -13,8 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cache/store.h"
-#include "catalog/catalog.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/daemon/notify_socket.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"

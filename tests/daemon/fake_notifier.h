@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/notify.h"
+#include "daemon/process/notify.h"
 
 namespace stormcellar::daemon {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/sink.h"
+#include "daemon/queue/sink.h"
 
 namespace stormcellar::daemon {
 

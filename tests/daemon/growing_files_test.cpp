@@ -1,4 +1,4 @@
-#include "daemon/growing_files.h"
+#include "daemon/queue/growing_files.h"
 
 #include <map>
 

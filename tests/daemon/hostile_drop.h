@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/level2/wire.h"

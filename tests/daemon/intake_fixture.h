@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/intake.h"
+#include "daemon/queue/intake.h"
 #include "tests/daemon/fake_sink.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "daemon/intake.h"
+#include "daemon/queue/intake.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "daemon/line_limiter.h"
+#include "daemon/log/line_limiter.h"
 
 #include <set>
 

@@ -1,4 +1,4 @@
-#include "daemon/listening_socket.h"
+#include "daemon/status/listening_socket.h"
 
 #include <filesystem>
 #include <string>

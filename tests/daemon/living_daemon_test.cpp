@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "cache/grid_file.h"
-#include "cache/store.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
 #include "synth/replay_pieces.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/testing/data.h"

@@ -1,4 +1,4 @@
-#include "daemon/loop_keeper.h"
+#include "daemon/loops/loop_keeper.h"
 
 #include <atomic>
 #include <chrono>

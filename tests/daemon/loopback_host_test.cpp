@@ -1,4 +1,4 @@
-#include "daemon/loopback_host.h"
+#include "daemon/config/loopback_host.h"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-#include "daemon/metrics_text.h"
+#include "daemon/status/metrics_text.h"
 
 #include <cmath>
 #include <limits>

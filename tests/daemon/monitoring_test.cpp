@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "daemon/metrics_text.h"
+#include "daemon/status/metrics_text.h"
 #include "tests/daemon/fake_sink.h"
 #include "tests/daemon/metrics_reader.h"
 #include "tests/testing/data.h"

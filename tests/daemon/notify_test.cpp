@@ -1,4 +1,4 @@
-#include "daemon/notify.h"
+#include "daemon/process/notify.h"
 
 #include <cstdlib>
 

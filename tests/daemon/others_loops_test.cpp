@@ -1,9 +1,9 @@
-#include "daemon/others_loops.h"
+#include "daemon/loops/others_loops.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "daemon/status.h"
+#include "daemon/status/status.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"
 

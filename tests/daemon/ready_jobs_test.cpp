@@ -1,4 +1,4 @@
-#include "daemon/ready_jobs.h"
+#include "daemon/queue/ready_jobs.h"
 
 #include <array>
 #include <map>

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cache/store.h"
-#include "catalog/catalog.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/data.h"

@@ -1,4 +1,4 @@
-#include "daemon/rejected_paths.h"
+#include "daemon/status/rejected_paths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "daemon/reporter.h"
+#include "daemon/status/reporter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What went is looked for and, long after, forgotten: when, and what is said of it.
-#include "daemon/row_keeper.h"
+#include "daemon/care/row_keeper.h"
 
 #include <atomic>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/log.h"
+#include "daemon/log/log.h"
 #include "tests/daemon/journal_socket.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "daemon/intake.h"
+#include "daemon/queue/intake.h"
 #include "tests/daemon/write_file.h"
 #include "tests/testing/temporary_directory.h"
 

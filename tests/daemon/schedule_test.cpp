@@ -1,4 +1,4 @@
-#include "daemon/schedule.h"
+#include "daemon/queue/schedule.h"
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-#include "daemon/seen_files.h"
+#include "daemon/queue/seen_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "daemon/silent_file_systems.h"
+#include "daemon/process/silent_file_systems.h"
 
 #include <gtest/gtest.h>
 #include <linux/magic.h>
 
-#include "daemon/inotify.h"
+#include "daemon/watch/inotify.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::daemon {

@@ -1,4 +1,4 @@
-#include "daemon/state_keeper.h"
+#include "daemon/care/state_keeper.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "daemon/station_book.h"
+#include "daemon/status/station_book.h"
 
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "daemon/status_file.h"
+#include "daemon/status/status_file.h"
 
 #include <fstream>
 

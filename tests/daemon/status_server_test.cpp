@@ -1,5 +1,5 @@
 // What is asked for is answered, and nobody who asks badly keeps others from it.
-#include "daemon/status_server.h"
+#include "daemon/status/status_server.h"
 
 #include <atomic>
 #include <fstream>
@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/descriptor.h"
-#include "daemon/listening_socket.h"
+#include "daemon/status/listening_socket.h"
+#include "stormcellar/base/descriptor.h"
 #include "tests/daemon/status_client.h"
 #include "tests/testing/temporary_directory.h"
 

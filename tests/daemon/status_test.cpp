@@ -1,4 +1,4 @@
-#include "daemon/status.h"
+#include "daemon/status/status.h"
 
 #include <algorithm>
 #include <numeric>

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "daemon/schedule.h"
+#include "daemon/queue/schedule.h"
 
 namespace stormcellar::daemon {
 

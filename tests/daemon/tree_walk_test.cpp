@@ -1,4 +1,4 @@
-#include "daemon/tree_walk.h"
+#include "daemon/watch/tree_walk.h"
 
 #include <set>
 

@@ -1,4 +1,4 @@
-#include "daemon/watcher.h"
+#include "daemon/watch/watcher.h"
 
 #include <algorithm>
 #include <chrono>

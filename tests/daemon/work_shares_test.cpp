@@ -1,4 +1,4 @@
-#include "daemon/work_shares.h"
+#include "daemon/queue/work_shares.h"
 
 #include <gtest/gtest.h>
 

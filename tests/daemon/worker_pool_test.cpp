@@ -1,4 +1,4 @@
-#include "daemon/worker_pool.h"
+#include "daemon/queue/worker_pool.h"
 
 #include <atomic>
 #include <latch>

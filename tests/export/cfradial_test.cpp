@@ -1,5 +1,5 @@
 // What a reader finds in the file; tests/export/check_cfradial.py opens real ones in Python.
-#include "export/cfradial.h"
+#include "stormcellar/export/cfradial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ TEST_F(Cfradial, EveryGateKeepsItsCodeAndWhyItHasNoValue) {
     EXPECT_EQ(reader.values("range", 4), (Values{2125, 2375, 2625, 2875}));
 }
 
-// The accuracy that export/cfradial.h states, for the scales of real volumes.
+// The accuracy that stormcellar/export/cfradial.h states, for the scales of real volumes.
 TEST_F(Cfradial, UnpackedValuesAreAsExactAsStated) {
     struct Packing {
         float scale, offset;

@@ -1,5 +1,5 @@
 // What a reader finds in the file; tests/export/check_grid.py opens real ones in Python.
-#include "export/grid_netcdf.h"
+#include "stormcellar/export/grid_netcdf.h"
 
 #include <cmath>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/method.h"
+#include "stormcellar/grid/method.h"
 #include "tests/export/netcdf_reader.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::netcdf {
 

@@ -6,9 +6,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
-#include "base/file_system.h"
-#include "cache/store.h"
-#include "catalog/repair.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/repair.h"
 
 namespace stormcellar::fault {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/utc_time.h"
+#include "stormcellar/base/utc_time.h"
 
 namespace stormcellar::fault {
 

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/load.h"
 

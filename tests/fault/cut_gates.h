@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::fault {
 

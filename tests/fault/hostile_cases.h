@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/utc_time.h"
+#include "stormcellar/base/utc_time.h"
 #include "tests/daemon/running_daemon.h"
 #include "tests/fault/hostile_files.h"
 #include "tests/testing/slow_down.h"

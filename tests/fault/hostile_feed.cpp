@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "base/station_table.h"
-#include "cache/grid_name.h"
-#include "level2/encode.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/cache/grid_name.h"
+#include "stormcellar/level2/encode.h"
 #include "synth/observe.h"
 #include "synth/replay_pieces.h"
 #include "tests/fault/cut_gates.h"

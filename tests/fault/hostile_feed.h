@@ -21,8 +21,8 @@
 #include <thread>
 #include <vector>
 
-#include "base/utc_time.h"
-#include "level2/volume.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
 #include "synth/replay_writer.h"
 
 namespace stormcellar::fault {

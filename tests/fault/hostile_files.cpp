@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::fault {
 namespace {

@@ -1,15 +1,15 @@
 // tests/fault/hostile_files.h -- Level II bytes that claim whatever a test wants them to claim.
 //
 // Small files of message 31 with one moment: of any station, position, time, scale and offset, that
-// end or never end. Independent of level2/encode.h, which refuses to write most of these.
-// Thread contract: pure functions.
+// end or never end. Independent of stormcellar/level2/encode.h, which refuses to write most of
+// these. Thread contract: pure functions.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 
-#include "base/utc_time.h"
+#include "stormcellar/base/utc_time.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::fault {

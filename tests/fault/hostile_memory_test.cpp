@@ -5,7 +5,7 @@
 #include <string_view>
 #include <thread>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/hostile_cases.h"
 

@@ -14,7 +14,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 #include "tests/fault/hostile_feed.h"
 
 namespace stormcellar::fault {

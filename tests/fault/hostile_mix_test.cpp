@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "daemon/descriptor_plan.h"
+#include "daemon/config/descriptor_plan.h"
 #include "tests/fault/faulty_daemon.h"
 #include "tests/fault/hostile_feed.h"
 #include "tests/fault/hostile_watch.h"

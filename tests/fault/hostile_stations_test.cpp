@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 #include "tests/fault/hostile_cases.h"
 #include "tests/fault/hostile_watch.h"
 

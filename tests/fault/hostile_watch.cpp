@@ -10,9 +10,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/station_table.h"
-#include "cache/grid_file.h"
-#include "cache/grid_name.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/grid_name.h"
 #include "tests/daemon/notify_socket.h"
 
 namespace stormcellar::fault {

@@ -16,7 +16,7 @@
 
 #include <sys/types.h>
 
-#include "base/utc_time.h"
+#include "stormcellar/base/utc_time.h"
 #include "tests/daemon/running_daemon.h"
 
 namespace stormcellar::fault {

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "base/file_system.h"
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 #include "synth/observe.h"
 #include "synth/replay_pieces.h"
 #include "tests/fault/cut_gates.h"

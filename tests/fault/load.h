@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 #include "synth/replay_writer.h"
 #include "tests/fault/aftermath.h"
 

@@ -2,7 +2,7 @@
 // daemon of today they go on working, and the log says what has changed.
 #include <string>
 
-#include "catalog/catalog.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/fault/hostile_cases.h"
 #include "tests/fault/hostile_watch.h"
 

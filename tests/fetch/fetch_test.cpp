@@ -1,4 +1,4 @@
-#include "fetch/fetch.h"
+#include "stormcellar/fetch/fetch.h"
 
 #include <filesystem>
 #include <fstream>

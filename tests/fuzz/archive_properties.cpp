@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "archive/archive_reader.h"
+#include "stormcellar/archive/archive_reader.h"
 #include "tests/archive/archive_maker.h"
 #include "tests/fuzz/properties.h"
 #include "tests/fuzz/seeds.h"

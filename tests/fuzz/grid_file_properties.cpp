@@ -8,10 +8,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "base/file_system.h"
-#include "cache/grid_file.h"
 #include "cache/map_guard.h"
-#include "grid/brick_grid.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
 #include "tests/fuzz/properties.h"
 
 namespace stormcellar::fuzz {

@@ -4,9 +4,9 @@
 
 #include <unistd.h>
 
-#include "base/file_system.h"
-#include "cache/grid_file.h"
-#include "grid/brick_grid.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
 #include "tests/fuzz/seeds.h"
 
 namespace stormcellar::fuzz {

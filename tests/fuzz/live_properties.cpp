@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "level2/archive_header.h"
-#include "level2/growing_volume.h"
-#include "level2/ldm_framer.h"
-#include "level2/live_volume.h"
+#include "level2/containers/archive_header.h"
+#include "level2/containers/ldm_framer.h"
+#include "stormcellar/level2/growing_volume.h"
+#include "stormcellar/level2/live_volume.h"
 #include "tests/fuzz/properties.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"

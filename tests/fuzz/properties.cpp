@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "level2/compress_stream.h"
-#include "level2/decode.h"
-#include "level2/describe.h"
-#include "level2/encode.h"
+#include "level2/containers/compress_stream.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/describe.h"
+#include "stormcellar/level2/encode.h"
 #include "tests/fuzz/slow_expand.h"
 #include "tests/level2/radial_identity.h"
 #include "tests/level2/same_volume.h"

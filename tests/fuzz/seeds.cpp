@@ -3,8 +3,8 @@
 #include <array>
 #include <stdexcept>
 
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 
 namespace stormcellar::fuzz {
 namespace {

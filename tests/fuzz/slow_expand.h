@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "level2/compress_stream.h"
+#include "level2/containers/compress_stream.h"
 
 namespace stormcellar::fuzz {
 

@@ -1,4 +1,4 @@
-#include "grid/audit.h"
+#include "grid/judge/audit.h"
 
 #include <chrono>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/brick_grid.h"
-#include "grid/column_geometry.h"
-#include "level2/decode.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
 

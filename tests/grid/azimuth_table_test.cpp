@@ -1,4 +1,4 @@
-#include "grid/azimuth_table.h"
+#include "grid/sweep/azimuth_table.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,7 @@
-// Each line of the accuracy table in grid/beam_geometry.h, over strata that hold the hard cases:
-// ranges about zero, horizontal and negative elevations, high and low sites, poles and equator.
-#include "grid/beam_geometry.h"
+// Each line of the accuracy table in stormcellar/grid/beam_geometry.h, over strata that hold the
+// hard cases: ranges about zero, horizontal and negative elevations, high and low sites, poles and
+// equator.
+#include "stormcellar/grid/beam_geometry.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // The rungs of the beam: each against what it stands for, and the figures that docs/geometry.md
 // gives for the 4/3 earth.
-#include "grid/beam_model.h"
+#include "stormcellar/grid/beam_model.h"
 
 #include <algorithm>
 #include <array>

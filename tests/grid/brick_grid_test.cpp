@@ -1,4 +1,4 @@
-#include "grid/brick_grid.h"
+#include "stormcellar/grid/brick_grid.h"
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 #include <array>
 #include <set>

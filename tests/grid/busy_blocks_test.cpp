@@ -1,5 +1,5 @@
 // Quiet stretches against a look at every code.
-#include "grid/busy_blocks.h"
+#include "grid/sweep/busy_blocks.h"
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-#include "grid/cell_circle.h"
+#include "grid/plan/cell_circle.h"
 
 #include <gtest/gtest.h>
 

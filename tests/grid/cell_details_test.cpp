@@ -1,6 +1,6 @@
 // What a grid says of its cells beside their values, against the definitions taken literally
 // (tests/grid/slow_details.h), on real and on made volumes.
-#include "grid/cell_details.h"
+#include "stormcellar/grid/cell_details.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "grid/oracle.h"
-#include "level2/chunk_directory.h"
-#include "level2/decode.h"
+#include "grid/judge/oracle.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/slow_details.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
@@ -21,7 +21,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// grid/cell_details.h
+// stormcellar/grid/cell_details.h
 constexpr double height_accuracy_m = 0.5;
 constexpr double distance_accuracy_m = 0.5;
 constexpr double age_accuracy_s = 2e-3;

@@ -1,13 +1,13 @@
-#include "grid/column_geometry.h"
+#include "stormcellar/grid/column_geometry.h"
 
 #include <cmath>
 
 #include <GeographicLib/AzimuthalEquidistant.hpp>
 #include <gtest/gtest.h>
 
-#include "grid/gridder.h"
-#include "grid/projection.h"
-#include "grid/site_frame.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/grid/site_frame.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -1,5 +1,5 @@
-// One column from one sample of each sweep (grid/column.h).
-#include "grid/column.h"
+// One column from one sample of each sweep (grid/fill/column.h).
+#include "grid/fill/column.h"
 
 #include <cmath>
 #include <vector>

@@ -1,11 +1,11 @@
-#include "grid/compare_bricks.h"
+#include "grid/cells/compare_bricks.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "grid/brick_grid.h"
+#include "stormcellar/grid/brick_grid.h"
 
 namespace stormcellar::grid {
 namespace {

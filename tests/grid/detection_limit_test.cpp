@@ -1,12 +1,12 @@
-#include "grid/detection_limit.h"
+#include "grid/beam/detection_limit.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "grid/sweep_choice.h"
-#include "level2/decode.h"
+#include "stormcellar/grid/sweep_choice.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::grid {

@@ -1,4 +1,4 @@
-#include "grid/fast_log.h"
+#include "grid/beam/fast_log.h"
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
 // Outlines of neighbouring cells fit together, whatever the projection, the site and the cells.
-#include "grid/footprint.h"
+#include "grid/place/footprint.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/gridder.h"
-#include "grid/site_frame.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/site_frame.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -1,15 +1,15 @@
 // The bounds of the site frame's rungs: never passed, and not twice what is needed.
-#include "grid/frame_ladder.h"
+#include "stormcellar/grid/frame_ladder.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "grid/projection.h"
-#include "grid/sphere_frame.h"
+#include "grid/frame/sphere_frame.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/projection.h"
 
 __extension__ typedef __float128 Quad;
 

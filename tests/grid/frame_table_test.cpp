@@ -1,13 +1,13 @@
 // Every column of the table against its own geodesic, where the plane is smooth and where it is
 // not.
-#include "grid/frame_table.h"
+#include "grid/place/frame_table.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "grid/projection.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::grid {
 namespace {

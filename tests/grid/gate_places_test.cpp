@@ -1,4 +1,4 @@
-#include "grid/gate_places.h"
+#include "grid/beam/gate_places.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double accuracy_m = 0.02;  // grid/gate_places.h
+constexpr double accuracy_m = 0.02;  // grid/beam/gate_places.h
 
 level2::SweepMoment gates(int first_m, int spacing_m, int count) {
     level2::SweepMoment moment;

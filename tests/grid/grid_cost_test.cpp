@@ -1,13 +1,13 @@
 // What is timed to predict a grid's time. Times themselves are no test's business:
 // bench/bench_plan.
-#include "grid/grid_cost.h"
+#include "grid/plan/grid_cost.h"
 
 #include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "grid/effects.h"
+#include "grid/plan/effects.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {

@@ -1,11 +1,11 @@
-#include "grid/grid_sampler.h"
+#include "stormcellar/grid/grid_sampler.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "grid/brick_grid.h"
+#include "stormcellar/grid/brick_grid.h"
 
 namespace stormcellar::grid {
 namespace {

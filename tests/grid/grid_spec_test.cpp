@@ -1,4 +1,4 @@
-#include "grid/grid_spec.h"
+#include "stormcellar/grid/grid_spec.h"
 
 #include <cmath>
 #include <limits>

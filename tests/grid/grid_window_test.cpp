@@ -1,15 +1,15 @@
-#include "grid/grid_window.h"
+#include "stormcellar/grid/grid_window.h"
 
 #include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "grid/column_geometry.h"
-#include "grid/frame_ladder.h"
-#include "grid/gridder.h"
-#include "grid/projection.h"
-#include "grid/sphere_frame.h"
+#include "grid/frame/sphere_frame.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/frame_ladder.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/projection.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {

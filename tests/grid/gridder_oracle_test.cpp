@@ -1,16 +1,16 @@
-// The gridder against its oracle (grid/oracle.h), every method, on real and on made volumes.
+// The gridder against its oracle (grid/judge/oracle.h), every method, on real and on made volumes.
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "grid/oracle.h"
-#include "grid/site_frame.h"
-#include "level2/decode.h"
+#include "grid/judge/oracle.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/grid/site_frame.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
 #include "tests/testing/slow_down.h"

@@ -1,13 +1,13 @@
-#include "grid/gridder.h"
+#include "stormcellar/grid/gridder.h"
 
 #include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/column_geometry.h"
-#include "level2/decode.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
 

@@ -10,12 +10,12 @@
 
 #include <gtest/gtest.h>
 
-#include "accuracy/planner.h"
-#include "grid/cell_circle.h"
-#include "grid/effects.h"
-#include "grid/gridder.h"
-#include "grid/oracle.h"
-#include "level2/decode.h"
+#include "grid/judge/oracle.h"
+#include "grid/plan/cell_circle.h"
+#include "grid/plan/effects.h"
+#include "stormcellar/accuracy/planner.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 #include "tests/testing/forced_choice.h"
 #include "tests/testing/slow_down.h"

@@ -1,8 +1,8 @@
-#include "grid/level_range.h"
+#include "grid/cells/level_range.h"
 
 #include <gtest/gtest.h>
 
-#include "grid/grid_spec.h"
+#include "stormcellar/grid/grid_spec.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -1,5 +1,5 @@
 // A lookup against a search of all levels.
-#include "grid/level_table.h"
+#include "grid/cells/level_table.h"
 
 #include <cmath>
 #include <limits>

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/mosaic.h"
+#include "stormcellar/grid/mosaic.h"
 
 namespace stormcellar::grid {
 

@@ -1,5 +1,5 @@
 // The status rule case by case (DESIGN section 5, docs/geometry.md), and means on a circle.
-#include "grid/mixture.h"
+#include "grid/sweep/mixture.h"
 
 #include <random>
 #include <vector>

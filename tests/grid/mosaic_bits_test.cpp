@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/mosaic.h"
+#include "stormcellar/grid/mosaic.h"
 #include "tests/grid/made_partials.h"
 
 namespace stormcellar::grid {

@@ -1,6 +1,6 @@
 // The rules of merging, against the slow oracle and by hand; what must be the same to the bit:
 // mosaic_bits_test.cpp.
-#include "grid/mosaic.h"
+#include "stormcellar/grid/mosaic.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
+#include "stormcellar/grid/beam_geometry.h"
 #include "tests/grid/made_partials.h"
 #include "tests/grid/slow_mosaic.h"
 

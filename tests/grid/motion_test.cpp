@@ -1,18 +1,18 @@
 // Motion that is known, had back from two grids.
-#include "grid/motion.h"
+#include "grid/mosaic/motion.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/echo_image.h"
+#include "grid/mosaic/echo_image.h"
 #include "tests/grid/moving_blobs.h"
 
 namespace stormcellar::grid {
 namespace {
 
-constexpr double accuracy_mps = 1.5;  // grid/motion.h
+constexpr double accuracy_mps = 1.5;  // grid/mosaic/motion.h
 constexpr double apart_s = 300;
 
 GridSpec spec_of(int cells, double spacing_m) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "grid/brick_grid.h"
-#include "grid/grid.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid.h"
 
 namespace stormcellar::grid {
 

@@ -1,4 +1,4 @@
-#include "grid/polar_sweep.h"
+#include "grid/sweep/polar_sweep.h"
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-#include "grid/position_error.h"
+#include "grid/plan/position_error.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // Columns and places, for every projection, from pole to pole and across the antimeridian.
-#include "grid/projection.h"
+#include "stormcellar/grid/projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <GeographicLib/AzimuthalEquidistant.hpp>
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
+#include "stormcellar/grid/beam_geometry.h"
 
 namespace stormcellar::grid {
 namespace {

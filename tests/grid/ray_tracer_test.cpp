@@ -1,6 +1,6 @@
-// Each line of the accuracy in grid/ray_tracer.h, over strata that hold the hard cases: horizontal
-// and falling rays, layers that bend the ray back, high and low antennas, steep beams.
-#include "grid/ray_tracer.h"
+// Each line of the accuracy in stormcellar/grid/ray_tracer.h, over strata that hold the hard cases:
+// horizontal and falling rays, layers that bend the ray back, high and low antennas, steep beams.
+#include "stormcellar/grid/ray_tracer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Profiles of refractivity: their formulas, their borders, and what they refuse.
-#include "grid/refractivity.h"
+#include "stormcellar/grid/refractivity.h"
 
 #include <cmath>
 #include <string>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
+#include "stormcellar/grid/beam_geometry.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -1,4 +1,4 @@
-#include "grid/robust_fit.h"
+#include "grid/judge/robust_fit.h"
 
 #include <cmath>
 #include <random>

@@ -1,13 +1,13 @@
 // Sampling a scene, and what the planner makes of it.
-#include "grid/scene.h"
+#include "grid/plan/scene.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/effects.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
+#include "grid/plan/effects.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
 

@@ -1,4 +1,4 @@
-#include "grid/site_columns.h"
+#include "grid/place/site_columns.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // Two radars look at the same simulated weather; one of them is made faulty, one fault at a time.
-#include "grid/site_comparison.h"
+#include "grid/judge/site_comparison.h"
 
 #include <chrono>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid/brick_grid.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 #include "synth/observe.h"
 #include "tests/testing/two_radars.h"
 

@@ -1,11 +1,11 @@
-#include "grid/site_distance.h"
+#include "stormcellar/grid/site_distance.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "grid/projection.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -1,4 +1,4 @@
-#include "grid/site_frame.h"
+#include "stormcellar/grid/site_frame.h"
 
 #include <cmath>
 #include <random>

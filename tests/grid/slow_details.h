@@ -1,12 +1,13 @@
-// tests/grid/slow_details.h -- the oracle of grid/cell_details.h for a point sample of the nearest
-// gates: written from the definitions there, a column at a time, in long double, nothing tabulated.
+// tests/grid/slow_details.h -- the oracle of stormcellar/grid/cell_details.h for a point sample of
+// the nearest gates: written from the definitions there, a column at a time, in long double,
+// nothing tabulated.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "grid/grid.h"
-#include "grid/sweep_choice.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/grid/sweep_choice.h"
 
 namespace stormcellar::grid {
 

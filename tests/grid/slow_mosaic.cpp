@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/station_table.h"
-#include "grid/projection.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::grid {
 namespace {

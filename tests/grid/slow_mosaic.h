@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "grid/mosaic.h"
+#include "stormcellar/grid/mosaic.h"
 
 namespace stormcellar::grid {
 

@@ -5,7 +5,7 @@
 // along the ray.
 #pragma once
 
-#include "grid/ray_tracer.h"
+#include "stormcellar/grid/ray_tracer.h"
 
 namespace stormcellar::grid::testing {
 

@@ -1,6 +1,6 @@
 // Soundings: the formula of refractivity against the Recommendation's own form, the format, and
 // the complaint for each way in which a file can be wrong.
-#include "grid/sounding.h"
+#include "grid/beam/sounding.h"
 
 #include <cmath>
 #include <fstream>

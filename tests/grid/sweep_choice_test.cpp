@@ -1,11 +1,11 @@
-#include "grid/sweep_choice.h"
+#include "stormcellar/grid/sweep_choice.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "level2/chunk_directory.h"
-#include "level2/decode.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
 

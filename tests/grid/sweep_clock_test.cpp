@@ -1,22 +1,22 @@
 // The time of a cell, had back from one line a sweep.
-#include "grid/sweep_clock.h"
+#include "grid/sweep/sweep_clock.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "level2/chunk_directory.h"
-#include "level2/decode.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::grid {
 namespace {
 
-// grid/sweep_clock.h, at the 95th percentile.
+// grid/sweep/sweep_clock.h, at the 95th percentile.
 constexpr double accuracy_s = 2;
 constexpr double accuracy_of_step = 0.06;
 

@@ -1,12 +1,13 @@
-// What grid/sweep_mixture.h, grid/beam_pattern.h and grid/arc_table.h state in numbers.
-#include "grid/sweep_mixture.h"
+// What grid/sweep/sweep_mixture.h, grid/beam/beam_pattern.h and grid/beam/arc_table.h state in
+// numbers.
+#include "grid/sweep/sweep_mixture.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/beam_pattern.h"
+#include "grid/beam/beam_pattern.h"
+#include "stormcellar/grid/beam_geometry.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {

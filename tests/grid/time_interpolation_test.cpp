@@ -1,11 +1,11 @@
 // Grids for an instant, against echoes that are known at any.
-#include "grid/time_interpolation.h"
+#include "grid/mosaic/time_interpolation.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/gridder.h"
+#include "stormcellar/grid/gridder.h"
 #include "tests/grid/moving_blobs.h"
 
 namespace stormcellar::grid {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::grid {
 

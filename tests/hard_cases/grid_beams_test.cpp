@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
+#include "stormcellar/grid/beam_geometry.h"
 #include "tests/hard_cases/grid_case.h"
 __extension__ typedef __float128 Quad;
 

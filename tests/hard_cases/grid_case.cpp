@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/column_geometry.h"
-#include "grid/oracle.h"
+#include "grid/judge/oracle.h"
+#include "stormcellar/grid/column_geometry.h"
 
 namespace stormcellar::grid {
 namespace {

@@ -1,6 +1,6 @@
 // tests/hard_cases/grid_case.h -- one awkward volume gridded by every method, and what must hold
 // whatever the method: the same bits for any number of threads, no value that is no number, and
-// agreement with the oracle (grid/oracle.h).
+// agreement with the oracle (grid/judge/oracle.h).
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/gridder.h"
+#include "stormcellar/grid/gridder.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {

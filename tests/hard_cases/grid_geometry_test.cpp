@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/column_geometry.h"
-#include "grid/projection.h"
-#include "grid/site_frame.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/grid/site_frame.h"
 #include "tests/hard_cases/grid_case.h"
 
 namespace stormcellar::grid {

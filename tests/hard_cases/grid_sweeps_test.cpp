@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/column_geometry.h"
-#include "grid/sweep_choice.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/sweep_choice.h"
 #include "tests/hard_cases/grid_case.h"
 
 namespace stormcellar::grid {

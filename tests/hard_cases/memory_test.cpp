@@ -14,8 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "level2/growing_volume.h"
-#include "level2/live_volume.h"
+#include "stormcellar/level2/growing_volume.h"
+#include "stormcellar/level2/live_volume.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {

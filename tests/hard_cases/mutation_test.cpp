@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/hard_cases/container_mutants.h"
 #include "tests/hard_cases/message_mutants.h"
 #include "tests/hard_cases/oracle.h"

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/byte_reader.h"
-#include "level2/decode.h"
-#include "level2/message_header.h"
+#include "level2/messages/message_header.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/level2/radial_identity.h"
 #include "tests/level2/wire.h"
 

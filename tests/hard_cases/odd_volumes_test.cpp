@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "level2/decode.h"
-#include "level2/message_header.h"
+#include "level2/messages/message_header.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {

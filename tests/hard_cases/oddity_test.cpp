@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "base/byte_reader.h"
-#include "base/file_system.h"
-#include "level2/decode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/hard_cases/unpacked_volume.h"
 #include "tests/testing/data.h"
 #include "tests/testing/test_name.h"

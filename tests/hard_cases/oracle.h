@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "level2/decode.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/hard_cases/mutant.h"
 #include "tests/level2/radial_identity.h"
 

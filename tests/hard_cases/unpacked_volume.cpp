@@ -8,7 +8,7 @@
 #include <zlib.h>
 
 #include "base/byte_reader.h"
-#include "level2/message_header.h"
+#include "level2/messages/message_header.h"
 
 namespace stormcellar::level2 {
 namespace {

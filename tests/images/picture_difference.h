@@ -6,8 +6,8 @@
 // cannot hide behind a large picture that did not.
 #pragma once
 
-#include "base/result.h"
-#include "render/image.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::images {
 

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/brick_grid.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
-#include "render/render.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/render/render.h"
 #include "tests/images/reference_check.h"
 #include "tests/testing/data.h"
 

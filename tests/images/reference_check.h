@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/result.h"
-#include "render/image.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::images {
 

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/canvas.h"
+#include "render/image/canvas.h"
 #include "render/map/labels.h"
 #include "tests/images/picture_difference.h"
 #include "tests/images/reference_check.h"

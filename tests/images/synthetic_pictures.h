@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "grid/grid.h"
-#include "render/render.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/render/render.h"
 
 namespace stormcellar::images {
 

@@ -1,4 +1,4 @@
-#include "level2/archive_header.h"
+#include "level2/containers/archive_header.h"
 
 #include <gtest/gtest.h>
 

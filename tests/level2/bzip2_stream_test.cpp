@@ -1,4 +1,4 @@
-#include "level2/bzip2_stream.h"
+#include "level2/containers/bzip2_stream.h"
 
 #include <random>
 

@@ -1,10 +1,10 @@
-#include "level2/chunk_directory.h"
+#include "stormcellar/level2/chunk_directory.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"

@@ -1,4 +1,4 @@
-#include "level2/chunk_name.h"
+#include "stormcellar/level2/chunk_name.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "level2/compress_stream.h"
+#include "level2/containers/compress_stream.h"
 
 #include <array>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "level2/decode.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 

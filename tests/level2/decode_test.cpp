@@ -1,11 +1,11 @@
 // Containers, damage and limits of the decoder as a whole.
-#include "level2/decode.h"
+#include "stormcellar/level2/decode.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

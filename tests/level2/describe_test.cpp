@@ -1,9 +1,9 @@
-#include "level2/describe.h"
+#include "stormcellar/level2/describe.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "level2/moment_statistics.h"
+#include "stormcellar/level2/moment_statistics.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {

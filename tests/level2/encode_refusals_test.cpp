@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 #include "tests/level2/example_volume.h"
 #include "tests/level2/wire.h"
 

@@ -1,4 +1,4 @@
-#include "level2/encode.h"
+#include "stormcellar/level2/encode.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "base/byte_reader.h"
-#include "base/file_system.h"
-#include "level2/decode.h"
-#include "level2/live_volume.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/live_volume.h"
 #include "tests/level2/example_volume.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::level2 {
 

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
-#include "base/utc_time.h"
-#include "level2/decode.h"
-#include "level2/describe.h"
-#include "level2/gzip_stream.h"
+#include "level2/containers/gzip_stream.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/describe.h"
 #include "tests/testing/data.h"
 #include "tests/testing/test_name.h"
 

@@ -1,5 +1,5 @@
 // A file that grows gives what the whole file gives, however it is cut.
-#include "level2/growing_volume.h"
+#include "stormcellar/level2/growing_volume.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"

@@ -1,4 +1,4 @@
-#include "level2/gzip_stream.h"
+#include "level2/containers/gzip_stream.h"
 
 #include <gtest/gtest.h>
 

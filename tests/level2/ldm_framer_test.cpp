@@ -1,4 +1,4 @@
-#include "level2/ldm_framer.h"
+#include "level2/containers/ldm_framer.h"
 
 #include <vector>
 

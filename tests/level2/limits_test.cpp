@@ -1,7 +1,7 @@
 // Near the limits the outcome is the same for any number of threads and any pieces.
 #include <gtest/gtest.h>
 
-#include "level2/growing_volume.h"
+#include "stormcellar/level2/growing_volume.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 

@@ -4,7 +4,7 @@
 // Prints JSON lines: one of the header and the pattern, then one a radial. Of a moment's gates it
 // prints their number, how many hold a value, and the CRC-32 of their codes, 16-bit big-endian,
 // with 0 for those below threshold and range folded, which not every reader tells apart.
-// REWRITTEN: the volume that was read is written there by level2/encode.h.
+// REWRITTEN: the volume that was read is written there by stormcellar/level2/encode.h.
 #include <cstdio>
 #include <filesystem>
 
@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 
 namespace stormcellar::level2 {
 namespace {

@@ -1,5 +1,5 @@
 // A volume that arrives in chunks: whatever the order, the outcome is that of their numbers.
-#include "level2/live_volume.h"
+#include "stormcellar/level2/live_volume.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"

@@ -1,14 +1,14 @@
-#include "level2/message_2.h"
+#include "level2/messages/message_2.h"
 
 #include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "level2/archive_header.h"
-#include "level2/gzip_stream.h"
-#include "level2/ldm_framer.h"
+#include "level2/containers/archive_header.h"
+#include "level2/containers/gzip_stream.h"
+#include "level2/containers/ldm_framer.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
 

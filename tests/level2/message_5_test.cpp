@@ -1,10 +1,10 @@
-#include "level2/message_5.h"
+#include "level2/messages/message_5.h"
 
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include "level2/message_header.h"
+#include "level2/messages/message_header.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {

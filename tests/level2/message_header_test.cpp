@@ -1,4 +1,4 @@
-#include "level2/message_header.h"
+#include "level2/messages/message_header.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "level2/message_reader.h"
+#include "level2/decode/message_reader.h"
 
 #include <gtest/gtest.h>
 
-#include "level2/volume_builder.h"
+#include "level2/decode/volume_builder.h"
 #include "tests/level2/no_limits.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"

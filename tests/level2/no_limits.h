@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "level2/selection.h"
+#include "stormcellar/level2/selection.h"
 
 namespace stormcellar::level2 {
 

@@ -1,7 +1,7 @@
 #include "tests/level2/radial_identity.h"
 
 #include "base/checksum.h"
-#include "level2/byte_writer.h"
+#include "level2/messages/byte_writer.h"
 
 namespace stormcellar::level2 {
 namespace {

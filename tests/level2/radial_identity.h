@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::level2 {
 

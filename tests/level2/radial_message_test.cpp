@@ -1,10 +1,10 @@
-#include "level2/radial_message.h"
+#include "level2/messages/radial_message.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "level2/message_header.h"
+#include "level2/messages/message_header.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {

@@ -1,4 +1,4 @@
-#include "level2/record_queue.h"
+#include "level2/decode/record_queue.h"
 
 #include <gtest/gtest.h>
 

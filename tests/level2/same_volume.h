@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "level2/decode.h"
-#include "level2/volume_difference.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/volume_difference.h"
 
 namespace stormcellar::level2 {
 

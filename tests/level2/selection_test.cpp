@@ -1,15 +1,15 @@
 // Decoding only what is asked for gives that, and nothing else, of the whole decode.
-#include "level2/selection.h"
+#include "stormcellar/level2/selection.h"
 
 #include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "level2/decode.h"
-#include "level2/growing_volume.h"
-#include "level2/ldm_framer.h"
+#include "level2/containers/ldm_framer.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/growing_volume.h"
 #include "tests/level2/same_volume.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"

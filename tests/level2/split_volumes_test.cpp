@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "level2/decode.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
 

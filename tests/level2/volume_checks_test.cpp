@@ -1,4 +1,4 @@
-#include "level2/volume_checks.h"
+#include "level2/decode/volume_checks.h"
 
 #include <gtest/gtest.h>
 

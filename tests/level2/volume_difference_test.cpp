@@ -1,11 +1,11 @@
-#include "level2/volume_difference.h"
+#include "stormcellar/level2/volume_difference.h"
 
 #include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "level2/decode.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/level2/wire.h"
 
 namespace stormcellar::level2 {

@@ -1,10 +1,10 @@
-#include "level2/volume.h"
+#include "stormcellar/level2/volume.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "base/station_table.h"
+#include "stormcellar/base/station_table.h"
 
 namespace stormcellar::level2 {
 namespace {

@@ -1,6 +1,7 @@
 // tests/level2/wire.h -- Level II bytes made by hand, byte by byte as the ICDs have them.
 //
-// Independent of the writer of level2/encode.h, so that the two cannot agree on a mistake.
+// Independent of the writer of stormcellar/level2/encode.h, so that the two cannot agree on a
+// mistake.
 #pragma once
 
 #include <cstddef>

@@ -1,15 +1,15 @@
 // Grids of an archive: the daemon's own, made once, and of what can be read.
-#include "pipeline/archive_fill.h"
+#include "pipeline/care/archive_fill.h"
 
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cache/grid_file.h"
-#include "pipeline/ingest.h"
-#include "pipeline/mosaic_keeper.h"
-#include "pipeline/rebuild_catalog.h"
+#include "pipeline/care/rebuild_catalog.h"
+#include "pipeline/ingest/ingest.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
+#include "stormcellar/cache/grid_file.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 #include "tests/testing/metered_file_system.h"

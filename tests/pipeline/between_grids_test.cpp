@@ -1,12 +1,12 @@
 // Frames between grids, against echoes that are known at any instant.
-#include "pipeline/between_grids.h"
+#include "pipeline/mosaic/between_grids.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cache/grid_file.h"
-#include "level2/decode.h"
-#include "pipeline/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/grid/moving_blobs.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"

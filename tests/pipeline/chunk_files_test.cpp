@@ -4,15 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "cache/store.h"
-#include "catalog/catalog.h"
-#include "level2/chunk_directory.h"
-#include "pipeline/archive_fill.h"
-#include "pipeline/archive_volumes.h"
-#include "pipeline/cataloged_volume.h"
-#include "pipeline/chunk_path.h"
-#include "pipeline/ingest.h"
-#include "pipeline/rebuild_catalog.h"
+#include "pipeline/care/archive_fill.h"
+#include "pipeline/care/rebuild_catalog.h"
+#include "pipeline/drop/archive_volumes.h"
+#include "pipeline/drop/cataloged_volume.h"
+#include "pipeline/drop/chunk_path.h"
+#include "pipeline/ingest/ingest.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/level2/chunk_directory.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cache/store.h"
-#include "pipeline/ingest.h"
-#include "pipeline/living_files.h"
+#include "pipeline/ingest/ingest.h"
+#include "pipeline/ingest/living_files.h"
+#include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -1,10 +1,10 @@
 // [[domain]] tables: what they say, and what is complained of.
-#include "pipeline/domain.h"
+#include "pipeline/options/domain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid/projection.h"
+#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/drop_names.h"
+#include "pipeline/drop/drop_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Frames that are brought up to date are, to the bit, those that are made whole: real volumes of
 // three sites, in every order of arrival.
-#include "pipeline/frame_parts.h"
+#include "pipeline/mosaic/frame_parts.h"
 
 #include <algorithm>
 #include <map>
@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/version.h"
-#include "level2/decode.h"
-#include "level2/volume_checks.h"
-#include "pipeline/instant_cache.h"
+#include "level2/decode/volume_checks.h"
+#include "pipeline/mosaic/instant_cache.h"
+#include "stormcellar/base/version.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/growing_set.h"
+#include "pipeline/ingest/growing_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "base/file_system.h"
-#include "cache/store.h"
-#include "pipeline/ingest.h"
-#include "pipeline/living_file.h"
+#include "pipeline/ingest/ingest.h"
+#include "pipeline/ingest/living_file.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
-#include "base/file_system.h"
-#include "base/member_name.h"
-#include "cache/grid_file.h"
-#include "catalog/read_cataloged.h"
-#include "pipeline/ingest.h"
-#include "pipeline/station_place.h"
+#include "pipeline/drop/station_place.h"
+#include "pipeline/ingest/ingest.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/member_name.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/catalog/read_cataloged.h"
 #include "tests/archive/archive_maker.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

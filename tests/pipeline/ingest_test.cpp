@@ -1,5 +1,5 @@
 // Real files through the whole pipeline: what the catalog says, what stands in the cache.
-#include "pipeline/ingest.h"
+#include "pipeline/ingest/ingest.h"
 
 #include <fstream>
 
@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cache/grid_file.h"
+#include "stormcellar/cache/grid_file.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

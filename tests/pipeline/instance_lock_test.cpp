@@ -1,4 +1,4 @@
-#include "pipeline/instance_lock.h"
+#include "pipeline/keep/instance_lock.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "pipeline/instant_cache.h"
+#include "pipeline/mosaic/instant_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "cache/grid_file.h"
-#include "pipeline/chunk_volumes.h"
+#include "pipeline/ingest/chunk_volumes.h"
+#include "stormcellar/cache/grid_file.h"
 #include "tests/pipeline/living_house.h"
 
 namespace stormcellar::pipeline {

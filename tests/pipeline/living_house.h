@@ -18,11 +18,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "base/file_system.h"
-#include "cache/grid_file.h"
-#include "cache/store.h"
-#include "catalog/catalog.h"
-#include "pipeline/ingest.h"
+#include "pipeline/ingest/ingest.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
 #include "synth/replay_pieces.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

@@ -7,14 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
-#include "cache/grid_file.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
-#include "level2/encode.h"
-#include "level2/volume_difference.h"
-#include "pipeline/living_files.h"
-#include "pipeline/sweep_shelf.h"
+#include "pipeline/ingest/living_files.h"
+#include "pipeline/keep/sweep_shelf.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
+#include "stormcellar/level2/volume_difference.h"
 #include "tests/pipeline/living_house.h"
 
 namespace stormcellar::pipeline {

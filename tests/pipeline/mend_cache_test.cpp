@@ -1,5 +1,5 @@
 // Grids of real volumes that are damaged or deleted, and made again.
-#include "pipeline/mend_cache.h"
+#include "pipeline/care/mend_cache.h"
 
 #include <fstream>
 #include <map>

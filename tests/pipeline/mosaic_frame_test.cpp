@@ -1,10 +1,10 @@
 // Frames of several sites, from real volumes and from made ones.
-#include "pipeline/mosaic_frame.h"
+#include "pipeline/mosaic/mosaic_frame.h"
 
 #include <gtest/gtest.h>
 
-#include "level2/chunk_directory.h"
-#include "level2/decode.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::pipeline {

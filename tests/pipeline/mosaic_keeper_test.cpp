@@ -1,13 +1,13 @@
 // Mosaics that are kept as volumes come, and the same made at once.
-#include "pipeline/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
 
 #include <algorithm>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "grid/effects.h"
-#include "level2/decode.h"
+#include "grid/plan/effects.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"

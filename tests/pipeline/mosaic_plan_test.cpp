@@ -4,15 +4,15 @@
 //   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
 //   scene for each effect;
 //   the frame it chose is within the budget of the exact chain's.
-#include "pipeline/mosaic_plan.h"
+#include "pipeline/plan/mosaic_plan.h"
 
 #include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "grid/compare_bricks.h"
-#include "level2/decode.h"
+#include "grid/cells/compare_bricks.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 #include "tests/testing/forced_choice.h"
 
@@ -150,7 +150,7 @@ TEST_P(MosaicHonesty, WhatIsLeftOffIsLessThanTheBudget) {
     EXPECT_LE(position_m, *prepared->budget.position_m);
     EXPECT_LE(difference(chosen, frame_of(*prepared, all)), *prepared->budget.value)
         << "all that was left off";
-    const MosaicFrame exact = frame_of(*prepared, exact_mosaic_choice(prepared->chain));
+    const MosaicFrame exact = frame_of(*prepared, grid::reference_choice(prepared->chain));
     EXPECT_LE(difference(chosen, exact), *prepared->budget.value) << "the exact chain";
 }
 

@@ -4,15 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "level2/decode.h"
-#include "level2/live_volume.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/live_volume.h"
 #include "tests/pipeline/living_house.h"
 #include "tests/pipeline/scarce_memory.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-// As the daemon calls it: what is thrown becomes an error (daemon/worker_pool.cpp).
+// As the daemon calls it: what is thrown becomes an error (daemon/queue/worker_pool.cpp).
 Result<IngestOutcome> ingest_with(House& house, const fs::path& path, std::int64_t allocations) {
     try {
         const WithMemoryFor memory(allocations);

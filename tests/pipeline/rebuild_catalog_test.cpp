@@ -1,12 +1,12 @@
 // A catalog made again from real files, and from what is left of a damaged one.
-#include "pipeline/rebuild_catalog.h"
+#include "pipeline/care/rebuild_catalog.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "catalog/check_catalog.h"
-#include "pipeline/ingest.h"
+#include "pipeline/ingest/ingest.h"
 #include "tests/testing/data.h"
 #include "tests/testing/temporary_directory.h"
 

@@ -1,5 +1,5 @@
 // Simulated radars that look at the same storms, gridded as the daemon does it, and compared.
-#include "pipeline/site_watch.h"
+#include "pipeline/mosaic/site_watch.h"
 
 #include <cmath>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
 #include "synth/observe.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/two_radars.h"
@@ -78,7 +78,7 @@ class SiteWatchTest : public ::testing::Test {
         if (*report) fmt::print("{}\n", describe((*report)->found));
         return *report;
     }
-    // Within what grid/site_comparison.h states.
+    // Within what grid/judge/site_comparison.h states.
     static void expect(const grid::SiteComparison& found, double bias_db, double azimuth_deg,
                        double time_s) {
         EXPECT_NEAR(found.bias_db.value, bias_db, 0.4);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "grid/grid_spec.h"
-#include "pipeline/domain.h"
+#include "pipeline/options/domain.h"
+#include "stormcellar/grid/grid_spec.h"
 
 namespace stormcellar::pipeline {
 

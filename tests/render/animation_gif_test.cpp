@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "render/animation/animation.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/render/animation.h"
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/temporary_directory.h"
 

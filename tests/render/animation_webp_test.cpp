@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/animation/animation.h"
+#include "stormcellar/render/animation.h"
 #include "tests/render/decoded_animation.h"
 #include "tests/testing/temporary_directory.h"
 

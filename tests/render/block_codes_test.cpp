@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::render {
 namespace {

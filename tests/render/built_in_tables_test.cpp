@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid/brick_view.h"
+#include "stormcellar/grid/brick_view.h"
 
 namespace stormcellar::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "render/colour/built_in_tables.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
 
 namespace stormcellar::render {
 namespace {

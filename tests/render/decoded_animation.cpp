@@ -6,7 +6,7 @@
 #include <png.h>
 #include <webp/demux.h>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::render {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
 

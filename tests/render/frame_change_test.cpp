@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/image.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/shades.h"
+#include "render/image/shades.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

@@ -1,4 +1,4 @@
-#include "render/image.h"
+#include "stormcellar/render/image.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/colour/colour_table.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
+#include "stormcellar/render/colour_table.h"
 
 namespace stormcellar::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/volume/light.h"
+#include "stormcellar/render/light.h"
 
 #include <cmath>
 

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/image/shades.h"
 #include "render/map/map_ground.h"
-#include "render/shades.h"
 #include "tests/render/small_map.h"
 #include "tests/render/synthetic_storm.h"
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "base/floating_point.h"
-#include "grid/projection.h"
+#include "render/image/shades.h"
 #include "render/map/map_marks.h"
-#include "render/shades.h"
+#include "stormcellar/grid/projection.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/station_table.h"
+#include "render/image/shades.h"
 #include "render/map/map_ground.h"
-#include "render/shades.h"
+#include "stormcellar/base/station_table.h"
 #include "tests/render/small_map.h"
 #include "tests/render/synthetic_storm.h"
 

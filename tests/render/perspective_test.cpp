@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/view_geometry.h"
 #include "render/volume/reference_marcher.h"
 #include "render/volume/slicer.h"
+#include "stormcellar/render/view_geometry.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

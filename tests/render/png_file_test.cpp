@@ -1,4 +1,4 @@
-#include "render/png_file.h"
+#include "stormcellar/render/png_file.h"
 
 #include <cstring>
 

@@ -1,11 +1,11 @@
-#include "render/products/probe.h"
+#include "render/frame/probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid/projection.h"
 #include "render/map/labels.h"
 #include "render/products/section.h"
+#include "stormcellar/grid/projection.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

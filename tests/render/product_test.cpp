@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "render/colour/built_in_tables.h"
+#include "render/image/shades.h"
 #include "render/map/legend.h"
-#include "render/shades.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

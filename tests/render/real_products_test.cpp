@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "grid/beam_geometry.h"
-#include "grid/brick_grid.h"
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
 #include "render/products/flat_field.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::render {

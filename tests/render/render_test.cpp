@@ -1,13 +1,13 @@
-#include "render/render.h"
+#include "stormcellar/render/render.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "render/colour/built_in_tables.h"
-#include "render/colour/colour_table.h"
-#include "render/frame_keeper.h"
+#include "render/frame/frame_keeper.h"
+#include "render/image/shades.h"
 #include "render/map/map_layer.h"
-#include "render/shades.h"
+#include "stormcellar/render/colour_table.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

@@ -1,8 +1,8 @@
-#include "render/round_step.h"
+#include "render/image/round_step.h"
 
 #include <gtest/gtest.h>
 
-#include "render/image.h"
+#include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/scene.h"
+#include "stormcellar/render/scene.h"
 
 #include <cmath>
 #include <functional>

@@ -3,9 +3,9 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <gtest/gtest.h>
 
-#include "grid/projection.h"
 #include "render/colour/built_in_tables.h"
-#include "render/shades.h"
+#include "render/image/shades.h"
+#include "stormcellar/grid/projection.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

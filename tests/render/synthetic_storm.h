@@ -6,10 +6,10 @@
 #include <functional>
 #include <optional>
 
-#include "grid/brick_grid.h"
-#include "grid/grid.h"
-#include "render/layer.h"
-#include "render/render.h"
+#include "render/image/layer.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/grid.h"
+#include "stormcellar/render/render.h"
 
 namespace stormcellar::render {
 

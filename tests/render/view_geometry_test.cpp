@@ -1,4 +1,4 @@
-#include "render/view_geometry.h"
+#include "stormcellar/render/view_geometry.h"
 
 #include <cmath>
 

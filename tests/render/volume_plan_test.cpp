@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/column_geometry.h"
-#include "grid/gridder.h"
-#include "level2/decode.h"
 #include "render/colour/colour_difference.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
 #include "tests/render/synthetic_storm.h"
 #include "tests/testing/data.h"
 #include "tests/testing/forced_choice.h"

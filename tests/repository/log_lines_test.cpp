@@ -26,7 +26,8 @@ std::string read(const fs::path& path) {
 
 std::map<std::string, std::string> daemon_sources() {
     std::map<std::string, std::string> sources;
-    for (const auto& entry : fs::directory_iterator(testing::source_directory() / "daemon")) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(testing::source_directory() / "daemon")) {
         const auto ending = entry.path().extension();
         if (ending == ".h" || ending == ".cpp")
             sources[entry.path().filename().string()] = read(entry.path());
@@ -48,9 +49,9 @@ std::string between(const std::string& text, const std::string& from, const std:
     return text.substr(begin, text.find(to, begin + from.size()) - begin);
 }
 
-// The names of daemon/log_event.h.
+// The names of daemon/log/log_event.h.
 std::vector<std::string> events() {
-    const std::string header = read(testing::source_directory() / "daemon/log_event.h");
+    const std::string header = read(testing::source_directory() / "daemon/log/log_event.h");
     static const std::regex name(R"(\n    ([a-z_]+),)");
     return matches(between(header, "enum class Event {", "};"), name);
 }
@@ -89,12 +90,13 @@ TEST(LogLines, EveryEventIsLogged) {
     for (const auto& [name, text] : daemon_sources())
         if (!name.starts_with("log_event")) all += text;
     // The results of files are named by event_of().
-    all += between(read(testing::source_directory() / "daemon/log_event.cpp"), "event_of(", "\n}");
+    all +=
+        between(read(testing::source_directory() / "daemon/log/log_event.cpp"), "event_of(", "\n}");
     for (const std::string& event : events())
         EXPECT_TRUE(std::regex_search(all, std::regex("Event::" + event + R"(\b)"))) << event;
 }
 
-// Whoever went around daemon/log.h would be neither limited nor explained.
+// Whoever went around daemon/log/log.h would be neither limited nor explained.
 TEST(LogLines, NobodyLogsAnyOtherWay) {
     for (const auto& [name, text] : daemon_sources()) {
         if (name == "log.cpp") continue;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
+#include "stormcellar/grid/beam_geometry.h"
 #include "synth/beam_quadrature.h"
 #include "synth/radial_observer.h"
 #include "tests/synth/degree.h"

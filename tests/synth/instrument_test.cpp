@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
-#include "grid/beam_geometry.h"
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 #include "synth/effects.h"
 #include "synth/observe.h"
 #include "tests/synth/degree.h"

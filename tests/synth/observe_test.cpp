@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/detection_limit.h"
-#include "level2/decode.h"
-#include "level2/encode.h"
+#include "grid/beam/detection_limit.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
 #include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 

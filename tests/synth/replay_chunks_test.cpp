@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "level2/chunk_directory.h"
-#include "level2/volume_difference.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/volume_difference.h"
 #include "synth/replay_pieces.h"
 #include "tests/synth/replay_fixture.h"
 #include "tests/testing/data.h"

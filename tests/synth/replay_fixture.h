@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "level2/archive_header.h"
+#include "level2/containers/archive_header.h"
 #include "synth/replay.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/temporary_directory.h"

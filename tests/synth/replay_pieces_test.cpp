@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/file_system.h"
-#include "level2/archive_header.h"
+#include "level2/containers/archive_header.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/data.h"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/beam_geometry.h"
-#include "grid/site_frame.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/site_frame.h"
 #include "tests/synth/degree.h"
 
 namespace stormcellar::synth {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/station_table.h"
-#include "grid/site_frame.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/grid/site_frame.h"
 #include "tests/testing/data.h"
 
 namespace stormcellar::synth {

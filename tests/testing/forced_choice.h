@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "accuracy/chain.h"
-#include "accuracy/plan.h"
+#include "stormcellar/accuracy/chain.h"
+#include "stormcellar/accuracy/plan.h"
 
 namespace stormcellar::testing {
 

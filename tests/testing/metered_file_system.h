@@ -11,7 +11,7 @@
 #include <limits>
 #include <mutex>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 
 namespace stormcellar::testing {
 

@@ -13,7 +13,7 @@
 #include <set>
 #include <vector>
 
-#include "base/file_system.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::testing {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/file_system.h"
-#include "level2/encode.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/encode.h"
 #include "synth/observe.h"
 #include "tests/testing/two_radars.h"
 

@@ -1,0 +1,15 @@
+// base/steady_time.h -- instants of the monotonic clock, which nobody sets.
+//
+// Thread contract: any thread.
+#pragma once
+
+#include <chrono>
+
+namespace stormcellar {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+[[nodiscard]] inline SteadyTime steady_now() {
+    return std::chrono::steady_clock::now();
+}
+
+}  // namespace stormcellar

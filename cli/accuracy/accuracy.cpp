@@ -1,0 +1,370 @@
+// stormcellar accuracy [FILE...]: what accuracy costs in time, on real volumes or a simulated
+// scene.
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/plot.h"
+#include "base/stopwatch.h"
+#include "cli/accuracy/held_out.h"
+#include "cli/accuracy/ladder_markdown.h"
+#include "cli/accuracy/mosaic_accuracy.h"
+#include "cli/accuracy/site_pairs.h"
+#include "cli/accuracy/truth_errors.h"
+#include "cli/grid/grid_notes.h"
+#include "cli/grid/grid_request.h"
+#include "cli/grid/volume_source.h"
+#include "cli/picture/picture_ladder.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/effect_options.h"
+#include "grid/plan/ladder.h"
+#include "stormcellar/base/file_system.h"
+#include "synth/observe.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct AccuracyOptions {
+    GridOptions grid;
+    EffectOptions effects;
+    std::string scene;
+    std::string plot;
+    int columns = 2000;
+    int rounds = 3;
+    bool markdown = false;
+    bool held_out = false;
+    bool compare_sites = false;
+    bool picture = false;
+};
+
+// The volume of a file, or the first one of a simulated scene.
+struct Subject {
+    SourceVolume source;
+    std::optional<synth::Scene> scene;
+    std::string name;
+};
+
+struct Measured {
+    std::vector<accuracy::LadderRow> rows;
+    std::vector<synth::TruthRow> truth;  // of a simulated scene
+};
+
+Result<Subject> load_subject(const AccuracyOptions& options, const GridRequest& request) {
+    Subject subject;
+    if (options.scene.empty()) {
+        subject.name = options.grid.files.front();
+        auto source = load_volume(subject.name, request);
+        if (!source) return pass_on(source);
+        subject.source = std::move(*source);
+        return subject;
+    }
+    subject.name = options.scene;
+    auto scene = synth::read_scene(options.scene);
+    if (!scene) return pass_on(scene);
+    subject.source.volume = synth::observe(*scene, 0);
+    subject.source.site = {scene->site.station, scene->site.latitude_deg, scene->site.longitude_deg,
+                           static_cast<double>(scene->site.antenna_altitude_m)};
+    subject.scene = std::move(*scene);
+    return subject;
+}
+
+nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
+                               accuracy::ValueUnit unit) {
+    auto list = nlohmann::ordered_json::array();
+    for (const accuracy::LadderRow& row : rows) {
+        nlohmann::ordered_json item;
+        for (const accuracy::LadderField& field : accuracy::fields(row, unit)) {
+            std::visit(
+                [&](const auto& value) {
+                    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
+                        item[field.key] = nullptr;
+                    } else {
+                        item[field.key] = value;
+                    }
+                },
+                field.value);
+        }
+        list.push_back(std::move(item));
+    }
+    return list;
+}
+
+Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueUnit unit,
+                  const std::string& title, const std::string& file) {
+    const bool of_picture = std::any_of(
+        rows.begin(), rows.end(), [](const auto& row) { return row.image_p99_de && !row.value; });
+    accuracy::Plot plot;
+    plot.title = title;
+    plot.error_label =
+        of_picture ? "Colour difference, 99th percentile (CIEDE2000)"
+                   : fmt::format("Value error, 99th percentile ({})", accuracy::name_of(unit));
+    plot.time_label = of_picture ? "Time of a picture" : "Time of a whole grid, geometry kept";
+    for (const accuracy::LadderRow& row : rows) {
+        const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);
+        plot.points.push_back(
+            {row.name, row.step, row.kept_time_s.value_or(row.time_s), error, row.pareto});
+    }
+    const auto svg = accuracy::draw_plot(plot);
+    if (!svg) return pass_on(svg);
+    const auto bytes = std::as_bytes(std::span(*svg));
+    return write_file_atomically(real_file_system(), file, bytes);
+}
+
+enum class Table { grid, picture };
+
+void print_tables(const std::string& subject, const Measured& measured, accuracy::ValueUnit unit,
+                  bool markdown, Table picture) {
+    const auto& [rows, truth] = measured;
+    fmt::print("{}\n\nEach rung against the chain's exact form on the same {}:\n\n{}",
+               printable(subject), picture == Table::picture ? "grid" : "gates",
+               markdown ? ladder_markdown(rows, unit) : accuracy::format_table(rows, unit));
+    if (truth.empty()) return;
+    fmt::print("\nAgainst the truth of the scene (sampling error; never budgeted):\n\n{}",
+               format_truth(truth, unit, markdown));
+}
+
+void print_measured_json(const std::string& subject, level2::Moment moment,
+                         const Measured& measured, accuracy::ValueUnit unit) {
+    nlohmann::ordered_json json;
+    json["subject"] = subject;
+    json["moment"] = level2::moment_name(moment);
+    json["value_unit"] = accuracy::name_of(unit);
+    json["rows"] = to_json(measured.rows, unit);
+    json["truth"] = truth_json(measured.truth);
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    fmt::print("{}\n", json.dump(1, ' ', true, replace));
+}
+
+void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
+    const bool any_value = std::any_of(
+        rows.begin(), rows.end(),
+        [](const accuracy::LadderRow& row) { return row.value && row.value->count > 0; });
+    if (!any_value) {
+        print_note("no cell that was compared has a value, so there are no errors of values");
+    }
+}
+
+// The rows of the ladder and, of a simulated scene, those of the truth.
+Result<Measured> measure(const Subject& subject, const GridRequest& request,
+                         const grid::GridSpec& spec, const EffectRequest& effects,
+                         const AccuracyOptions& options) {
+    if (options.picture) {
+        auto rows = ladder_of_picture(subject.source, request, spec, options.rounds);
+        if (!rows) return pass_on(rows);
+        return Measured{std::move(*rows), {}};
+    }
+    auto scene = grid::GridScene::make(
+        subject.source.volume, subject.source.site, spec,
+        {request.moment, 0, effects.profile, request.threads, request.frame_time});
+    if (!scene) return pass_on(scene);
+    grid::LadderOptions ladder;
+    ladder.columns = static_cast<std::size_t>(options.columns);
+    ladder.rounds = options.rounds;
+    auto rows = grid::run_ladder(*scene, ladder);
+    if (!rows) return pass_on(rows);
+    Measured measured{std::move(*rows), {}};
+    if (!subject.scene) return measured;
+    auto truth = synth::compare_with_truth(*scene, *subject.scene, ladder.columns);
+    if (!truth) return pass_on(truth);
+    measured.truth = std::move(*truth);
+    return measured;
+}
+
+Status check_site_options(const AccuracyOptions& options) {
+    if (options.grid.files.size() < 2 || options.held_out || !options.scene.empty() ||
+        !options.plot.empty()) {
+        return fail(ErrorCode::bad_argument,
+                    "--compare-sites takes two FILEs or more, of different sites, and neither "
+                    "--scene, --plot nor --held-out");
+    }
+    if (options.grid.json && options.markdown) {
+        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+    }
+    return {};
+}
+
+Status check_options(AccuracyOptions& options) {
+    const std::size_t files = options.grid.files.size();
+    if (options.picture && (options.compare_sites || options.held_out || files > 1)) {
+        return fail(ErrorCode::bad_argument,
+                    "--picture takes one FILE or a scene, and neither --held-out nor "
+                    "--compare-sites");
+    }
+    if (options.compare_sites) return check_site_options(options);
+    if (options.scene.empty() == (files == 0)) {
+        return fail(ErrorCode::bad_argument, "name one FILE or more, or a scene with --scene");
+    }
+    if (options.held_out && !options.plot.empty()) {
+        return fail(ErrorCode::bad_argument, "--plot shows a ladder, not what was held out");
+    }
+    if (!options.scene.empty()) options.grid.files = {options.scene};
+    if (options.grid.json && options.markdown) {
+        return fail(ErrorCode::bad_argument, "--markdown and --json exclude each other");
+    }
+    if (options.plot.empty()) return {};
+    if (!options.plot.ends_with(".svg")) {
+        return fail(ErrorCode::bad_argument,
+                    "--plot writes SVG: its name must end in .svg, unlike '{}'", options.plot);
+    }
+    return check_target(options.plot);
+}
+
+int report_over_time(const AccuracyOptions& options, const GridRequest& request,
+                     const Result<std::vector<grid::TimedVolume>>& sequence) {
+    if (!sequence) return report_error(sequence.error());
+    const auto rows = score_sequence(*sequence, request);
+    if (!rows) return report_error(rows.error());
+    if (options.grid.json) {
+        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+        const nlohmann::ordered_json json{{"moment", level2::moment_name(request.moment)},
+                                          {"value_unit", "dB"},
+                                          {"rows", held_out_json(*rows)}};
+        fmt::print("{}\n", json.dump(1, ' ', true, replace));
+        return exit_done;
+    }
+    fmt::print(
+        "Each volume between two others, held out and made again from those; against what was "
+        "seen:\n\n{}",
+        format_held_out(*rows, options.markdown));
+    return exit_done;
+}
+
+int run_held_out(const AccuracyOptions& options, const GridRequest& request) {
+    if (options.scene.empty()) {
+        return report_over_time(options, request,
+                                load_repeats(options.grid.files.front(), request));
+    }
+    const auto scene = synth::read_scene(options.scene);
+    if (!scene) return report_error(scene.error());
+    return report_over_time(options, request, observe_sequence(*scene));
+}
+
+// Plots, notes and tables of a ladder.
+int report_ladder(const AccuracyOptions& options, const GridRequest& request,
+                  const std::string& subject, const Measured& measured) {
+    const accuracy::ValueUnit unit = grid::value_unit_of(request.moment);
+    if (!options.plot.empty()) {
+        const auto title = fmt::format("{}, {}", std::filesystem::path(subject).filename().string(),
+                                       level2::moment_name(request.moment));
+        if (auto drawn = write_plot(measured.rows, unit, title, options.plot); !drawn) {
+            return report_error(drawn.error());
+        }
+    }
+    if (!options.picture) note_without_values(measured.rows);
+    if (options.grid.json) {
+        print_measured_json(subject, request.moment, measured, unit);
+    } else {
+        print_tables(subject, measured, unit, options.markdown,
+                     options.picture ? Table::picture : Table::grid);
+    }
+    return exit_done;
+}
+
+// Of several sites, or for an instant, a mosaic's own steps; else volumes held out.
+int run_files(const AccuracyOptions& options, const GridRequest& request) {
+    auto sources = load_mosaic(options.grid.files, request);
+    if (!sources) return report_error(sources.error());
+    if (!request.frame_time && sources->site_count() == 1) {
+        if (!options.plot.empty()) {
+            return report_error({ErrorCode::bad_argument,
+                                 "--plot shows a ladder, not what was held out: give a --time"});
+        }
+        return report_over_time(options, request, sequence_of(std::move(*sources)));
+    }
+    const auto effects =
+        parse_effects(options.effects, request.moment, grid::default_overlap(request.moment));
+    if (!effects) return report_error(effects.error());
+    auto rows = ladder_of_mosaic(*sources, request, *effects, options.rounds);
+    if (!rows) return report_error(rows.error());
+    const std::string subject =
+        fmt::format("{} and {} more", options.grid.files.front(), options.grid.files.size() - 1);
+    return report_ladder(options, request, subject, {std::move(*rows), {}});
+}
+
+int run_comparison(const AccuracyOptions& options, const GridRequest& request) {
+    const auto effects =
+        parse_effects(options.effects, request.moment, grid::default_overlap(request.moment));
+    if (!effects) return report_error(effects.error());
+    return run_site_pairs(options.grid, request, *effects, options.markdown);
+}
+
+int run_accuracy(AccuracyOptions options) {
+    if (auto sound = check_options(options); !sound) return report_error(sound.error());
+    std::shared_ptr<InputFiles> inputs;
+    if (!options.grid.files.empty()) {
+        auto found = find_inputs(options.grid);
+        if (!found) return report_error(found.error());
+        inputs = std::move(*found);
+    }
+    auto request = parse_request(options.grid);
+    if (!request) return report_error(request.error());
+    request->inputs = std::move(inputs);
+    if (options.held_out) return run_held_out(options, *request);
+    if (options.compare_sites) return run_comparison(options, *request);
+    if (options.grid.files.size() > 1) return run_files(options, *request);
+    const auto effects = parse_effects(options.effects, request->moment);
+    if (!effects) return report_error(effects.error());
+    const auto subject = load_subject(options, *request);
+    if (!subject) return report_error(subject.error());
+    const grid::SitePosition& site = subject->source.site;
+    const auto [latitude_deg, longitude_deg] =
+        request->center_deg.value_or(std::array<double, 2>{site.latitude_deg, site.longitude_deg});
+    const auto spec = spec_about(*request, latitude_deg, longitude_deg);
+    if (!spec) return report_error(spec.error());
+    const auto measured = measure(*subject, *request, *spec, *effects, options);
+    if (!measured) {
+        const Error& error = measured.error();
+        return report_error({error.code, fmt::format("{}: {}", subject->name, error.message)});
+    }
+    if (const auto note = note_on_sounding(*effects, site)) print_note(*note);
+    return report_ladder(options, *request, subject->name, *measured);
+}
+
+}  // namespace
+
+Command add_accuracy(CLI::App& app) {
+    const auto options = std::make_shared<AccuracyOptions>();
+    options->grid.threads = 1;
+    CLI::App* command =
+        app.add_subcommand("accuracy", "Show what accuracy costs in time, rung by rung");
+    command->add_option(
+        "FILE", options->grid.files,
+        "One Level II file; or several of several sites, or of one at a --time: the "
+        "steps that make one frame of them; or three or more of one site, of which "
+        "each is made again from its neighbours in time; or, with --compare-sites, of several");
+    command->add_option("--time", options->grid.time,
+                        "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
+                        "repeated sweeps is taken");
+    command->add_flag("--held-out", options->held_out,
+                      "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
+                      "the repeats beside it; of a scene: its second volume");
+    command->add_flag("--compare-sites", options->compare_sites,
+                      "Compare sites that overlap: bias, azimuth, elevation and clock of each "
+                      "pair; of a site with two FILEs the motion of the weather is known");
+    command->add_flag("--picture", options->picture,
+                      "Of one FILE or a scene: what the accuracy of its picture costs instead: "
+                      "slices, integration, rays and light");
+    command->add_option("--scene", options->scene,
+                        "A simulated scene instead; its truth is compared with too");
+    add_spec_options(*command, options->grid);
+    command
+        ->add_option(
+            "--profile", options->effects.profile,
+            "Of refractivity, what the exact beams are traced through: exponential, standard "
+            "or a sounding file")
+        ->capture_default_str();
+    command->add_option("--columns", options->columns, "How many columns are compared")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--rounds", options->rounds, "How often each time is taken")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100));
+    command->add_option("--plot", options->plot, "Write error against time as FILE.svg");
+    command->add_flag("--markdown", options->markdown,
+                      "Tables as Markdown, as docs/accuracy.md has them; not with --json");
+    return {command, [options] { return run_accuracy(*options); }};
+}
+
+}  // namespace stormcellar::cli

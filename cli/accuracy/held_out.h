@@ -1,0 +1,36 @@
+// cli/accuracy/held_out.h -- `stormcellar accuracy` over time: what each way of making a grid for
+// an instant errs by, scored on volumes, or repeated cuts, that were held out
+// (grid/judge/held_out_sequence.h).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cli/grid/grid_mosaic.h"
+#include "cli/grid/grid_request.h"
+#include "grid/judge/held_out_sequence.h"
+#include "stormcellar/base/result.h"
+#include "synth/scene.h"
+
+namespace stormcellar::cli {
+
+// Volumes of one site, in order of time. bad_argument when there are less than three.
+[[nodiscard]] Result<std::vector<grid::TimedVolume>> sequence_of(MosaicSources sources);
+// The repeated cuts (SAILS, MRLE) of the file's lowest elevation, each as a volume of its own.
+// not_found when there are less than three.
+[[nodiscard]] Result<std::vector<grid::TimedVolume>> load_repeats(const std::string& file,
+                                                                  const GridRequest& request);
+// Three volumes of a simulated scene.
+[[nodiscard]] Result<std::vector<grid::TimedVolume>> observe_sequence(const synth::Scene& scene);
+
+// One row for each volume that has neighbours.
+[[nodiscard]] Result<std::vector<grid::HeldOutRow>> score_sequence(
+    const std::vector<grid::TimedVolume>& sequence, const GridRequest& request);
+
+[[nodiscard]] std::string format_held_out(const std::vector<grid::HeldOutRow>& rows, bool markdown);
+[[nodiscard]] nlohmann::ordered_json held_out_json(const std::vector<grid::HeldOutRow>& rows);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,26 @@
+#include "cli/accuracy/mosaic_accuracy.h"
+
+#include "pipeline/plan/mosaic_ladder.h"
+
+namespace stormcellar::cli {
+
+Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(const MosaicSources& sources,
+                                                          const GridRequest& request,
+                                                          const EffectRequest& effects,
+                                                          int rounds) {
+    if (request.moment == level2::Moment::vel || request.moment == level2::Moment::phi) {
+        return fail(ErrorCode::bad_argument,
+                    "{} of several volumes has no ladder: its values lie on a circle, and each "
+                    "radar has its own",
+                    level2::moment_name(request.moment));
+    }
+    grid::MosaicOptions overlap;
+    overlap.moment = request.moment;
+    overlap.overlap = grid::default_overlap(request.moment);
+    const auto volumes = sources.scene_volumes();
+    auto scene = pipeline::scene_of(volumes, mosaic_request(sources, request, overlap, effects));
+    if (!scene) return pass_on(scene);
+    return pipeline::run_ladder(*scene, effects.chain, rounds);
+}
+
+}  // namespace stormcellar::cli

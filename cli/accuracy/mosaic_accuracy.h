@@ -1,0 +1,20 @@
+// cli/accuracy/mosaic_accuracy.h -- `stormcellar accuracy A B ...` of several sites, or for an
+// instant between volumes of one: the ladder of a mosaic's own steps
+// (pipeline/plan/mosaic_ladder.h).
+#pragma once
+
+#include <vector>
+
+#include "cli/grid/grid_mosaic.h"
+#include "cli/shared/effect_options.h"
+#include "stormcellar/accuracy/ladder.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::cli {
+
+// Overlapping by the moment's default rule. Errors name the file.
+[[nodiscard]] Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(
+    const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
+    int rounds);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,151 @@
+// stormcellar fetch --from T --to T --stations A,B|--bounds W,S,E,N -o DIR: raw files from a public
+// bucket.
+#include "stormcellar/fetch/fetch.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/byte_size.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/progress.h"
+#include "cli/shared/query_options.h"
+#include "stormcellar/base/station_table.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct FetchOptions {
+    TimeRangeOptions times;
+    std::string stations;
+    std::string bounds;
+    std::string directory;
+    fetch::FetchRequest request;
+    bool quiet = false;
+    bool json = false;
+};
+
+// The stations of the table that stand within the bounds.
+Result<std::vector<std::string>> stations_within(const std::string& text) {
+    const auto bounds = parse_bounds(text);
+    if (!bounds) return pass_on(bounds);
+    const auto [west, south, east, north] = *bounds;
+    std::vector<std::string> stations;
+    for (const Station& station : all_stations()) {
+        const double longitude = station.longitude_deg;
+        const bool fits = west < east ? longitude >= west && longitude <= east
+                                      : longitude >= west || longitude <= east;
+        if (fits && station.latitude_deg >= south && station.latitude_deg <= north) {
+            stations.emplace_back(station.icao);
+        }
+    }
+    if (stations.empty()) {
+        return fail(ErrorCode::bad_argument, "--bounds {}: no station stands there", text);
+    }
+    return stations;
+}
+
+Status complete_request(FetchOptions& options) {
+    const auto range = parse_time_range(options.times);
+    if (!range) return pass_on(range);
+    if (!range->from || !range->to) {
+        return fail(ErrorCode::bad_argument, "fetch needs --from and --to");
+    }
+    if (options.stations.empty() == options.bounds.empty()) {
+        return fail(ErrorCode::bad_argument, "fetch needs --stations or --bounds, and not both");
+    }
+    auto stations =
+        options.bounds.empty() ? parse_stations(options.stations) : stations_within(options.bounds);
+    if (!stations) return pass_on(stations);
+    options.request.stations = std::move(*stations);
+    options.request.from = *range->from;
+    options.request.to = *range->to;
+    options.request.directory = options.directory;
+    return {};
+}
+
+nlohmann::json json_of(const fetch::FetchReport& report) {
+    auto failures = nlohmann::json::array();
+    for (const fetch::FetchFailure& failure : report.failures)
+        failures.push_back({{"what", failure.what}, {"reason", failure.reason}});
+    return {{"found", report.found},     {"fetched", report.fetched},
+            {"present", report.present}, {"without_radials", report.without_radials},
+            {"bytes", report.bytes},     {"failures", failures}};
+}
+
+int report_of(const FetchOptions& options, const fetch::FetchReport& report) {
+    for (const fetch::FetchFailure& failure : report.failures) {
+        fmt::print(stderr, "stormcellar: {}: {}\n", printable(failure.what),
+                   printable(failure.reason));
+    }
+    if (options.json) {
+        print_json(json_of(report));
+    } else if (!options.quiet) {
+        fmt::print(stderr, "{} {} of {} {} ({}) into {}; {} were there already{}\n", report.fetched,
+                   plural(report.fetched, "volume"), options.request.stations.size(),
+                   plural(options.request.stations.size(), "station"),
+                   format_byte_size(report.bytes), printable(options.directory), report.present,
+                   report.failures.empty()
+                       ? ""
+                       : fmt::format("; {} failed: the same command tries them again",
+                                     report.failures.size()));
+    }
+    if (!report.failures.empty()) return exit_failed;
+    return report.found == 0 ? report_nothing_matched() : exit_done;
+}
+
+int run_fetch(FetchOptions options) {
+    if (Status complete = complete_request(options); !complete) {
+        return report_error(complete.error());
+    }
+    Interrupt interrupt;
+    Progress progress("volumes", 0, !options.quiet && !options.json);
+    options.request.stop = &interrupt.flag();
+    options.request.progress = [&](const fetch::FetchProgress& now) {
+        progress.show(now.done, now.files);
+    };
+    const auto report = fetch::fetch(options.request);
+    progress.clear();
+    if (!report) return report_error(report.error());
+    if (report->stopped) {
+        fmt::print(stderr,
+                   "stormcellar: interrupted; the same command goes on from the {} {} that came\n",
+                   report->fetched, plural(report->fetched, "volume"));
+        interrupt.end_by_signal();
+    }
+    return report_of(options, *report);
+}
+
+}  // namespace
+
+Command add_fetch(CLI::App& app) {
+    const auto options = std::make_shared<FetchOptions>();
+    CLI::App* fetch =
+        app.add_subcommand("fetch", "Fetch raw volumes of stations and times from a public bucket");
+    add_time_range(*fetch, options->times);
+    fetch->add_option("--stations", options->stations, "ICAOs, e.g. KTLX,KFDR");
+    fetch->add_option("--bounds", options->bounds,
+                      "WEST,SOUTH,EAST,NORTH in degrees: the stations that stand within");
+    fetch
+        ->add_option("-o,--output", options->directory,
+                     "The directory to put them in; it is made when it is missing")
+        ->required();
+    fetch
+        ->add_option("--source", options->request.source,
+                     "Address of a bucket that answers as Amazon S3 does (ListObjectsV2)")
+        ->capture_default_str();
+    fetch->add_option("--parallel", options->request.parallel, "Transfers at a time")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    fetch->add_option("--tries", options->request.tries, "How often each is tried")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100));
+    fetch->add_flag("--quiet", options->quiet, "Say nothing but what went wrong");
+    fetch->add_flag("--json", options->json, "Say what was done as one JSON document");
+    return {fetch, [options] { return run_fetch(*options); }};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,305 @@
+// stormcellar info FILE [--json] [--to OUT.nc]: decode a Level II file and describe it.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/files/volume_export.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/input_files.h"
+#include "cli/shared/output_file.h"
+#include "cli/shared/query_options.h"
+#include "cli/shared/site_options.h"
+#include "level2/decode/volume_checks.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/describe.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct InfoOptions {
+    std::string file;
+    bool json = false;
+    int threads = 0;  // 0: as many as the machine has
+    std::string to;   // CfRadial file to write; empty: none
+    int volume = 0;   // of the file, from 1; 0: its only one
+    SiteOptions site;
+};
+
+std::string_view vcp_source_text(level2::VcpSource source) {
+    switch (source) {
+        case level2::VcpSource::message_5:
+            return "message 5";
+        case level2::VcpSource::message_7:
+            return "message 7";
+        case level2::VcpSource::radial:
+            return "the radials";
+        case level2::VcpSource::none:
+            break;
+    }
+    return "nothing";
+}
+
+void print_site(const level2::Volume& volume) {
+    if (volume.station.empty()) {
+        fmt::print("  site      unknown\n");
+    } else if (const auto station = find_station(volume.station)) {
+        fmt::print("  site      {} {}, {}\n", volume.station, station->name, station->state);
+    } else {
+        fmt::print("  site      {}\n", printable(volume.station));
+    }
+    if (const auto antenna = level2::antenna_position(volume)) {
+        fmt::print("  antenna   {:.4f}, {:.4f}, {:.0f} m above sea level{}\n",
+                   antenna->latitude_deg, antenna->longitude_deg, antenna->altitude_m,
+                   antenna->from_table ? " (station table)" : "");
+    }
+}
+
+void print_times(const level2::Volume& volume) {
+    if (const auto start = volume.start_time()) fmt::print("  start     {}\n", format_utc(*start));
+    if (!volume.sweeps.empty()) {
+        fmt::print("  radials   {} to {}\n", format_utc(volume.sweeps.front().radials.front().time),
+                   format_utc(volume.sweeps.back().radials.back().time));
+    }
+}
+
+// Each moment once, with its gates, as "REF 1832 x 250 m".
+std::string moments_text(const level2::Sweep& sweep) {
+    std::string text;
+    for (const level2::Moment name : level2::all_moments) {
+        const level2::SweepMoment* moment = sweep.find(name);
+        if (moment == nullptr) continue;
+        if (!text.empty()) text += ", ";
+        text += fmt::format("{} {} x {} m", level2::moment_name(name), moment->gate_stride,
+                            moment->gate_spacing_m);
+    }
+    return text;
+}
+
+void print_sweeps(const level2::Decoded& decoded) {
+    const auto& starts = decoded.report.further_volume_starts;
+    fmt::print("\n{:>5} {:>4} {:>8} {:>8} {:>8} {:>8}  {:<12}  {}\n", "sweep", "cut", "fixed",
+               "mean deg", "radials", "Nyquist", "start", "moments");
+    for (std::size_t i = 0; i < decoded.volume.sweeps.size(); ++i) {
+        const level2::Sweep& sweep = decoded.volume.sweeps[i];
+        if (std::find(starts.begin(), starts.end(), i) != starts.end()) {
+            fmt::print("      a further volume begins\n");
+        }
+        const level2::Radial& first = sweep.radials.front();
+        const std::string start = format_utc(first.time);
+        const std::string fixed =
+            sweep.vcp_elevation_deg ? fmt::format("{:.2f}", *sweep.vcp_elevation_deg) : "-";
+        const std::string nyquist =
+            first.nyquist_mps > 0 ? fmt::format("{:.2f}", first.nyquist_mps) : "-";
+        fmt::print("{:>5} {:>4} {:>8} {:>8.2f} {:>8} {:>8}  {:<12}  {}\n", i,
+                   sweep.elevation_number, fixed, sweep.mean_elevation_deg(), sweep.radials.size(),
+                   nyquist, start.substr(11, 12), moments_text(sweep));
+    }
+}
+
+void print_problems(const level2::DecodeReport& report) {
+    if (report.problems.empty()) return;
+    fmt::print("\n");
+    for (const level2::Problem& problem : report.problems) {
+        const std::string place =
+            problem.offset ? fmt::format(" (at {})", *problem.offset) : std::string{};
+        fmt::print("{}: {}{}\n", level2::severity_name(problem.severity), printable(problem.text()),
+                   place);
+    }
+}
+
+// Of a file that holds several.
+void print_volumes(const std::vector<level2::VolumePart>& parts) {
+    if (parts.size() < 2) return;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        fmt::print("  volume {:<2} from sweep {} on, {} {}; {}\n", i + 1, parts[i].first_sweep,
+                   parts[i].sweeps, plural(parts[i].sweeps, "sweep"),
+                   parts[i].complete ? "complete" : "partial");
+    }
+}
+
+void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) {
+    const level2::Volume& volume = decoded.volume;
+    const level2::DecodeReport& report = decoded.report;
+    fmt::print("{}\n", printable(file.name));
+    print_site(volume);
+    print_times(volume);
+    fmt::print("  file      {} bytes, {}", file.size, report.container);
+    if (report.ldm_records) {
+        fmt::print(", {} LDM {}", *report.ldm_records,
+                   plural(static_cast<std::uint64_t>(*report.ldm_records), "record"));
+    }
+    fmt::print(", {} bytes of messages\n", report.message_bytes);
+    if (volume.vcp) {
+        fmt::print("  VCP       {} (from {})\n", *volume.vcp, vcp_source_text(volume.vcp_source));
+    }
+    if (report.rda_status && report.rda_status->build) {
+        fmt::print("  RDA       build {:.2f}\n", *report.rda_status->build);
+    }
+    fmt::print("  holds     {} {}, {} {}; {}\n", volume.sweeps.size(),
+               plural(volume.sweeps.size(), "sweep"), volume.radial_count(),
+               plural(volume.radial_count(), "radial"), report.complete ? "complete" : "partial");
+    print_volumes(level2::volumes_in(decoded));
+    if (!volume.sweeps.empty()) print_sweeps(decoded);
+    print_problems(report);
+}
+
+// Of a directory: of the files in it.
+std::uintmax_t size_of(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) {
+        const auto size = std::filesystem::file_size(path, error);
+        return error ? 0 : size;
+    }
+    std::uintmax_t sum = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+        const auto size = entry.file_size(error);
+        if (!error) sum += size;
+    }
+    return sum;
+}
+
+// Before long work: whether the CfRadial file can appear where it shall.
+Status check_output(const InfoOptions& options) {
+    if (options.to.empty()) return {};
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options.file, options.to, ignored)) {
+        return fail(ErrorCode::bad_argument, "{}: is the volume itself", options.to);
+    }
+    return check_output_file(options.to, {".nc", ".nc4"}, "CfRadial is netCDF", options.json);
+}
+
+// Which volume of the file is to be written, from 0.
+Result<std::size_t> chosen_volume(const InfoOptions& options, std::size_t count) {
+    if (options.volume == 0 && count > 1) {
+        return fail(ErrorCode::bad_argument,
+                    "{}: holds {} volumes: say which one with --volume 1 to {}", options.file,
+                    count, count);
+    }
+    const auto number = static_cast<std::size_t>(std::max(options.volume, 1));
+    if (number > count) {
+        return fail(ErrorCode::bad_argument, "--volume {}: {} holds {} volume{}", number,
+                    options.file, count, count == 1 ? "" : "s");
+    }
+    return number - 1;
+}
+
+Status write_chosen(const InfoOptions& options, const std::string& source,
+                    level2::Decoded decoded) {
+    const level2::DecodeReport report = decoded.report;
+    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    const auto chosen = chosen_volume(options, volumes.size());
+    if (!chosen) return pass_on(chosen);
+    auto output = OutputFile::open(options.to);
+    if (!output) return pass_on(output);
+    Status written = export_volume(volumes, *chosen, report, source, output->path());
+    return written ? output->finish() : written;
+}
+
+Result<nlohmann::ordered_json> run_one(const InfoOptions& options, InputFiles& inputs,
+                                       const InputFile& file, const SiteRequest& site) {
+    level2::DecodeOptions decode_options;
+    decode_options.threads =
+        options.threads > 0 ? options.threads
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    std::uint64_t size = 0;
+    auto decoded = inputs.decode(file, decode_options, &size);
+    if (!decoded) return pass_on(decoded);
+    if (Status applied = apply_site(site, decoded->volume); !applied) return pass_on(applied);
+    if (size == 0) size = size_of(file.path);
+    const level2::FileFacts facts{file.file_name(), size};
+    auto json = options.json ? level2::describe(*decoded, facts) : nlohmann::ordered_json{};
+    if (!options.to.empty()) {
+        const std::size_t count = decoded->report.further_volume_starts.size() + 1;
+        if (const auto chosen = chosen_volume(options, count); !chosen) return pass_on(chosen);
+    }
+    const bool is_taken = options.json || is_stdout(options.to);
+    if (!is_taken) print_facts(*decoded, facts);
+    if (!options.to.empty()) {
+        const Status written = write_chosen(options, file.file_name(), std::move(*decoded));
+        if (!written) return pass_on(written);
+        json["written"] = options.to;
+        if (!is_taken) fmt::print("\n{}: written as CfRadial\n", printable(options.to));
+    }
+    return json;
+}
+
+int run_info(const InfoOptions& options) {
+    if (const Status good = check_output(options); !good) return report_error(good.error());
+    const auto site = parse_site(options.site);
+    if (!site) return report_error(site.error());
+    auto inputs = InputFiles::find({options.file});
+    if (!inputs) return report_error(inputs.error());
+    for (const std::string& one : inputs->left_out())
+        print_note(fmt::format("left out: {}", one));
+    const auto& files = inputs->files();
+    if (!options.to.empty() && files.size() > 1) {
+        return report_error({ErrorCode::bad_argument,
+                             fmt::format("{}: holds {} files: name one of them, as in {}",
+                                         options.file, files.size(), files.front().label)});
+    }
+    nlohmann::ordered_json document;
+    int status = exit_done;
+    bool any = false;
+    std::vector<std::string> no_volumes;
+    for (const InputFile& file : files) {
+        if (any && !options.json) fmt::print("\n");
+        auto json = run_one(options, *inputs, file, *site);
+        if (!json && file.was_found && is_no_volume(json.error())) {
+            no_volumes.push_back(json.error().message);
+            continue;
+        }
+        if (!json) {
+            status = report_error(json.error());
+            continue;
+        }
+        any = true;
+        if (files.size() == 1) {
+            document = std::move(*json);
+        } else {
+            document.push_back(std::move(*json));
+        }
+    }
+    if (options.json && any) {
+        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+        fmt::print("{}\n", document.dump(1, ' ', true, replace));
+    }
+    if (!any && status == exit_done) {
+        return report_error({ErrorCode::not_level2,
+                             fmt::format("{}: none of its {} {} is a Level II file", options.file,
+                                         files.size(), plural(files.size(), "file"))});
+    }
+    for (const std::string& one : no_volumes)
+        print_note(fmt::format("left out: {}", one));
+    return status;
+}
+
+}  // namespace
+
+Command add_info(CLI::App& app) {
+    const auto options = std::make_shared<InfoOptions>();
+    CLI::App* info = app.add_subcommand("info", "Decode a Level II file and describe it");
+    info->add_option(
+            "FILE", options->file,
+            "The file, or a directory of chunks; what it is, is found by content. Of a tar or "
+            "zip archive, or of a directory of files, each file; - is standard input")
+        ->required();
+    info->add_flag("--json", options->json, "One JSON document");
+    CLI::Option* to = info->add_option("--to", options->to,
+                                       "Also write the volume to this file, as CfRadial netCDF");
+    info->add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
+        ->check(CLI::Range(1, 1000))
+        ->needs(to);
+    add_site_options(*info, options->site);
+    info->add_option("--threads", options->threads, "Threads to decompress with")
+        ->check(CLI::Range(1, 256));
+    return {info, [options] { return run_info(*options); }};
+}
+
+}  // namespace stormcellar::cli

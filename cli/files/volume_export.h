@@ -1,0 +1,20 @@
+// cli/files/volume_export.h -- one volume of a decoded file as CfRadial netCDF.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/level2/decode.h"
+
+namespace stormcellar::cli {
+
+// Writes volumes[number] of those that `source` holds; problems of the file become notes. Replaces
+// a file that is there. Errors are those of netcdf::write_volume.
+[[nodiscard]] Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
+                                   const level2::DecodeReport& report,
+                                   const std::filesystem::path& source,
+                                   const std::filesystem::path& to);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,159 @@
+#include "cli/grid/grid_mosaic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/shared/commands.h"
+#include "grid/place/site_extent.h"
+
+namespace stormcellar::cli {
+namespace {
+
+constexpr double beyond_sites_m = 230'000;  // what a mosaic shows about its outermost sites
+
+// Whole cells that hold all sites and 230 km about them, in kilometers.
+std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
+                                   grid::GeoPoint center, double spacing_km) {
+    const grid::HalfExtent half = grid::half_extent_of(sites, center);
+    const auto whole = [&](double half_m) {
+        const double cells = std::ceil((half_m + beyond_sites_m) / 1000 / spacing_km);
+        return 2 * cells * spacing_km;
+    };
+    return {whole(half.x_m), whole(half.y_m)};
+}
+
+std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& sources) {
+    std::vector<grid::SitePosition> sites;
+    for (const SourceVolume& source : sources) {
+        const auto is_it = [&](const grid::SitePosition& site) {
+            return site.icao == source.site.icao;
+        };
+        if (std::none_of(sites.begin(), sites.end(), is_it)) sites.push_back(source.site);
+    }
+    return sites;
+}
+
+}  // namespace
+
+Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
+                                   GridRequest request) {
+    if (sites.empty() && !request.center_deg) {
+        return fail(ErrorCode::bad_argument, "no station says where the grid lies: give --center");
+    }
+    const grid::GeoPoint center =
+        request.center_deg ? grid::GeoPoint{(*request.center_deg)[0], (*request.center_deg)[1]}
+                           : grid::middle_of(sites);
+    const bool in_km = request.extent_unit == SizeUnit::km && request.spacing_unit == SizeUnit::km;
+    if (!request.extent_given && in_km && !sites.empty()) {
+        request.extent = extent_km_of(sites, center, request.spacing);
+    }
+    return spec_about(request, center.latitude_deg, center.longitude_deg);
+}
+
+void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
+    app.add_option("--overlap", options.overlap,
+                   "Where several sites see a cell: distance-weighted (the default), mean, maximum "
+                   "or nearest (all that VEL and PHI allow)");
+    app.add_option("--overlap-km", options.overlap_km,
+                   "L of the weight exp(-r^2/L^2) of a site r away; else 250");
+    app.add_option("--time-method", effects.time_method,
+                   "Between two volumes of a site: advected (the default), blend or nearest");
+}
+
+Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const EffectOptions& effects,
+                                         std::size_t files, const GridRequest& request) {
+    grid::MosaicOptions mosaic;
+    if (files == 1) {
+        const std::string_view given = !options.overlap.empty()       ? "--overlap"
+                                       : options.overlap_km           ? "--overlap-km"
+                                       : !effects.time_method.empty() ? "--time-method"
+                                                                      : "";
+        if (given.empty()) return mosaic;
+        return fail(ErrorCode::bad_argument, "{} is for several FILEs", given);
+    }
+    mosaic.moment = request.moment;
+    mosaic.overlap = grid::default_overlap(request.moment);
+    mosaic.threads = request.threads;
+    mosaic.counts = request.site_counts;
+    mosaic.weights = request.site_weights;
+    if (!options.overlap.empty()) {
+        const auto overlap = grid::overlap_from_name(options.overlap);
+        if (!overlap) {
+            return fail(ErrorCode::bad_argument,
+                        "--overlap takes one of distance-weighted, mean, maximum, nearest, not "
+                        "'{}'",
+                        options.overlap);
+        }
+        mosaic.overlap = *overlap;
+    }
+    if (options.overlap_km) {
+        if (!(*options.overlap_km >= 1 && *options.overlap_km <= 10'000)) {
+            return fail(ErrorCode::bad_argument, "--overlap-km must be 1 to 10000, not {}",
+                        *options.overlap_km);
+        }
+        mosaic.length_m = *options.overlap_km * 1000;
+    }
+    return mosaic;
+}
+
+std::vector<pipeline::SceneVolume> MosaicSources::scene_volumes() const {
+    std::vector<pipeline::SceneVolume> made;
+    for (std::size_t at = 0; at < volumes.size(); ++at) {
+        const SourceVolume& source = volumes[at];
+        made.push_back({&source.volume, source.site, files[at], source.partial, source.notes});
+    }
+    return made;
+}
+
+std::size_t MosaicSources::site_count() const {
+    return sites_of(volumes).size();
+}
+
+Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
+                                  const GridRequest& request) {
+    MosaicSources sources;
+    for (const std::string& file : files) {
+        auto source = load_volume(file, request);
+        if (!source && request.inputs && request.inputs->is_found(file) &&
+            is_no_volume(source.error())) {
+            print_note(fmt::format("left out: {}", source.error().message));
+            continue;
+        }
+        if (!source) return pass_on(source);
+        sources.files.push_back(file);
+        sources.read_s += source->read_s;
+        sources.decode_s += source->decode_s;
+        sources.volumes.push_back(std::move(*source));
+    }
+    if (sources.volumes.empty()) {
+        return fail(ErrorCode::not_found, "none of the {} files is a Level II volume",
+                    files.size());
+    }
+    auto spec = mosaic_spec(sites_of(sources.volumes), request);
+    if (!spec) return pass_on(spec);
+    sources.spec = std::move(*spec);
+    return sources;
+}
+
+pipeline::MosaicRequest mosaic_request(const MosaicSources& sources, const GridRequest& request,
+                                       const grid::MosaicOptions& overlap,
+                                       const EffectRequest& effects) {
+    pipeline::MosaicRequest mosaic;
+    mosaic.domain = sources.spec;
+    mosaic.chain = effects.chain;
+    mosaic.frame.overlap = overlap;
+    mosaic.frame.overlap.averaging = effects.averaging;
+    mosaic.frame.threads = request.threads;
+    mosaic.partial.gridder.moment = request.moment;
+    mosaic.partial.gridder.threads = request.threads;
+    mosaic.partial.gridder.profile = effects.profile;
+    mosaic.instant = request.frame_time;
+    mosaic.is_planned = effects.needs_plan();
+    mosaic.budget = effects.budget;
+    return mosaic;
+}
+
+}  // namespace stormcellar::cli

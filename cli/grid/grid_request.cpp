@@ -1,0 +1,364 @@
+#include "cli/grid/grid_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
+
+#include "base/number_list.h"
+#include "cli/shared/commands.h"
+#include "grid/cells/level_range.h"
+
+namespace stormcellar::cli {
+namespace {
+
+Result<std::vector<double>> parse_levels(const std::string& text) {
+    std::vector<double> levels_m;
+    if (text.find(':') == std::string::npos) {
+        const auto levels_km = parse_numbers(text, ',');
+        if (!levels_km) {
+            return fail(ErrorCode::bad_argument,
+                        "--levels-km takes numbers a,b,c or bottom:top:step, not '{}'", text);
+        }
+        for (const double level_km : *levels_km)
+            levels_m.push_back(grid::metres_of_km(level_km));
+        return levels_m;
+    }
+    auto range_m = grid::parse_level_range(text);
+    if (!range_m) {
+        return fail(ErrorCode::bad_argument,
+                    "--levels-km takes bottom:top:step with a top above the bottom, a step above 0 "
+                    "and at most {} levels, not '{}'",
+                    grid::GridSpec::greatest_level_count, text);
+    }
+    return std::move(*range_m);
+}
+
+Result<std::array<double, 2>> parse_pair(std::string_view option, std::string_view takes,
+                                         const std::string& text) {
+    const auto given = parse_numbers(text, ',');
+    if (!given || given->size() != 2) {
+        return fail(ErrorCode::bad_argument, "{} takes {}, not '{}'", option, takes, text);
+    }
+    return std::array<double, 2>{(*given)[0], (*given)[1]};
+}
+
+Result<grid::Projection> parse_projection(const std::string& name) {
+    using enum grid::Projection;
+    static const std::map<std::string_view, grid::Projection> short_names = {
+        {"aeqd", azimuthal_equidistant}, {"lat-lon", latitude_longitude},
+        {"latlon", latitude_longitude},  {"lambert", lambert_conformal},
+        {"lcc", lambert_conformal},
+    };
+    if (const auto full = grid::projection_from_name(name)) return *full;
+    if (const auto known = short_names.find(name); known != short_names.end()) return known->second;
+    return fail(ErrorCode::bad_argument,
+                "--projection takes one of azimuthal_equidistant (aeqd), latitude_longitude "
+                "(lat-lon) and lambert_conformal (lambert, lcc), not '{}'",
+                name);
+}
+
+std::string_view unit_name(SizeUnit unit) {
+    return unit == SizeUnit::km ? "km" : "degree";
+}
+
+// `cells` of one spacing each make up an extent, if they are few enough.
+Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit) {
+    constexpr int most = grid::GridSpec::greatest_side;
+    if (cells <= most) return static_cast<int>(cells);
+    return fail(
+        ErrorCode::bad_argument,
+        "an extent of {0} {2} is too large for cells of {1} {2}: at most {3} of them, {4} {2}",
+        extent, spacing, unit_name(unit), most, most * spacing);
+}
+
+// How many cells make up an extent; it must be a whole number.
+Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
+    const double cells = std::round(extent / spacing);
+    const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
+    if (!whole) {
+        return fail(ErrorCode::bad_argument, "an extent of {} {} is no whole number of {} {} cells",
+                    extent, unit_name(unit), spacing, unit_name(unit));
+    }
+    return count_of(cells, extent, spacing, unit);
+}
+
+// As many cells as cover the extent; a millionth of a cell is rounding.
+Result<int> cells_over(double extent_deg, double spacing_deg) {
+    const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
+    if (!(cells >= 1)) {
+        return fail(ErrorCode::bad_argument, "an extent of {} degrees in cells of {} degrees",
+                    extent_deg, spacing_deg);
+    }
+    return count_of(cells, extent_deg, spacing_deg, SizeUnit::degrees);
+}
+
+// One spacing and one extent, each in kilometres or in degrees.
+Status parse_size(const GridOptions& options, GridRequest& request) {
+    const bool any_degrees = options.spacing_deg || !options.extent_deg.empty();
+    if (any_degrees && request.projection != grid::Projection::latitude_longitude) {
+        return fail(ErrorCode::bad_argument,
+                    "--spacing-deg and --extent-deg are for --projection latitude_longitude");
+    }
+    const bool twice = (options.spacing_deg && options.spacing_km) ||
+                       (!options.extent_deg.empty() && !options.extent_km.empty());
+    if (twice) {
+        return fail(ErrorCode::bad_argument,
+                    "give the spacing and the extent once each, in km or in degrees");
+    }
+    request.spacing_unit = options.spacing_deg ? SizeUnit::degrees : SizeUnit::km;
+    request.spacing = options.spacing_deg.value_or(options.spacing_km.value_or(request.spacing));
+    if (!(request.spacing > 0)) {
+        return fail(ErrorCode::bad_argument, "{} must be above 0, not {}",
+                    options.spacing_deg ? "--spacing-deg" : "--spacing-km", request.spacing);
+    }
+    request.extent_unit = options.extent_deg.empty() ? SizeUnit::km : SizeUnit::degrees;
+    const std::string& text = options.extent_deg.empty() ? options.extent_km : options.extent_deg;
+    if (text.empty()) return {};
+    const auto extent = parse_pair(options.extent_deg.empty() ? "--extent-km" : "--extent-deg",
+                                   "width,height", text);
+    if (!extent) return pass_on(extent);
+    request.extent = *extent;
+    request.extent_given = true;
+    return {};
+}
+
+Status parse_map(const GridOptions& options, GridRequest& request) {
+    const auto projection = parse_projection(options.projection);
+    if (!projection) return pass_on(projection);
+    request.projection = *projection;
+    if (!options.center.empty()) {
+        const auto center = parse_pair("--center", "LAT,LON in degrees", options.center);
+        if (!center) return pass_on(center);
+        request.center_deg = *center;
+    }
+    if (options.parallels.empty()) return {};
+    if (request.projection != grid::Projection::lambert_conformal) {
+        return fail(ErrorCode::bad_argument, "--parallels is for --projection lambert_conformal");
+    }
+    const auto parallels = parse_pair("--parallels", "LAT1,LAT2 in degrees", options.parallels);
+    if (!parallels) return pass_on(parallels);
+    request.parallels_deg = *parallels;
+    return {};
+}
+
+Result<level2::Moment> parse_moment(const std::string& name) {
+    if (const auto moment = level2::moment_from_name(name)) return *moment;
+    std::vector<std::string_view> names;
+    names.reserve(level2::all_moments.size());
+    for (const level2::Moment known : level2::all_moments)
+        names.push_back(level2::moment_name(known));
+    return fail(ErrorCode::bad_argument, "--moment takes one of {}, not '{}'",
+                fmt::join(names, " "), name);
+}
+
+constexpr std::string_view counts_field = "counts";
+constexpr std::string_view weights_field = "weights";
+
+// Adds one of --fields; false where there is none of that name.
+bool add_field(std::string_view name, bool mosaic, GridRequest& request) {
+    const bool all = name == "all";
+    request.site_counts = request.site_counts || name == counts_field || (all && mosaic);
+    request.site_weights = request.site_weights || name == weights_field || (all && mosaic);
+    const auto detail = grid::detail_from_name(name);
+    for (const grid::Detail known : grid::all_details) {
+        if (detail == known || (all && !mosaic)) request.details.add(known);
+    }
+    return all || detail || name == counts_field || name == weights_field;
+}
+
+Status parse_fields(const GridOptions& options, GridRequest& request) {
+    const std::string& text = options.fields;
+    if (text.empty()) return {};
+    const bool mosaic = options.files.size() > 1;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t to = std::min(text.find(',', from), text.size());
+        const std::string name = text.substr(from, to - from);
+        from = to + 1;
+        if (add_field(name, mosaic, request)) continue;
+        std::vector<std::string_view> names;
+        names.reserve(grid::all_details.size());
+        for (const grid::Detail known : grid::all_details)
+            names.push_back(grid::detail_name(known));
+        return fail(ErrorCode::bad_argument,
+                    "--fields takes any of {} or all, of several FILEs {}, {} or all, not '{}'",
+                    fmt::join(names, ", "), counts_field, weights_field, name);
+    }
+    if (mosaic && request.details.any()) {
+        return fail(ErrorCode::bad_argument,
+                    "--fields {}: what tells of single gates is for one "
+                    "FILE; of several there are {} and {}",
+                    text, counts_field, weights_field);
+    }
+    if (!mosaic && (request.site_counts || request.site_weights)) {
+        return fail(ErrorCode::bad_argument, "--fields {}: {} and {} are for several FILEs", text,
+                    counts_field, weights_field);
+    }
+    return {};
+}
+
+Status parse_beside(const GridOptions& options, GridRequest& request) {
+    if (Status done = parse_fields(options, request); !done) return done;
+    if (options.time.empty()) return {};
+    const auto time = parse_utc(options.time, now_utc());
+    if (!time) return fail(time.error().code, "--time: {}", time.error().message);
+    request.frame_time = *time;
+    return {};
+}
+
+Status size_in_metres(const GridRequest& request, grid::GridSpec& spec) {
+    const auto nx = cells_along(request.extent[0], request.spacing, SizeUnit::km);
+    if (!nx) return pass_on(nx);
+    const auto ny = cells_along(request.extent[1], request.spacing, SizeUnit::km);
+    if (!ny) return pass_on(ny);
+    spec.nx = *nx;
+    spec.ny = *ny;
+    spec.spacing_m = grid::metres_of_km(request.spacing);
+    return {};
+}
+
+Status size_in_degrees(const GridRequest& request, grid::GridSpec& spec) {
+    const grid::DegreeLength degree = grid::degree_length(spec.center_latitude_deg);
+    const std::array<double, 2> degree_m = {degree.east_m, degree.north_m};
+    const bool in_km = request.extent_unit == SizeUnit::km;
+    spec.spacing_m = 0;
+    spec.spacing_deg = request.spacing_unit == SizeUnit::km
+                           ? grid::metres_of_km(request.spacing) / degree.north_m
+                           : request.spacing;
+    std::array<int, 2> counts{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const bool exact = !in_km && request.spacing_unit == SizeUnit::degrees;
+        const double extent_deg =
+            in_km ? grid::metres_of_km(request.extent[i]) / degree_m[i] : request.extent[i];
+        const auto cells = exact ? cells_along(extent_deg, spec.spacing_deg, SizeUnit::degrees)
+                                 : cells_over(extent_deg, spec.spacing_deg);
+        if (!cells) return pass_on(cells);
+        counts[i] = *cells;
+    }
+    spec.nx = counts[0];
+    spec.ny = counts[1];
+    return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options) {
+    auto inputs = InputFiles::find(options.files);
+    if (!inputs) return pass_on(inputs);
+    options.files = inputs->labels();
+    for (const std::string& one : inputs->left_out())
+        print_note(fmt::format("left out: {}", one));
+    return std::make_shared<InputFiles>(std::move(*inputs));
+}
+
+Result<GridRequest> parse_request(const GridOptions& options) {
+    GridRequest request;
+    if (auto done = parse_map(options, request); !done) return pass_on(done);
+    if (auto done = parse_size(options, request); !done) return pass_on(done);
+    if (!options.levels_km.empty()) {
+        const auto levels_m = parse_levels(options.levels_km);
+        if (!levels_m) return pass_on(levels_m);
+        request.levels_m = *levels_m;
+    }
+    const auto moment = parse_moment(options.moment);
+    if (!moment) return pass_on(moment);
+    request.moment = *moment;
+    auto site = parse_site(options.site);
+    if (!site) return pass_on(site);
+    request.site = std::move(*site);
+    if (auto done = parse_beside(options, request); !done) return pass_on(done);
+    request.threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    // Of several sites the extent, and the spacing that goes into it, is known with them.
+    const bool has_extent = request.extent_given || options.files.size() == 1;
+    if (has_extent &&
+        (request.center_deg || request.projection == grid::Projection::azimuthal_equidistant)) {
+        const auto [latitude_deg, longitude_deg] =
+            request.center_deg.value_or(std::array<double, 2>{});
+        const auto spec = spec_about(request, latitude_deg, longitude_deg);
+        if (!spec) return pass_on(spec);
+    }
+    return request;
+}
+
+Result<grid::GridSpec> spec_about(const GridRequest& request, double center_latitude_deg,
+                                  double center_longitude_deg) {
+    grid::GridSpec spec = grid::default_spec(center_latitude_deg, center_longitude_deg);
+    spec.projection = request.projection;
+    if (!request.levels_m.empty()) spec.levels_m = request.levels_m;
+    if (spec.projection == grid::Projection::lambert_conformal) {
+        spec.parallels_deg = request.parallels_deg.value_or(
+            std::array<double, 2>{center_latitude_deg, center_latitude_deg});
+    }
+    const Status sized = spec.projection == grid::Projection::latitude_longitude
+                             ? size_in_degrees(request, spec)
+                             : size_in_metres(request, spec);
+    if (!sized) return pass_on(sized);
+    if (auto valid = grid::validate(spec); !valid) return pass_on(valid);
+    return spec;
+}
+
+void add_grid_options(CLI::App& app, GridOptions& options) {
+    app.add_option("FILE", options.files,
+                   "Level II files: one, or a mosaic of several sites and times; also tar and zip "
+                   "archives, directories, and - for standard input")
+        ->required();
+    app.add_option("-o,--output", options.output,
+                   "The netCDF file to write, .nc, or - for standard output")
+        ->required();
+    add_spec_options(app, options);
+    app.add_option(
+        "--time", options.time,
+        "Frame time, ISO 8601. Of one FILE: of sweeps at one elevation the nearest to it is taken, "
+        "not the newest, and ages count from it, not from the start of the volume. Of several: the "
+        "instant that all is brought to; else the middle of what the newest volumes show, or the "
+        "newest of them where they are far apart");
+    app.add_option(
+        "--fields", options.fields,
+        "Beside the value, any of age (s), height_offset (m above the nearest beam), "
+        "distance (m to the nearest gate), weight (share seen), e.g. age,weight; or all. Of "
+        "several FILEs: counts (sites that see a cell), weights (the sum of theirs)");
+}
+
+void add_place_options(CLI::App& app, GridOptions& options) {
+    app.add_option("--center", options.center,
+                   "LAT,LON in degrees; else the site, or the middle of the sites");
+    app.add_option("--projection", options.projection,
+                   "azimuthal_equidistant (aeqd) about the centre, latitude_longitude (lat-lon) or "
+                   "lambert_conformal (lambert, lcc)")
+        ->capture_default_str();
+    app.add_option(
+        "--parallels", options.parallels,
+        "LAT1,LAT2: standard parallels of lambert_conformal; else the centre's latitude");
+    app.add_option("--extent-km", options.extent_km,
+                   "Full width and height, e.g. 460,460 (the default of one site; of several, 230 "
+                   "km beyond them)");
+    app.add_option("--spacing-km", options.spacing_km,
+                   "From one cell to the next; else 1. For latitude_longitude, kilometres become "
+                   "degrees of latitude (spacing, height) and longitude (width) as the centre has "
+                   "them, rounded up to whole cells");
+    app.add_option("--extent-deg", options.extent_deg,
+                   "Full width and height of a latitude_longitude grid, e.g. 6,4");
+    app.add_option("--spacing-deg", options.spacing_deg,
+                   "From one cell of a latitude_longitude grid to the next, both ways");
+    app.add_option("--levels-km", options.levels_km,
+                   "Heights above mean sea level, a,b,c or bottom:top:step; else 0.5:16:0.5");
+}
+
+void add_spec_options(CLI::App& app, GridOptions& options) {
+    add_place_options(app, options);
+    add_site_options(app, options.site);
+    app.add_option("--moment", options.moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
+        ->capture_default_str();
+    app.add_option("--threads", options.threads,
+                   options.threads == 0 ? std::string{"Else as many as the machine has"}
+                                        : fmt::format("Else {}", options.threads))
+        ->check(CLI::Range(1, 256));
+    app.add_flag("--json", options.json, "One JSON document with facts and phase timings");
+}
+
+}  // namespace stormcellar::cli

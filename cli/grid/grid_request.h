@@ -1,0 +1,86 @@
+// cli/grid/grid_request.h -- the options of `stormcellar grid`, and what they ask for.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/shared/input_files.h"
+#include "cli/shared/site_options.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/grid/cell_details.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/level2/volume.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stormcellar::cli {
+
+// As they were typed.
+struct GridOptions {
+    std::vector<std::string> files;
+    std::string output;
+    std::string center;
+    std::string projection = "azimuthal_equidistant";
+    std::string parallels;
+    std::string extent_km, extent_deg;
+    std::optional<double> spacing_km, spacing_deg;
+    std::string levels_km;
+    std::string moment = "REF";
+    std::string time, fields;
+    SiteOptions site;
+    int threads = 0;  // 0: as many as the machine has
+    bool json = false;
+};
+
+// FILE, --output, --time, --fields and those of add_spec_options().
+void add_grid_options(CLI::App& app, GridOptions& options);
+// Where the grid lies, and its cells and levels.
+void add_place_options(CLI::App& app, GridOptions& options);
+// Which grid, of which moment, on how many threads.
+void add_spec_options(CLI::App& app, GridOptions& options);
+
+enum class SizeUnit { km, degrees };
+
+// What the options say, before the site is known.
+struct GridRequest {
+    std::optional<std::array<double, 2>> center_deg;
+    grid::Projection projection = grid::Projection::azimuthal_equidistant;
+    std::optional<std::array<double, 2>> parallels_deg;
+    std::array<double, 2> extent = {460, 460};  // full width and height
+    bool extent_given = false;
+    SizeUnit extent_unit = SizeUnit::km;
+    double spacing = 1;
+    SizeUnit spacing_unit = SizeUnit::km;  // degrees are for latitude_longitude alone
+    std::vector<double> levels_m;          // empty: those of grid::default_spec()
+    level2::Moment moment = level2::Moment::ref;
+    std::optional<UtcTime> frame_time;  // sweeps are then the nearest in time to it
+    grid::DetailSet details;            // of one file
+    bool site_counts = false;           // of several files
+    bool site_weights = false;
+    SiteRequest site;  // of every file
+    // What the files' names stand for; none: each name is one file.
+    std::shared_ptr<InputFiles> inputs;
+    int threads = 1;
+};
+
+// The files that were named, and in their places those that archives and directories hold. Errors:
+// those of InputFiles::find().
+[[nodiscard]] Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options);
+
+// Errors: bad_argument, naming the option. With --center, and where the centre does not matter, the
+// spec is checked too.
+[[nodiscard]] Result<GridRequest> parse_request(const GridOptions& options);
+
+// The grid asked for about a centre, valid. On a latitude-longitude grid kilometres become degrees
+// as the centre has them, rounded up to whole cells.
+[[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request,
+                                                double center_latitude_deg,
+                                                double center_longitude_deg);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,97 @@
+#include "cli/grid/volume_source.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "cli/shared/problem_notes.h"
+#include "level2/decode/volume_checks.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/decode.h"
+
+namespace stormcellar::cli {
+namespace {
+
+bool holds(const level2::Volume& volume, level2::Moment moment) {
+    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
+                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
+}
+
+Result<level2::Decoded> read_and_decode(InputFiles& inputs, const InputFile& file,
+                                        const GridRequest& request, SourceVolume& source) {
+    Stopwatch watch;
+    level2::DecodeOptions options;
+    options.threads = request.threads;
+    options.selection.moments = {request.moment};
+    options.fallback_station = station_in_name(file.file_name());
+    std::error_code ignored;
+    if (file.member.empty() && std::filesystem::is_directory(file.path, ignored)) {
+        auto joined = level2::decode_path(file.path, options);
+        source.decode_s = watch.lap_s();
+        return joined;
+    }
+    const auto bytes = inputs.read(file);
+    source.read_s = watch.lap_s();
+    if (!bytes) return pass_on(bytes);
+    auto decoded = level2::decode(*bytes, options);
+    source.decode_s = watch.lap_s();
+    if (!decoded) {
+        return fail(decoded.error().code, "{}: {}", file.label, decoded.error().message);
+    }
+    return decoded;
+}
+
+// The first volume of a file that holds the moment; of a file with several, a note says so.
+level2::Volume take_volume(level2::Decoded decoded, level2::Moment moment, SourceVolume& source) {
+    const bool damaged = decoded.report.damaged;
+    std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    const auto found = std::find_if(volumes.begin(), volumes.end(),
+                                    [&](const auto& volume) { return holds(volume, moment); });
+    const std::size_t index =
+        found == volumes.end() ? 0 : static_cast<std::size_t>(found - volumes.begin());
+    if (volumes.size() > 1) {
+        source.partial = damaged || !level2::is_complete(volumes[index]);
+        source.notes.push_back(
+            fmt::format("the file holds {} volumes; this is number {}", volumes.size(), index + 1));
+    }
+    return std::move(volumes[index]);
+}
+
+}  // namespace
+
+Result<SourceVolume> load_volume(const std::string& file, const GridRequest& request) {
+    std::shared_ptr<InputFiles> inputs = request.inputs;
+    if (!inputs) {
+        auto found = InputFiles::find({file});
+        if (!found) return pass_on(found);
+        inputs = std::make_shared<InputFiles>(std::move(*found));
+    }
+    const auto& files = inputs->files();
+    const auto named = std::ranges::find(files, file, &InputFile::label);
+    if (named == files.end()) {
+        return fail(ErrorCode::bad_argument, "{}: holds several files", file);
+    }
+    SourceVolume source;
+    auto decoded = read_and_decode(*inputs, *named, request, source);
+    if (!decoded) return pass_on(decoded);
+    source.partial = !decoded->report.complete;
+    source.notes = notes_of(decoded->report);
+    source.volume = take_volume(std::move(*decoded), request.moment, source);
+    if (Status applied = apply_site(request.site, source.volume); !applied) {
+        return fail(applied.error().code, "{}: {}", file, applied.error().message);
+    }
+    const auto antenna = level2::antenna_position(source.volume);
+    if (!antenna) {
+        return fail(ErrorCode::not_found,
+                    "{}: neither the file nor the station table says where the radar stands; "
+                    "--station ICAO names it, --position LAT,LON,HEIGHT says where it stands",
+                    file);
+    }
+    if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
+    source.site = {source.volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                   antenna->altitude_m};
+    return source;
+}
+
+}  // namespace stormcellar::cli

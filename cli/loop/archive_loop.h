@@ -1,0 +1,62 @@
+// cli/loop/archive_loop.h -- the grids that an archive's loop is drawn from, made as far as they do
+// not stand yet (pipeline/care/archive_fill.h).
+//
+// They are kept in --cache, or below $XDG_CACHE_HOME (else ~/.cache) in a directory whose name says
+// by a hash what determines them: catalog, stations, grid, moment, rules, version. One process at a
+// time fills it.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/loop/archive_options.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/query_options.h"
+#include "pipeline/care/archive_fill.h"
+#include "pipeline/care/archive_plan.h"
+#include "pipeline/options/domain.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::cli {
+
+// What the rest of the command says about it.
+struct ArchiveCall {
+    ArchiveRequest request;
+    std::filesystem::path catalog;
+    std::filesystem::path cache;  // empty: the private one
+    std::string domain;           // of a mosaic; empty: made of the stations' names
+    TimeRange range;              // both ends are needed
+    level2::Moment moment = level2::Moment::ref;
+    std::optional<std::chrono::seconds> interval;
+    grid::TimeMethod time = grid::TimeMethod::advected;
+    int threads = 1;
+    bool keep = true;
+    bool quiet = false;
+};
+
+struct ArchiveGrids {
+    std::optional<cache::Store> store;  // holds the cache against other writers
+    std::string domain;
+    std::vector<cache::StoreEntry> entries;  // those of the range, rising in time
+    std::optional<pipeline::Domain> mosaic;  // none: a station's own grids
+    pipeline::FillReport report;
+    double fill_s = 0, frames_s = 0;
+    std::filesystem::path directory;  // of the cache
+    std::uint64_t bytes = 0;          // in it, once it was left
+};
+
+// Fills the cache with progress on stderr. Files that are left out are named there. None when
+// nothing in the catalog matches: `nothing` says what.
+// An interrupt ends the process at once, in the midst of the work: what was committed stays.
+[[nodiscard]] Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
+                                                                    Interrupt& interrupt,
+                                                                    std::string& nothing);
+
+// Says where the cache is and how large; removes it where it is private and not to be kept.
+[[nodiscard]] Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,287 @@
+// stormcellar loop: the grids of a time range as animations.
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/stopwatch.h"
+#include "cli/loop/loop_draw.h"
+#include "cli/loop/loop_encoding.h"
+#include "cli/loop/loop_grids.h"
+#include "cli/loop/loop_options.h"
+#include "cli/loop/loop_report.h"
+#include "cli/picture/kept_frames.h"
+#include "cli/picture/picture.h"
+#include "cli/picture/picture_metadata.h"
+#include "cli/picture/picture_plan.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/follow.h"
+#include "cli/shared/interrupt.h"
+#include "cli/shared/output_file.h"
+#include "cli/shared/progress.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::cli {
+namespace {
+
+Status draw_all(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
+                const std::atomic<bool>& stop, Encoding& encoding, LoopReport& report) {
+    const std::vector<LoopFrame>& frames = grids.frames;
+    Progress progress("frames", frames.size(), !options.quiet);
+    Drawing drawing{scene, {}};
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (stop) return {};
+        drawing.scene.camera.azimuth_deg =
+            scene.camera.azimuth_deg +
+            options.orbit_deg * static_cast<double>(i) / static_cast<double>(frames.size());
+        auto picture = draw(frames[i], options, grids.between, drawing, report);
+        if (!picture) return pass_on(picture);
+        if (*picture) {
+            if (auto added = encoding.add(std::move(**picture)); !added) return added;
+        } else {
+            progress.clear();
+            warn_skipped(report.skipped.back());
+        }
+        progress.show(i + 1);
+    }
+    return {};
+}
+
+// Draws and writes; `report` goes on from what is in it.
+Status make_loop(LoopGrids& grids, const LoopOptions& options, const render::Scene& scene,
+                 const std::atomic<bool>& stop, LoopReport& report) {
+    auto writers = make_writers(options.outputs, options.animation);
+    if (!writers) return pass_on(writers);
+    Encoding encoding(std::move(*writers));
+    if (auto drawn = draw_all(grids, options, scene, stop, encoding, report); !drawn) return drawn;
+    if (!stop) {
+        if (report.frames == 0) {
+            const std::size_t count = report.skipped.size();
+            return fail(ErrorCode::corrupt, "{}: {} is damaged; nothing written",
+                        grids.store->directory().native(),
+                        count == 1 ? std::string{"the only grid"}
+                                   : fmt::format("each of the {} grids", count));
+        }
+        if (auto finished = encoding.finish(stop); !finished) return finished;
+        report.encode_s = encoding.encode_s();
+    }
+    report.interrupted = stop;
+    return {};
+}
+
+// What cannot be opened is named, so that the file says how many frames it has. Gives the first
+// that can: how all are drawn is planned for it, and its method stands for all.
+std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
+    std::optional<cache::GridFile> first;
+    bool is_mixed = false;
+    const auto look_at = [&](const std::filesystem::path& path) {
+        auto file = cache::GridFile::open(path);
+        if (!file) {
+            report.skipped.push_back({path, file.error().message});
+            warn_skipped(report.skipped.back());
+        } else if (!first) {
+            first.emplace(std::move(*file));
+        } else {
+            is_mixed = is_mixed || file->description().spec != first->description().spec;
+        }
+        return file.has_value();
+    };
+    std::erase_if(grids.frames, [&](const LoopFrame& frame) {
+        return frame.stored && !look_at(frame.stored->path);
+    });
+    if (!first && !grids.frames.empty()) look_at(grids.sample);
+    if (is_mixed) {
+        print_note(
+            "grids of this domain differ in place or size, so the view differs between frames");
+    }
+    return first;
+}
+
+// Plans for the first grid, and says in the file's metadata what the loop is.
+Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions& options,
+               render::Scene& scene) {
+    const auto& description = first.description();
+    const auto facts = facts_of(options.domain, description, options.scene.time_zone);
+    const auto error = plan_picture(first.view(), facts, options.plan, options.json,
+                                    thread_count(options.scene), scene);
+    if (!error) return pass_on(error);
+    const bool some_between =
+        std::any_of(grids.frames.begin(), grids.frames.end(),
+                    [](const LoopFrame& frame) { return !frame.stored.has_value(); });
+    const std::string between = some_between ? grids.between->method_text() : "";
+    const auto by_time = [](const LoopFrame& a, const LoopFrame& b) { return a.time < b.time; };
+    const auto [from, to] = std::minmax_element(grids.frames.begin(), grids.frames.end(), by_time);
+    options.animation.metadata =
+        metadata_of({options.domain, from->time, to->time, grids.frames.size(), between, *error},
+                    description, scene);
+    return {};
+}
+
+// Adds the way back, without the two ends.
+void turn_back(std::vector<LoopFrame>& frames) {
+    for (std::size_t i = frames.size(); i > 2; --i) {
+        const LoopFrame frame = frames[i - 2];
+        frames.push_back(frame);
+    }
+}
+
+// Gives the exit status. An interrupted loop that is followed is no failure.
+int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
+              SteadyTime start) {
+    options.domain = grids.domain;
+    auto& frames = grids.frames;
+    if (options.last > 0 && frames.size() > options.last) {
+        frames.erase(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(options.last));
+    }
+    LoopReport report;
+    const auto first = keep_readable(grids, report);
+    if (options.ping_pong) turn_back(frames);
+    if (first) {
+        if (auto prepared = prepare(grids, *first, options, scene); !prepared) {
+            return report_error(prepared.error());
+        }
+    }
+    if (auto made = make_loop(grids, options, scene, interrupt.flag(), report); !made) {
+        return report_error(made.error());
+    }
+    report.total_s = seconds_since(start);
+    if (report.interrupted) {
+        if (options.follow.wanted) return exit_done;
+        fmt::print(stderr, "stormcellar: interrupted; unfinished loops were not written\n");
+        interrupt.end_by_signal();
+        return exit_failed;
+    }
+    if (grids.archive) {
+        if (auto left = leave_cache(*grids.call, *grids.archive); !left) {
+            return report_error(left.error());
+        }
+    }
+    print_report(options, scene, report, grids.archive);
+    return exit_done;
+}
+
+// None as long as there is no cache.
+Result<std::optional<cache::Store>> open_if_there(const std::string& cache) {
+    auto opened = cache::Store::open_for_reading(cache);
+    if (opened) return std::optional{std::move(*opened)};
+    if (opened.error().code != ErrorCode::not_found) return pass_on(opened);
+    return std::optional<cache::Store>{};
+}
+
+// The grids that stand now; a cache that came meanwhile is opened.
+Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::Store>& store,
+                                                  const LoopOptions& options,
+                                                  level2::Moment moment) {
+    if (const auto range = parse_time_range(options.range); !range) return pass_on(range);
+    if (!store) {
+        auto opened = open_if_there(options.cache);
+        if (!opened) return pass_on(opened);
+        store = std::move(*opened);
+    }
+    if (!store) return std::vector<cache::StoreEntry>{};
+    return entries_now(*store, options, moment);
+}
+
+// Each time of the grids that then stand.
+int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
+    auto opened = open_if_there(options.cache);
+    if (!opened) return report_error(opened.error());
+    std::optional<cache::Store> store = std::move(*opened);
+    KeptFrames kept;
+    options.kept = &kept;
+    return follow({options.cache, options.domain, scene.moment,
+                   [&] { return entries_of(store, options, scene.moment); },
+                   [&](const auto& entries) {
+                       kept.next_loop();
+                       return draw_loop(grids_of(*store, options.domain, entries), options, scene,
+                                        interrupt, steady_now());
+                   },
+                   options.quiet},
+                  options.follow, interrupt.flag());
+}
+
+// What can be said before any grid is looked for. Sets what the options make of each other.
+Result<render::Scene> check(LoopOptions& options) {
+    if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
+    if (auto fine = check_outputs(options.outputs); !fine) return pass_on(fine);
+    auto scene = scene_with(options.scene_file, options.scene);
+    if (!scene) return scene;
+    auto plan = plan_beside_slices(options.plan, options.scene);
+    if (!plan) return pass_on(plan);
+    options.plan = std::move(*plan);
+    if (auto fine = check_sources(options); !fine) return pass_on(fine);
+    return scene;
+}
+
+// Writes nothing, and asks for no directory to be there.
+int only_check(const LoopOptions& options) {
+    for (const std::string& output : options.outputs) {
+        if (auto fine = render::check_animation_name(output); !fine) {
+            return report_error(fine.error());
+        }
+    }
+    const auto range = parse_time_range(options.range);
+    return range ? exit_done : report_error(range.error());
+}
+
+// The one output that is standard output, made in a temporary file: "-", or "-.gif" and so on for
+// another format than WebP. None: there is none.
+Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
+    const auto is_piped = [](const std::string& output) {
+        return is_stdout(output) || output.starts_with("-.");
+    };
+    const auto piped = std::ranges::find_if(options.outputs, is_piped);
+    if (piped == options.outputs.end()) return std::optional<OutputFile>{};
+    if (options.json || options.follow.wanted ||
+        std::ranges::count_if(options.outputs, is_piped) > 1) {
+        return fail(ErrorCode::bad_argument,
+                    "-o {}: standard output takes one loop, and neither --json nor --follow beside "
+                    "it",
+                    *piped);
+    }
+    auto file = OutputFile::open("-", is_stdout(*piped) ? ".webp" : piped->substr(1));
+    if (!file) return pass_on(file);
+    *piped = options.piped = file->path().native();
+    return std::optional{std::move(*file)};
+}
+
+int run_loop(LoopOptions options) {
+    const auto start = steady_now();
+    auto piped = take_stdout(options);
+    if (!piped) return report_error(piped.error());
+    const auto scene = check(options);
+    if (!scene) return report_error(scene.error());
+    if (options.only_check) return only_check(options);
+    // What could never be written is refused before any grid is made.
+    if (const auto writers = make_writers(options.outputs, options.animation); !writers) {
+        return report_error(writers.error());
+    }
+    Interrupt interrupt;
+    if (options.follow.wanted) return follow_loop(options, *scene, interrupt);
+    auto grids = find_grids(options, *scene, interrupt);
+    if (!grids) return report_error(grids.error());
+    if (grids->frames.empty()) return exit_nothing_matched;
+    const int status = draw_loop(std::move(*grids), options, *scene, interrupt, start);
+    if (status != exit_done || !*piped) return status;
+    const Status written = (*piped)->finish();
+    return written ? exit_done : report_error(written.error());
+}
+
+}  // namespace
+
+Command add_loop(CLI::App& app) {
+    const auto options = std::make_shared<LoopOptions>();
+    CLI::App* loop =
+        app.add_subcommand("loop", "Draw the grids of a time range as a looping animation");
+    loop->footer(
+        "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
+        "at least one frame was written.\n");
+    add_loop_options(*loop, *options);
+    return {loop, [options] { return run_loop(*options); }};
+}
+
+}  // namespace stormcellar::cli

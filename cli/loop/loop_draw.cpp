@@ -1,0 +1,80 @@
+#include "cli/loop/loop_draw.h"
+
+#include "base/stopwatch.h"
+#include "cli/picture/kept_frames.h"
+#include "cli/picture/picture.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::cli {
+namespace {
+
+// A grid that stands, or one that was made for the instant.
+struct FrameGrid {
+    std::optional<cache::GridFile> file;
+    std::optional<pipeline::MosaicFrame> made;
+
+    [[nodiscard]] const cache::GridDescription& description() const {
+        return file ? file->description() : made->description;
+    }
+    [[nodiscard]] grid::BrickView view() const {
+        return file ? file->view() : made->mosaic.cells.view();
+    }
+    [[nodiscard]] Status check_whole() const { return file ? file->check_whole() : Status{}; }
+};
+
+// not_found where no volume is near.
+Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between) {
+    FrameGrid grid;
+    if (frame.stored) {
+        auto file = cache::GridFile::open(frame.stored->path);
+        if (!file) return pass_on(file);
+        grid.file.emplace(std::move(*file));
+        return grid;
+    }
+    auto made = between->at(frame.time);
+    if (!made) return pass_on(made);
+    if (!*made) {
+        return fail(ErrorCode::not_found, "no volume is near {}", format_utc(frame.time));
+    }
+    grid.made = std::move(**made);
+    return grid;
+}
+
+}  // namespace
+
+Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOptions& options,
+                                          std::optional<pipeline::BetweenGrids>& between,
+                                          Drawing& drawing, LoopReport& report) {
+    const auto start = steady_now();
+    const auto skip = [&](const Error& error) {
+        report.skipped.push_back(
+            {frame.stored ? frame.stored->path : std::filesystem::path{}, error.message});
+        return std::optional<render::Image>{};
+    };
+    const auto grid = grid_of(frame, between);
+    (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
+    if (!grid) return skip(grid.error());
+    const auto opened = steady_now();
+    auto facts = facts_of(options.domain, grid->description(), options.scene.time_zone);
+    facts.interpolated = grid->made && options.time_method != "nearest";
+    const int threads = thread_count(options.scene);
+    const auto render = [&] {
+        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.keeper);
+    };
+    auto picture = options.kept != nullptr && frame.stored
+                       ? options.kept->frame(frame.stored->path, drawing.scene, render)
+                       : render();
+    report.render_s += seconds_since(opened);
+    if (!picture) return pass_on(picture);
+    if (const Status whole = grid->check_whole(); !whole) {  // cut while it was drawn
+        return skip(whole.error());
+    }
+    if (report.frames == 0) report.from = report.to = frame.time;
+    report.to = std::max(report.to, frame.time);
+    ++report.frames;
+    if (grid->made) ++report.interpolated;
+    return std::optional{std::move(*picture)};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,27 @@
+// cli/loop/loop_draw.h -- one frame of a loop.
+#pragma once
+
+#include <optional>
+
+#include "cli/loop/loop_grids.h"
+#include "cli/loop/loop_options.h"
+#include "cli/loop/loop_report.h"
+#include "render/frame/frame_keeper.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/image.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::cli {
+
+// What the frames of a loop share.
+struct Drawing {
+    render::Scene scene;
+    render::FrameKeeper keeper;
+};
+
+// One frame; none when the grid's file is damaged, which is noted in the report.
+[[nodiscard]] Result<std::optional<render::Image>> draw(
+    const LoopFrame& frame, const LoopOptions& options,
+    std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);
+
+}  // namespace stormcellar::cli

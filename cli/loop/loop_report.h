@@ -1,0 +1,40 @@
+// cli/loop/loop_report.h -- what `loop` did, and what the file that it made says of itself.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/loop/archive_loop.h"
+#include "cli/loop/loop_grids.h"
+#include "cli/loop/loop_options.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::cli {
+
+struct Skipped {
+    std::filesystem::path path;
+    std::string reason;
+};
+
+struct LoopReport {
+    std::size_t frames = 0;
+    std::vector<Skipped> skipped;
+    UtcTime from, to;              // of the frames that were drawn
+    std::size_t interpolated = 0;  // of the frames
+    double between_s = 0;          // of making those
+    double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
+    bool interrupted = false;
+};
+
+void warn_skipped(const Skipped& skipped);  // on stderr
+
+// For people to stderr, with --json as one document to stdout.
+void print_report(const LoopOptions& options, const render::Scene& scene, const LoopReport& report,
+                  const std::optional<ArchiveGrids>& archive = std::nullopt);
+
+}  // namespace stormcellar::cli

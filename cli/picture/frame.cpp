@@ -1,0 +1,268 @@
+// stormcellar frame: one still picture of a grid in the cache.
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/floating_point.h"
+#include "base/stopwatch.h"
+#include "cli/picture/picture.h"
+#include "cli/picture/picture_metadata.h"
+#include "cli/picture/picture_plan.h"
+#include "cli/picture/scene_file.h"
+#include "cli/picture/scene_options.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/output_file.h"
+#include "cli/shared/query_options.h"
+#include "render/frame/probe.h"
+#include "render/products/product.h"
+#include "render/products/section.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/version.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/render/png_file.h"
+
+namespace stormcellar::cli {
+namespace {
+
+struct FrameOptions {
+    std::string cache;
+    std::string domain;
+    std::string time;      // empty: the latest
+    std::string output;    // empty: nothing is drawn, only probed
+    std::string probe;     // "X,Y"
+    std::string probe_at;  // "LAT,LON"
+    bool json = false;
+    SceneFile scene_file;
+    SceneOptions scene;
+    PicturePlanOptions plan;
+};
+
+// The newest grid of the domain at or before the time; none when there is no such grid.
+Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
+                                                   const FrameOptions& options,
+                                                   level2::Moment moment) {
+    std::optional<UtcTime> until;
+    if (!options.time.empty()) {
+        const auto time = parse_utc(options.time, now_utc());
+        if (!time) return pass_on(time);
+        until = *time;
+    }
+    auto entries = store.list(options.domain, moment, std::nullopt, until);
+    if (!entries) return pass_on(entries);
+    if (!until) cache::leave_out_future(*entries, now_utc());
+    if (entries->empty()) return std::optional<cache::StoreEntry>{};
+    if (!until) warn_of_future(entries->back().time);
+    return std::optional{entries->back()};
+}
+
+int report_nothing(const cache::Store& store, const FrameOptions& options, level2::Moment moment) {
+    return report_no_grid(
+        store, options.domain, moment,
+        options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
+}
+
+struct Timing {
+    double read_s = 0, render_s = 0, write_s = 0, total_s = 0;
+};
+
+using Json = nlohmann::ordered_json;
+
+Json json_or_null(const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+}
+
+Json json_of(const render::Probe& probe) {
+    const bool valued = probe.status == grid::CellStatus::value;
+    Json json{{"latitude_deg", probe.place.latitude_deg},
+              {"longitude_deg", probe.place.longitude_deg},
+              {"status", grid::cell_status_name(probe.status)},
+              {"value", valued ? Json(probe.value) : Json()},
+              {"unit", probe.unit},
+              {"at_least", probe.at_least},
+              {"height_m", json_or_null(probe.height_m)},
+              {"lowest_seen_m", json_or_null(probe.lowest_seen_m)},
+              {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
+    if (probe.distance_m) json["distance_m"] = *probe.distance_m;
+    return json;
+}
+
+// A line for the place, one for what is there, one for how far the column was seen.
+void print_probe(const render::Probe& probe, const FrameOptions& options,
+                 const render::Scene& scene, const cache::GridDescription& grid) {
+    fmt::print("{} {}, {}\n", printable(options.domain), format_utc(grid.time),
+               render::product_title(scene));
+    fmt::print("place  {}", render::place_text(probe.place));
+    if (probe.distance_m) fmt::print(", {:.1f} km from A", *probe.distance_m / 1000);
+    fmt::print("\nvalue  {}", render::probe_text(probe));
+    if (probe.height_m) fmt::print(" at {:.4g} km", *probe.height_m / 1000);
+    if (probe.lowest_seen_m) {
+        fmt::print("\nseen   {:g} to {:g} km\n", *probe.lowest_seen_m / 1000,
+                   *probe.highest_seen_m / 1000);
+    } else {
+        fmt::print("\nseen   at no height\n");
+    }
+}
+
+using MaybeProbe = std::optional<render::Probe>;
+
+void report_frame(const FrameOptions& options, const render::Scene& scene,
+                  const cache::GridDescription& grid, const Timing& timing,
+                  const MaybeProbe& probe) {
+    if (!options.json) {
+        if (probe) print_probe(*probe, options, scene, grid);
+        if (options.output.empty()) return;
+        fmt::print(stderr, "{}: {} {}, {}, {} x {} pixels, {:.0f} ms\n", printable(options.output),
+                   printable(options.domain), format_utc(grid.time), options.scene.product,
+                   scene.width, scene.height, timing.total_s * 1e3);
+        return;
+    }
+    Json json;
+    if (!options.output.empty()) json["output"] = options.output;
+    json["domain"] = options.domain;
+    json["time"] = format_utc(grid.time);
+    json["product"] = options.scene.product;
+    json["moment"] = options.scene.moment;
+    json["width"] = scene.width;
+    json["height"] = scene.height;
+    json["partial"] = grid.provenance.partial;
+    if (probe) json["probe"] = json_of(*probe);
+    json["read_s"] = timing.read_s;
+    json["render_s"] = timing.render_s;
+    json["write_s"] = timing.write_s;
+    json["total_s"] = timing.total_s;
+    fmt::print("{}\n", json.dump(1, ' ', true, Json::error_handler_t::replace));
+}
+
+Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& scene,
+                              const cache::GridFile& file) {
+    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
+    const int threads = thread_count(options.scene);
+    const auto as_maybe = [](Result<render::Probe> probe) -> Result<MaybeProbe> {
+        if (!probe) return pass_on(probe);
+        return MaybeProbe{std::move(*probe)};
+    };
+    if (!options.probe.empty()) {
+        const auto pixel = numbers_of("--probe", options.probe, 2);
+        if (!pixel) return pass_on(pixel);
+        const double x = (*pixel)[0];
+        const double y = (*pixel)[1];
+        if (std::floor(x) != x || std::floor(y) != y) {
+            return fail(ErrorCode::bad_argument, "--probe needs two whole numbers, not '{}'",
+                        options.probe);
+        }
+        if (!is_within(x, 0.0, scene.width - 1.0) || !is_within(y, 0.0, scene.height - 1.0)) {
+            return fail(ErrorCode::bad_argument,
+                        "--probe {} lies outside the picture of {} x {} pixels: 0,0 to {},{}",
+                        options.probe, scene.width, scene.height, scene.width - 1,
+                        scene.height - 1);
+        }
+        return as_maybe(render::probe_pixel(file.view(), facts, scene, static_cast<int>(x),
+                                            static_cast<int>(y), threads));
+    }
+    if (!options.probe_at.empty()) {
+        const auto place = numbers_of("--probe-at", options.probe_at, 2);
+        if (!place) return pass_on(place);
+        return as_maybe(
+            render::probe_place(file.view(), facts, scene, {(*place)[0], (*place)[1]}, threads));
+    }
+    return MaybeProbe{};
+}
+
+Result<Timing> make_frame(const FrameOptions& options, const render::Scene& scene,
+                          const cache::GridFile& file, SteadyTime start) {
+    Timing timing;
+    timing.read_s = seconds_since(start);
+    const auto facts = facts_of(options.domain, file.description(), options.scene.time_zone);
+    const int threads = thread_count(options.scene);
+    render::Scene planned = scene;
+    const auto done =
+        plan_picture(file.view(), facts, options.plan, options.json, threads, planned);
+    if (!done) return pass_on(done);
+    const auto picture = render::render_frame(file.view(), facts, planned, threads);
+    if (!picture) return pass_on(picture);
+    if (Status whole = file.check_whole(); !whole) return pass_on(whole);
+    timing.render_s = seconds_since(start) - timing.read_s;
+    const auto bytes = render::encode_png(*picture, metadata_of({options.domain,
+                                                                 file.description().time,
+                                                                 file.description().time,
+                                                                 std::nullopt,
+                                                                 {},
+                                                                 *done},
+                                                                file.description(), planned));
+    if (!bytes) return pass_on(bytes);
+    if (auto written = write_output(options.output, *bytes); !written) return pass_on(written);
+    timing.total_s = seconds_since(start);
+    timing.write_s = timing.total_s - timing.read_s - timing.render_s;
+    return timing;
+}
+
+Status check_options(const FrameOptions& options) {
+    const bool probes = !options.probe.empty() || !options.probe_at.empty();
+    if (!options.probe.empty() && !options.probe_at.empty()) {
+        return fail(ErrorCode::bad_argument, "--probe and --probe-at exclude each other");
+    }
+    if (options.output.empty()) {
+        if (probes) return {};
+        return fail(ErrorCode::bad_argument, "nothing to do: -o, --probe or --probe-at is needed");
+    }
+    return check_output_file(options.output, {".png"}, "a frame is written as PNG", options.json);
+}
+
+int run_frame(FrameOptions options) {
+    const auto start = steady_now();
+    if (options.scene_file.error) return report_error(*options.scene_file.error);
+    if (const Status fine = check_options(options); !fine) return report_error(fine.error());
+    const auto scene = scene_with(options.scene_file, options.scene);
+    if (!scene) return report_error(scene.error());
+    auto plan = plan_beside_slices(options.plan, options.scene);
+    if (!plan) return report_error(plan.error());
+    options.plan = std::move(*plan);
+    const auto store = cache::Store::open_for_reading(options.cache);
+    if (!store) return report_error(store.error());
+    const auto entry = find_grid(*store, options, scene->moment);
+    if (!entry) return report_error(entry.error());
+    if (!*entry) return report_nothing(*store, options, scene->moment);
+    const auto file = cache::GridFile::open((*entry)->path);
+    if (!file) return report_error(file.error());
+    const auto probe = probe_grid(options, *scene, *file);
+    if (!probe) return report_error(probe.error());
+    if (const Status whole = file->check_whole(); !whole) return report_error(whole.error());
+    Timing timing{seconds_since(start), 0, 0, seconds_since(start)};
+    if (!options.output.empty()) {
+        const auto drawn = make_frame(options, *scene, *file, start);
+        if (!drawn) return report_error(drawn.error());
+        timing = *drawn;
+    }
+    report_frame(options, *scene, file->description(), timing, *probe);
+    return exit_done;
+}
+
+}  // namespace
+
+Command add_frame(CLI::App& app) {
+    const auto options = std::make_shared<FrameOptions>();
+    CLI::App* frame = app.add_subcommand("frame", "Draw one still picture of a grid in the cache");
+    add_scene_file(*frame, options->scene_file, options->scene, options->plan, nullptr);
+    frame->add_option("--cache", options->cache, "The cache's directory")->required();
+    frame->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
+        ->required();
+    frame->add_option("--time", options->time,
+                      "UTC, or relative as -1h: the grid at or next before it (default: latest)");
+    frame->add_option("-o,--output", options->output,
+                      "The picture, .png, or - for standard output; needed unless something is "
+                      "probed");
+    frame->add_option("--probe", options->probe,
+                      "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
+    frame->add_option("--probe-at", options->probe_at,
+                      "LAT,LON: say what is at that place (maps and volumes)");
+    frame->add_flag("--json", options->json, "Say what was done as one JSON document");
+    add_scene_options(*frame, options->scene);
+    add_picture_plan_options(*frame, options->plan);
+    return {frame, [options] { return run_frame(*options); }};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,46 @@
+#include "cli/picture/kept_frames.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+namespace stormcellar::cli {
+namespace {
+
+// Empty when there is no such file.
+std::string key_of(const std::filesystem::path& grid, const render::Scene& scene) {
+    struct stat facts {};
+    if (::stat(grid.c_str(), &facts) != 0) return {};
+    return fmt::format("{} {}.{:09} {} {} {} {} {} {}", facts.st_ino, facts.st_mtim.tv_sec,
+                       facts.st_mtim.tv_nsec, facts.st_size, scene.camera.azimuth_deg, scene.slices,
+                       static_cast<int>(scene.integration), scene.pixel_tolerance, grid.native());
+}
+
+}  // namespace
+
+Result<render::Image> KeptFrames::frame(const std::filesystem::path& grid,
+                                        const render::Scene& scene, const Draw& draw) {
+    // Asked before it is drawn: a grid that is replaced meanwhile is another one next time.
+    const std::string key = key_of(grid, scene);
+    if (const auto found = frames_.find(key); found != frames_.end()) {
+        found->second.is_wanted = true;
+        return found->second.image;
+    }
+    auto drawn = draw();
+    if (!drawn || key.empty() || bytes_ + drawn->rgba.size() > limit_) return drawn;
+    bytes_ += drawn->rgba.size();
+    frames_.emplace(key, Kept{*drawn});
+    return drawn;
+}
+
+void KeptFrames::next_loop() {
+    for (auto at = frames_.begin(); at != frames_.end();) {
+        if (std::exchange(at->second.is_wanted, false)) {
+            ++at;
+        } else {
+            bytes_ -= at->second.image.rgba.size();
+            at = frames_.erase(at);
+        }
+    }
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,52 @@
+#include "cli/picture/picture.h"
+
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
+#include "cli/shared/commands.h"
+
+namespace stormcellar::cli {
+
+namespace {
+
+// Of which the domain keeps grids, whenever they are from.
+std::vector<std::string_view> moments_kept(const cache::Store& store, const std::string& domain) {
+    std::vector<std::string_view> kept;
+    for (const level2::Moment moment : level2::all_moments) {
+        const auto entries = store.list(domain, moment, std::nullopt, std::nullopt);
+        if (entries && !entries->empty()) kept.push_back(level2::moment_name(moment));
+    }
+    return kept;
+}
+
+}  // namespace
+
+int report_no_grid(const cache::Store& store, const std::string& domain, level2::Moment moment,
+                   const std::string& when) {
+    const auto kept = moments_kept(store, domain);
+    const std::string_view name = level2::moment_name(moment);
+    std::string why;
+    if (!kept.empty() && std::find(kept.begin(), kept.end(), name) == kept.end()) {
+        why = fmt::format("no {} of domain '{}' is kept; it keeps {}", name, domain,
+                          fmt::join(kept, ", "));
+    } else {
+        const auto domains = store.domains();
+        why = fmt::format("no grid of domain '{}'{}; {}", domain, when,
+                          !domains || domains->empty()
+                              ? std::string{"the cache is empty"}
+                              : fmt::format("domains are {}", fmt::join(*domains, ", ")));
+    }
+    fmt::print(stderr, "stormcellar: {}\n",
+               printable(fmt::format("{}: {}", store.directory().native(), why)));
+    return exit_nothing_matched;
+}
+
+std::string ascii(std::string_view text) {
+    std::string safe = printable(text);
+    std::replace_if(
+        safe.begin(), safe.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7E; }, '?');
+    return safe;
+}
+
+}  // namespace stormcellar::cli

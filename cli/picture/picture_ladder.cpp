@@ -1,0 +1,66 @@
+#include "cli/picture/picture_ladder.h"
+
+#include <algorithm>
+
+#include "render/plan/volume_plan.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/render/render.h"
+
+namespace stormcellar::cli {
+namespace {
+
+Result<grid::BrickGrid> bricks_for(const SourceVolume& source, const GridRequest& request,
+                                   const grid::GridSpec& spec) {
+    const auto columns = grid::make_column_geometry(source.site, spec);
+    if (!columns) return pass_on(columns);
+    grid::GridderOptions options;
+    options.moment = request.moment;
+    options.threads = request.threads;
+    const auto grid = grid::make_grid(source.volume, source.site, **columns, options);
+    if (!grid) return pass_on(grid);
+    return grid::BrickGrid::from(*grid, grid::default_quantization(request.moment));
+}
+
+// Without light, and with all of it for the steps that are light's own.
+Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
+                                                  const GridRequest& request) {
+    render::Scene scene;
+    scene.moment = request.moment;
+    render::VolumeScene drawn(view, render::colours_of(scene), scene, scene.width, scene.height,
+                              request.threads);
+    auto rows = render::run_ladder(drawn, render::volume_chain());
+    if (!rows) return pass_on(rows);
+    const auto lit = render::run_ladder(drawn, render::volume_chain({true, true, true}));
+    if (!lit) return pass_on(lit);
+    for (const accuracy::LadderRow& row : *lit) {
+        if (row.step == "surface" || row.step == "light") rows->push_back(row);
+    }
+    return rows;
+}
+
+}  // namespace
+
+Result<std::vector<accuracy::LadderRow>> ladder_of_picture(const SourceVolume& source,
+                                                           const GridRequest& request,
+                                                           const grid::GridSpec& spec, int rounds) {
+    const auto bricks = bricks_for(source, request, spec);
+    if (!bricks) return pass_on(bricks);
+    const grid::BrickView view = bricks->view();
+    const bool any_value = std::any_of(view.bricks.begin(), view.bricks.end(),
+                                       [](const auto& brick) { return brick.value_count > 0; });
+    if (!any_value)
+        return fail(ErrorCode::not_found, "there is nothing to draw: no cell has a value");
+    auto rows = run_both(view, request);
+    for (int round = 1; rows && round < rounds; ++round) {
+        const auto again = run_both(view, request);
+        if (!again) return pass_on(again);
+        for (std::size_t i = 0; i < rows->size(); ++i)
+            (*rows)[i].time_s = std::min((*rows)[i].time_s, (*again)[i].time_s);
+    }
+    if (rows) accuracy::mark_pareto(*rows);
+    return rows;
+}
+
+}  // namespace stormcellar::cli

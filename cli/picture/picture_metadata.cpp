@@ -1,0 +1,91 @@
+#include "cli/picture/picture_metadata.h"
+
+#include <fmt/ranges.h>
+
+#include "cli/picture/picture.h"
+#include "render/products/product.h"
+#include "stormcellar/base/version.h"
+#include "stormcellar/grid/grid_spec.h"
+
+namespace stormcellar::cli {
+namespace {
+
+std::string title_of(const PictureFacts& facts) {
+    if (!facts.frames) return fmt::format("{} {}", facts.domain, format_utc(facts.first));
+    return fmt::format("{} {} to {}", facts.domain, format_utc(facts.first),
+                       format_utc(facts.last));
+}
+
+std::string grid_text(const grid::GridSpec& spec) {
+    const bool in_degrees = spec.projection == grid::Projection::latitude_longitude;
+    std::string text =
+        fmt::format("{} x {} x {} cells of {:g} {}, {}", spec.nx, spec.ny, spec.nz(),
+                    in_degrees ? spec.spacing_deg : spec.spacing_m / 1000,
+                    in_degrees ? "degrees" : "km", grid::projection_name(spec.projection));
+    text +=
+        fmt::format(" about {:.4f} {:.4f}", spec.center_latitude_deg, spec.center_longitude_deg);
+    if (!spec.levels_m.empty()) {
+        text += fmt::format(", levels {:g} to {:g} km", spec.levels_m.front() / 1000,
+                            spec.levels_m.back() / 1000);
+    }
+    return text;
+}
+
+std::string gridding_text(const grid::Provenance& provenance) {
+    std::vector<std::string> parts{provenance.method, provenance.beam_model};
+    if (!provenance.averaging.empty()) parts.push_back("averaged in " + provenance.averaging);
+    if (!provenance.effects.empty()) parts.push_back(provenance.effects);
+    std::erase(parts, "");
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string picture_text(const render::Scene& scene) {
+    if (scene.product != render::Product::volume) {
+        return fmt::format("{} x {} pixels", scene.width, scene.height);
+    }
+    const bool every_pixel = !(scene.pixel_tolerance > 0);
+    return fmt::format("{} x {} pixels, {} slices, {} integration, light {}, {}{}", scene.width,
+                       scene.height, scene.slices, render::integration_name(scene.integration),
+                       render::light_names(scene.light),
+                       every_pixel ? "a ray for every pixel" : "rays as many as the picture needs",
+                       scene.curved_earth ? ", curved earth" : "");
+}
+
+}  // namespace
+
+Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
+                     const render::Scene& scene) {
+    const grid::Provenance& provenance = grid.provenance;
+    const std::string stations = fmt::format("{}", fmt::join(provenance.stations, " "));
+    Metadata all;
+    const auto add = [&](std::string keyword, const std::string& text) {
+        if (!text.empty()) all.emplace_back(std::move(keyword), ascii(text));
+    };
+    add("Title", title_of(facts));
+    add("Description",
+        fmt::format("{}; gridded by {}, {}; {}", render::product_title(scene), provenance.method,
+                    provenance.beam_model,
+                    facts.frames
+                        ? "stations " + stations
+                        : fmt::format("from {}", fmt::join(provenance.source_files, " "))));
+    add("First time", format_utc(facts.first));
+    if (facts.frames) {
+        add("Last time", format_utc(facts.last));
+        add("Frames", fmt::format("{}", *facts.frames));
+    }
+    add("Domain", facts.domain);
+    add("Stations", stations);
+    add("Product", std::string(render::product_name(scene.product)));
+    add("Moment", std::string(level2::moment_name(scene.moment)));
+    add("Units", render::unit_shown(scene));
+    add("Grid", grid_text(grid.spec));
+    add("Gridding", gridding_text(provenance));
+    add("Gridding error", provenance.predicted_error);
+    add("Between grids", facts.between);
+    add("Picture", picture_text(scene));
+    add("Picture error", facts.error);
+    add("Software", fmt::format("stormcellar {}", software_version));
+    return all;
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,180 @@
+#include "cli/query/cache_change.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/byte_size.h"
+#include "cache/evict.h"
+#include "cache/pins.h"
+#include "cli/shared/query_options.h"
+
+namespace stormcellar::cli {
+namespace {
+
+using cache::Store;
+using cache::StoreEntry;
+
+struct EvictOptions {
+    std::string directory, domain;
+    std::string to, bytes;
+    std::optional<double> older_than_h;
+    bool dry_run = false, json = false;
+};
+
+Result<cache::EvictionOrder> order_of(const EvictOptions& options) {
+    cache::EvictionOrder order;
+    order.domain = options.domain;
+    if (options.to.empty() && options.bytes.empty() && !options.older_than_h) {
+        return fail(ErrorCode::bad_argument,
+                    "say what shall go: --to TIME, --bytes SIZE or --older-than HOURS");
+    }
+    if (!options.to.empty()) {
+        const auto to = parse_utc(options.to, now_utc());
+        if (!to) return fail(ErrorCode::bad_argument, "--to: {}", to.error().message);
+        order.to = *to;
+    }
+    if (!options.bytes.empty()) {
+        const auto bytes = parse_byte_size(options.bytes);
+        if (!bytes) return fail(ErrorCode::bad_argument, "--bytes: {}", bytes.error().message);
+        order.bytes = *bytes;
+    }
+    if (options.older_than_h) {
+        if (!(*options.older_than_h >= 0 && *options.older_than_h <= 1e6)) {
+            return fail(ErrorCode::bad_argument, "--older-than: {} is not 0 to 1000000 hours",
+                        *options.older_than_h);
+        }
+        order.older_than = std::chrono::milliseconds{std::llround(*options.older_than_h * 3.6e6)};
+    }
+    return order;
+}
+
+nlohmann::json json_of(const StoreEntry& entry) {
+    return {{"domain", entry.domain},
+            {"moment", level2::moment_name(entry.moment)},
+            {"time", format_utc(entry.time)},
+            {"bytes", entry.bytes_on_disk},
+            {"path", entry.path.string()}};
+}
+
+void print_evicted(const EvictOptions& options, const cache::EvictionPlan& plan,
+                   const std::vector<StoreEntry>& gone) {
+    std::uint64_t bytes = 0;
+    nlohmann::json list = nlohmann::json::array();
+    for (const StoreEntry& entry : gone) {
+        bytes += entry.bytes_on_disk;
+        if (options.json) {
+            list.push_back(json_of(entry));
+        } else {
+            fmt::print("{}\n", printable(entry.path.native()));
+        }
+    }
+    if (options.json) {
+        print_json({{"dry_run", options.dry_run},
+                    {"evicted", list},
+                    {"bytes", bytes},
+                    {"looked_at", plan.looked_at},
+                    {"pinned", plan.pinned}});
+        return;
+    }
+    fmt::print("{} of {} {} {}, {}; {} {} pinned\n", gone.size(), plan.looked_at,
+               plural(plan.looked_at, "grid"), options.dry_run ? "would go" : "went",
+               format_byte_size(bytes), plan.pinned, plan.pinned == 1 ? "is" : "are");
+}
+
+int run_evict(const EvictOptions& options) {
+    const auto order = order_of(options);
+    if (!order) return report_error(order.error());
+    const auto store = Store::open_for_reading(options.directory);
+    if (!store) return report_error(store.error());
+    const auto plan = cache::plan_eviction(*store, *order, now_utc());
+    if (!plan) return report_error(plan.error());
+    cache::EvictionReport report;
+    if (!options.dry_run) report = cache::evict(real_file_system(), plan->victims);
+    print_evicted(options, *plan, options.dry_run ? plan->victims : report.evicted);
+    if (plan->looked_at == 0) return report_nothing_matched();
+    int status = exit_done;
+    for (const std::string& problem : report.problems)
+        status = report_error({ErrorCode::io, problem});
+    if (order->bytes && plan->bytes_left > *order->bytes) {
+        status =
+            report_error({ErrorCode::over_budget,
+                          fmt::format("{} remain: they are pinned or the newest of their domains",
+                                      format_byte_size(plan->bytes_left))});
+    }
+    return status;
+}
+
+struct PinOptions {
+    std::string directory, domain;
+    TimeRangeOptions times;
+    bool json = false;
+};
+
+// Pins or unpins every grid of the domain in the range; what is evicted meanwhile is left out.
+int run_pin(const PinOptions& options, bool pin) {
+    const auto range = parse_time_range(options.times);
+    if (!range) return report_error(range.error());
+    const auto store = Store::open_for_reading(options.directory);
+    if (!store) return report_error(store.error());
+    nlohmann::json changed = nlohmann::json::array();
+    for (const level2::Moment moment : level2::all_moments) {
+        const auto entries = store->list(options.domain, moment, range->from, range->to);
+        if (!entries) return report_error(entries.error());
+        for (const StoreEntry& entry : *entries) {
+            // Whether there was anything to do.
+            const Result<bool> done =
+                pin ? cache::pin_grid(real_file_system(), entry.path).map([] { return true; })
+                    : cache::unpin_grid(real_file_system(), entry.path);
+            if (!done && done.error().code == ErrorCode::not_found) continue;
+            if (!done) return report_error(done.error());
+            if (!*done) continue;
+            changed.push_back(json_of(entry));
+            if (!options.json) fmt::print("{}\n", printable(entry.path.native()));
+        }
+    }
+    if (options.json) print_json({{pin ? "pinned" : "unpinned", changed}});
+    return changed.empty() ? report_nothing_matched() : exit_done;
+}
+
+Command add_evict(CLI::App& cache) {
+    CLI::App* evict = cache.add_subcommand(
+        "evict", "Remove the oldest grids, beside a running daemon too; pinned ones stay");
+    const auto options = std::make_shared<EvictOptions>();
+    evict->add_option("--cache", options->directory, "The cache's directory")->required();
+    evict->add_option("--domain", options->domain, "One domain and its parts; all when left out");
+    evict->add_option("--to", options->to,
+                      "All up to this time, itself and the newest included: UTC, or -1h, now");
+    evict->add_option(
+        "--bytes", options->bytes,
+        "The oldest, until the rest takes no more than this, as 20 GB; those of stations "
+        "that nobody knows first; the newest of each other domain stays");
+    evict->add_option("--older-than", options->older_than_h,
+                      "All more hours than this before the newest of the same domain");
+    evict->add_flag("--dry-run", options->dry_run, "Only say what would go");
+    evict->add_flag("--json", options->json, "Print one JSON document");
+    return {evict, [=] { return run_evict(*options); }};
+}
+
+Command add_pin(CLI::App& cache, bool pin) {
+    CLI::App* command =
+        pin ? cache.add_subcommand("pin", "Have grids stay until they are unpinned")
+            : cache.add_subcommand("unpin", "Let pinned grids go with the others again");
+    const auto options = std::make_shared<PinOptions>();
+    command->add_option("--cache", options->directory, "The cache's directory")->required();
+    command->add_option("--domain", options->domain, "Whose grids")->required();
+    add_time_range(*command, options->times);
+    command->add_flag("--json", options->json, "Print one JSON document");
+    return {command, [=] { return run_pin(*options, pin); }};
+}
+
+}  // namespace
+
+Commands add_cache_changes(CLI::App& cache) {
+    return {add_evict(cache), add_pin(cache, true), add_pin(cache, false)};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,11 @@
+// cli/query/cache_change.h -- `stormcellar cache evict|pin|unpin`: what changes the cache.
+#pragma once
+
+#include "cli/shared/commands.h"
+
+namespace stormcellar::cli {
+
+// Adds the subcommands to `cache`.
+[[nodiscard]] Commands add_cache_changes(CLI::App& cache);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,23 @@
+// cli/query/catalog_care.h -- `stormcellar catalog check` and `catalog rebuild`.
+#pragma once
+
+#include <string>
+
+namespace stormcellar::cli {
+
+struct CareOptions {
+    std::string directory;  // state/catalog
+    std::string drop;       // of rebuild
+    std::string station;    // empty: all
+    // Which stations are known: "known" (the table), "any", or a list of names and "known".
+    std::string stations = "known";
+    bool clear_unknown = false;  // of check: first remove the databases of other stations
+    bool json = false;
+};
+
+// Both print what they found and give the exit status: 0 only where nothing is wrong (check), or
+// nothing is wrong any more (rebuild; rows that were lost are said and are no failure).
+int check_catalog(const CareOptions& options);
+int rebuild_catalog(const CareOptions& options);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,67 @@
+// stormcellar status: what the running daemon says of itself.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/query/status_source.h"
+#include "cli/query/status_table.h"
+#include "cli/shared/commands.h"
+#include "cli/shared/query_options.h"
+#include "cli/shared/short_duration.h"
+#include "stormcellar/base/utc_time.h"
+
+namespace stormcellar::cli {
+namespace {
+
+std::optional<double> age_of(const nlohmann::json& status, UtcTime now) {
+    const auto updated = status.find("updated");
+    if (updated == status.end() || !updated->is_string()) return std::nullopt;
+    const auto time = parse_utc(updated->get<std::string>(), now);
+    if (!time) return std::nullopt;
+    return std::chrono::duration<double>(now - *time).count();
+}
+
+int run_status(const StatusOptions& options) {
+    const auto places = places_of(options);
+    if (!places) return report_error(places.error());
+    auto found = find_status(*places);
+    if (!found) return report_error(found.error());
+    add_loops(found->document, places->loops);
+    const UtcTime now = now_utc();
+    const std::optional<double> age_s = age_of(found->document, now);
+    const bool answered = found->silent.empty();
+    if (!answered) {
+        fmt::print(stderr, "stormcellar: no daemon answers ({}); {} is {} old\n",
+                   printable(found->silent), printable(found->from.native()),
+                   short_duration(age_s));
+    }
+    if (options.json) {
+        nlohmann::json age = nullptr;
+        if (age_s) age = *age_s;
+        found->document["source"] = {
+            {"answered", answered}, {"from", printable(found->from.native())}, {"age_s", age}};
+        print_json(found->document);
+    } else {
+        fmt::print("{}", status_table(found->document, now));
+    }
+    return answered ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+Command add_status(CLI::App& app) {
+    const auto options = std::make_shared<StatusOptions>();
+    CLI::App* status = app.add_subcommand("status", "What the running daemon says of itself");
+    auto* socket = status->add_option("--socket", options->socket,
+                                      "Ask on this Unix socket, else in the usual places");
+    auto* state = status->add_option("--state", options->state, "The daemon's state directory")
+                      ->excludes(socket);
+    status->add_option("--config", options->config, "The daemon's configuration, which names them")
+        ->excludes(socket)
+        ->excludes(state);
+    status->add_flag("--json", options->json, "Print one JSON document");
+    return {status, [options] { return run_status(*options); }};
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,58 @@
+// cli/shared/effect_options.h -- the options that say how exactly to grid, and what they ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/plan/effects.h"
+#include "stormcellar/accuracy/budget.h"
+#include "stormcellar/accuracy/chain.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/mosaic.h"
+#include "stormcellar/grid/refractivity.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stormcellar::cli {
+
+inline constexpr std::string_view default_profile = "exponential";
+
+// As they were typed.
+struct EffectOptions {
+    std::string method;
+    std::string averaging;
+    std::vector<std::string> effects;
+    std::string tolerance;
+    std::string profile{default_profile};
+    std::string time_method;  // of several volumes; add_mosaic_options() adds it
+    bool explain = false;
+};
+
+void add_effect_options(CLI::App& app, EffectOptions& options);
+
+struct EffectRequest {
+    accuracy::Chain chain;  // with the settings asked for
+    grid::Averaging averaging = grid::Averaging::in_db;
+    std::optional<accuracy::Budget> budget;
+    grid::RefractivityProfile profile = grid::RefractivityProfile::reference();
+    std::optional<double> sounding_from_m;  // the first level, where the profile is a sounding
+    bool profile_bends_nothing = false;     // one was given, and refraction is off
+    bool explain = false;
+
+    // Something has to be predicted for the scene.
+    [[nodiscard]] bool needs_plan() const { return budget.has_value() || explain; }
+};
+
+// A profile other than the default turns refraction on, unless that is set already or a tolerance
+// leaves it to the planner. Of several volumes, which overlap by this rule, the chain is that of
+// their mosaic (pipeline/mosaic/mosaic_effects.h). Errors: bad_argument, naming the option; io and
+// permission of a sounding that cannot be read.
+[[nodiscard]] Result<EffectRequest> parse_effects(
+    const EffectOptions& options, level2::Moment moment,
+    std::optional<grid::Overlap> overlap = std::nullopt);
+
+}  // namespace stormcellar::cli

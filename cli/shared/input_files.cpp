@@ -1,0 +1,273 @@
+#include "cli/shared/input_files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "stormcellar/archive/archive_reader.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/base/station_table.h"
+#include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/level2/chunk_name.h"
+
+namespace stormcellar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view standard_input = "standard input";
+constexpr std::uint64_t most_piped_bytes = std::uint64_t{4} << 30;
+
+// All that comes of what can be read once only.
+Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label) {
+    std::vector<std::byte> bytes;
+    for (;;) {
+        const std::size_t at = bytes.size();
+        if (at > most_piped_bytes) {
+            return fail(ErrorCode::unsupported, "{}: more than {} bytes", label, most_piped_bytes);
+        }
+        bytes.resize(at + (std::size_t{1} << 20));
+        const ssize_t got = ::read(descriptor, bytes.data() + at, bytes.size() - at);
+        if (got < 0 && errno != EINTR) {
+            return fail(ErrorCode::io, "{}: {}", label, std::system_category().message(errno));
+        }
+        bytes.resize(at + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+        if (got == 0) return bytes;
+    }
+}
+
+}  // namespace
+
+// An archive that is read from one member to the next.
+class OpenArchive {
+  public:
+    // None where it is no archive.
+    // `piped`: its bytes, where they came through a pipe.
+    static std::unique_ptr<OpenArchive> open(const fs::path& path,
+                                             const std::vector<std::byte>* piped) {
+        auto opened = std::make_unique<OpenArchive>();
+        if (piped != nullptr) {
+            opened->reader_ = archive::ArchiveReader::open(*piped);
+        } else {
+            opened->file_ = Descriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+            if (opened->file_.number() < 0) return nullptr;
+            opened->reader_ = archive::ArchiveReader::open(opened->file_.number());
+        }
+        return opened->reader_ ? std::move(opened) : nullptr;
+    }
+    [[nodiscard]] archive::ArchiveReader& reader() { return *reader_; }
+
+  private:
+    Descriptor file_{-1};
+    std::optional<archive::ArchiveReader> reader_;
+};
+
+namespace {
+
+bool is_hidden(const fs::path& path) {
+    return path.filename().native().starts_with('.');
+}
+
+bool holds_chunks(const fs::path& directory) {
+    std::error_code error;
+    for (fs::directory_iterator entry{directory, error}, end; !error && entry != end;
+         entry.increment(error)) {
+        if (level2::parse_chunk_name(entry->path().filename().native())) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::string InputFile::file_name() const {
+    if (path.empty() && member.empty()) return label;
+    return member.empty() ? path.filename().string() : fs::path{member}.filename().string();
+}
+
+struct InputFiles::Impl {
+    std::vector<InputFile> files;
+    std::vector<std::string> left_out;
+    // What came through pipes, by path; standard input has an empty one.
+    std::map<fs::path, std::vector<std::byte>> piped;
+    // The archive that was read last, and where in it.
+    std::unique_ptr<OpenArchive> open;
+    fs::path open_path;
+
+    Status add(const std::string& name);
+    Status add_piped(const std::string& label, const fs::path& path, int descriptor);
+    Status add_directory(const fs::path& directory);
+    // False where it is no archive.
+    bool add_archive(const std::string& label, const fs::path& path);
+    Result<std::vector<std::byte>> read_member(const InputFile& file);
+    // None: the file is read where it lies.
+    [[nodiscard]] const std::vector<std::byte>* piped_of(const fs::path& path) const {
+        const auto found = piped.find(path);
+        return found == piped.end() ? nullptr : &found->second;
+    }
+};
+
+bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& path) {
+    auto archive = OpenArchive::open(path, piped_of(path));
+    if (!archive) return false;
+    while (const auto member = archive->reader().next()) {
+        files.push_back(
+            {fmt::format("{}{}{}", label, member_mark, member->name), path, member->name, true});
+    }
+    for (const archive::LeftOut& one : archive->reader().left_out()) {
+        left_out.push_back(
+            one.name.empty() ? fmt::format("{}: {}", label, one.reason)
+                             : fmt::format("{}{}{}: {}", label, member_mark, one.name, one.reason));
+    }
+    return true;
+}
+
+Status InputFiles::Impl::add_piped(const std::string& label, const fs::path& path, int descriptor) {
+    if (piped.contains(path)) {
+        return fail(ErrorCode::bad_argument, "{}: can be read once only", label);
+    }
+    auto bytes = read_piped(descriptor, label);
+    if (!bytes) return pass_on(bytes);
+    piped[path] = std::move(*bytes);
+    if (!add_archive(label, path)) files.push_back({label, path, {}, false});
+    return {};
+}
+
+Status InputFiles::Impl::add_directory(const fs::path& directory) {
+    if (holds_chunks(directory)) {
+        files.push_back({directory.native(), directory, {}, false});
+        return {};
+    }
+    std::vector<fs::path> found;
+    std::error_code error;
+    for (fs::recursive_directory_iterator walk{directory, error}, end; !error && walk != end;
+         walk.increment(error)) {
+        std::error_code ignored;
+        if (!is_hidden(walk->path()) && walk->is_regular_file(ignored)) {
+            found.push_back(walk->path());
+        }
+    }
+    if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
+    std::sort(found.begin(), found.end());
+    for (const fs::path& path : found) {
+        if (!add_archive(path.native(), path)) files.push_back({path.native(), path, {}, true});
+    }
+    return {};
+}
+
+Status InputFiles::Impl::add(const std::string& name) {
+    if (name == "-") return add_piped(std::string{standard_input}, {}, STDIN_FILENO);
+    const fs::path path{name};
+    std::error_code error;
+    if (fs::is_directory(path, error)) return add_directory(path);
+    if (const auto member = archive::member_path_of(path)) {
+        files.push_back({name, member->archive, member->member, false});
+        return {};
+    }
+    if (fs::is_fifo(path, error) || fs::is_character_file(path, error)) {
+        const Descriptor pipe{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+        if (!pipe.is_open()) {
+            return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));
+        }
+        return add_piped(name, path, pipe.number());
+    }
+    if (!fs::is_regular_file(path, error) || !add_archive(name, path)) {
+        files.push_back({name, path, {}, false});
+    }
+    return {};
+}
+
+Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& file) {
+    // Once on from where the last one was read, and once from the start.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        if (!open || open_path != file.path || attempt > 0) {
+            open = OpenArchive::open(file.path, piped_of(file.path));
+            open_path = file.path;
+            attempt = 1;
+        }
+        while (open) {
+            auto member = open->reader().next();
+            if (!member) break;
+            if (member->name == file.member) return std::move(member->bytes);
+        }
+    }
+    open.reset();
+    return fail(ErrorCode::not_found, "{}: the archive has no such member", file.label);
+}
+
+InputFiles::InputFiles(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+InputFiles::InputFiles(InputFiles&&) noexcept = default;
+InputFiles& InputFiles::operator=(InputFiles&&) noexcept = default;
+InputFiles::~InputFiles() = default;
+
+Result<InputFiles> InputFiles::find(const std::vector<std::string>& names) {
+    auto impl = std::make_unique<Impl>();
+    for (const std::string& name : names) {
+        const std::size_t before = impl->files.size();
+        const std::size_t left_out_before = impl->left_out.size();
+        if (Status added = impl->add(name); !added) return pass_on(added);
+        if (impl->files.size() == before) {
+            return fail(
+                ErrorCode::not_found, "{}: holds no file{}", name,
+                impl->left_out.size() == left_out_before ? "" : "; " + impl->left_out.back());
+        }
+    }
+    return InputFiles(std::move(impl));
+}
+
+const std::vector<InputFile>& InputFiles::files() const {
+    return impl_->files;
+}
+
+std::vector<std::string> InputFiles::labels() const {
+    std::vector<std::string> labels;
+    for (const InputFile& file : impl_->files)
+        labels.push_back(file.label);
+    return labels;
+}
+
+bool InputFiles::is_found(const std::string& label) const {
+    const auto file = std::ranges::find(impl_->files, label, &InputFile::label);
+    return file != impl_->files.end() && file->was_found;
+}
+
+const std::vector<std::string>& InputFiles::left_out() const {
+    return impl_->left_out;
+}
+
+Result<std::vector<std::byte>> InputFiles::read(const InputFile& file) {
+    if (!file.member.empty()) return impl_->read_member(file);
+    if (const auto* const piped = impl_->piped_of(file.path)) return *piped;
+    return read_file(file.path);
+}
+
+Result<level2::Decoded> InputFiles::decode(const InputFile& file, level2::DecodeOptions options,
+                                           std::uint64_t* bytes) {
+    std::error_code ignored;
+    if (file.member.empty() && fs::is_directory(file.path, ignored)) {
+        return level2::decode_path(file.path, options);
+    }
+    const auto read_bytes = read(file);
+    if (!read_bytes) return pass_on(read_bytes);
+    if (bytes != nullptr) *bytes = read_bytes->size();
+    if (options.fallback_station.empty()) {
+        options.fallback_station = station_in_name(file.file_name());
+    }
+    auto decoded = level2::decode(*read_bytes, options);
+    if (!decoded) {
+        return fail(decoded.error().code, "{}: {}", file.label, decoded.error().message);
+    }
+    return decoded;
+}
+
+bool is_no_volume(const Error& error) {
+    return error.code == ErrorCode::not_level2 || error.code == ErrorCode::empty;
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,21 @@
+#include "cli/shared/problem_notes.h"
+
+#include <fmt/format.h>
+
+namespace stormcellar::cli {
+
+std::vector<std::string> notes_of(const level2::DecodeReport& report) {
+    constexpr std::size_t most_problems_noted = 20;
+    std::vector<std::string> notes;
+    for (const level2::Problem& problem : report.problems) {
+        if (notes.size() == most_problems_noted) {
+            notes.push_back(
+                fmt::format("and {} more problems", report.problems.size() - notes.size()));
+            break;
+        }
+        notes.push_back(problem.text());
+    }
+    return notes;
+}
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,50 @@
+// cli/shared/query_options.h -- times, JSON and small things that several query commands share.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "pipeline/options/domain.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stormcellar::cli {
+
+// --from and --to as they were typed; both inclusive, empty: open.
+struct TimeRangeOptions {
+    std::string from;
+    std::string to;
+};
+void add_time_range(CLI::App& app, TimeRangeOptions& options);
+
+struct TimeRange {
+    std::optional<UtcTime> from, to;
+};
+// bad_argument when one of them is no time, or they are the wrong way round.
+[[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
+
+// The document on stdout, two spaces a level. Characters beyond ASCII are written as \uXXXX, which
+// says the same to a program and keeps names from acting on a terminal. Bytes that are not UTF-8
+// become U+FFFD.
+void print_json(const nlohmann::json& document);
+
+// Warns on stderr of what is shown as the newest and lies in the future (is_believed()).
+void warn_of_future(UtcTime newest);
+
+// Says so on stderr; gives the exit status.
+int report_nothing_matched();
+
+[[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none
+
+// "KBGM,KENX", sorted, each once. Errors: bad_argument.
+[[nodiscard]] Result<std::vector<std::string>> parse_stations(const std::string& text);
+// "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
+[[nodiscard]] Result<pipeline::Bounds> parse_bounds(const std::string& text);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,15 @@
+// cli/shared/short_duration.h -- how long something takes, in a few characters for people.
+//
+// Thread contract: a pure function.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace stormcellar::cli {
+
+// "85 ms", "4.2 s", "42 s", "12 min", "3.2 h", "5 d", "4.1 y"; "-" for none; a minus before what
+// lies ahead.
+[[nodiscard]] std::string short_duration(std::optional<double> seconds);
+
+}  // namespace stormcellar::cli

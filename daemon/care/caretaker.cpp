@@ -1,0 +1,199 @@
+#include "daemon/care/caretaker.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <pthread.h>
+
+#include "base/printable.h"
+#include "daemon/log/log.h"
+#include "daemon/status/status_names.h"
+
+namespace stormcellar::daemon {
+
+using pipeline::GridCondition;
+using pipeline::MendDepth;
+
+namespace {
+
+constexpr std::chrono::milliseconds look_again{100};
+
+void log_problem(std::string_view what, const Error& error) {
+    log_warning({.event = Event::care_failed, .reason = name_of(error.code)}, "{}: {}", what,
+                printable(error.message));
+}
+
+// A database that cannot be used at all is named by the service.
+bool is_in_trouble(const catalog::Catalog& catalog, const std::string& station) {
+    const auto troubles = catalog.troubles();
+    return std::any_of(troubles.begin(), troubles.end(),
+                       [&](const catalog::Trouble& trouble) { return trouble.station == station; });
+}
+
+}  // namespace
+
+Caretaker::Caretaker(CareOf of, CareTimes times, CareLinks links)
+    : of_(of), times_(times), links_(std::move(links)), thread_([this] { run(); }) {}
+
+Caretaker::~Caretaker() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+bool Caretaker::pause(std::chrono::milliseconds least) {
+    pulse_.rest();
+    std::unique_lock lock(mutex_);
+    const auto stopped = [this] { return stopping_; };
+    if (changed_.wait_for(lock, least, stopped)) return false;
+    while (!links_.is_idle()) {
+        if (changed_.wait_for(lock, look_again, stopped)) return false;
+    }
+    pulse_.beat();
+    return true;
+}
+
+bool Caretaker::rest(std::chrono::milliseconds least) {
+    const auto until = std::chrono::steady_clock::now() + least;
+    while (true) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+        if (!pause(std::clamp(left, std::chrono::milliseconds{0}, times_.between_looks))) {
+            return false;
+        }
+        if (!compare_sites()) return false;
+        if (std::chrono::steady_clock::now() >= until) return true;
+    }
+}
+
+bool Caretaker::compare_sites() {
+    if (std::chrono::steady_clock::now() < next_look_) return true;
+    while (true) {
+        if (!pause({})) return false;
+        auto report = of_.sites.compare_next();
+        if (!report || !*report) break;  // of a cache that cannot be read the rounds tell
+        links_.compared(std::move(**report));
+    }
+    next_look_ = std::chrono::steady_clock::now() + times_.between_looks;
+    return true;
+}
+
+void Caretaker::run() {
+    ::pthread_setname_np(::pthread_self(), "caretaker");
+    try {
+        if (!pause({})) return;
+        examine_databases();
+        if (!check_grids(MendDepth::header, {})) return;
+        do {
+            refill();
+            if (!check_grids(MendDepth::all, times_.between_grids)) return;
+        } while (rest(times_.between_rounds));
+    } catch (const std::exception& error) {
+        log_error({Event::care_failed}, "grids are not looked after any more: {}", error.what());
+    }
+    pulse_.rest();
+}
+
+// What was mended is logged by the service, which then scans for the files.
+void Caretaker::examine_databases() {
+    const auto stations = of_.catalog.station_names();
+    if (!stations) return log_problem("cannot examine the catalog", stations.error());
+    for (const std::string& station : *stations) {
+        if (!pause({})) return;
+        const Status sound = of_.catalog.examine(station);
+        if (!sound && !is_in_trouble(of_.catalog, station))
+            log_problem("cannot mend a database", sound.error());
+    }
+}
+
+bool Caretaker::check_grids(MendDepth depth, std::chrono::milliseconds between) {
+    const auto domains = of_.store.domains();
+    if (!domains) {
+        log_problem("cannot look into the cache", domains.error());
+        return true;
+    }
+    for (const std::string& domain : *domains) {
+        for (const level2::Moment moment : level2::all_moments) {
+            pulse_.beat();
+            const auto entries = of_.store.list(domain, moment, std::nullopt, std::nullopt);
+            if (!entries) {
+                log_problem("cannot look into the cache", entries.error());
+                continue;
+            }
+            for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry) {
+                if (!rest(between)) return false;
+                mend(*entry, depth);
+            }
+        }
+    }
+    return true;
+}
+
+void Caretaker::mend(const cache::StoreEntry& entry, MendDepth depth) {
+    const auto mended = of_.mender.mend(entry, depth);
+    if (!mended) return log_problem("cannot mend a damaged grid", mended.error());
+    const std::string reason = printable(mended->reason);
+    const About about{.event = Event::grid_damaged,
+                      .volume = entry.time,
+                      .file = entry.path,
+                      .domain = entry.domain};
+    About unchecked = about;
+    unchecked.event = Event::grid_unchecked;
+    switch (mended->condition) {
+        case GridCondition::sound:
+            break;
+        case GridCondition::made_again:
+            log_warning(about, "damaged grid {}: dropped, and made again from {}", reason,
+                        printable(mended->from));
+            break;
+        case GridCondition::dropped:
+            log_warning(about, "damaged grid {}: dropped; it cannot be made again: {}", reason,
+                        printable(mended->why_not));
+            break;
+        case GridCondition::left_alone:
+            log_warning(unchecked, "grid {}: cannot be checked", reason);
+            break;
+    }
+}
+
+void Caretaker::refill() {
+    if (times_.refill <= std::chrono::milliseconds{0}) return;
+    const auto missing = of_.mender.missing(times_.refill, [this] { pulse_.beat(); });
+    if (!missing) return log_problem("cannot look for missing grids", missing.error());
+    for (const pipeline::MissingGrid& grid : *missing) {
+        if (!pause({})) return;
+        const auto made = of_.mender.make(grid);
+        if (!made) log_problem("cannot make a missing grid", made.error());
+        if (!made && is_shortage(made.error().code)) return;
+        if (!made) continue;
+        if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
+        log_info({.event = Event::grid_made_again,
+                  .volume = grid.time,
+                  .file = grid.raw,
+                  .domain = grid.names.front().domain},
+                 "missing grid {} {}: made again from {}", grid.names.front().domain,
+                 format_utc(grid.time), printable(grid.raw.native()));
+    }
+    refill_frames();
+}
+
+// After the partials, of which they are made.
+void Caretaker::refill_frames() {
+    const auto missing = of_.mender.missing_frames(times_.refill);
+    if (!missing) return log_problem("cannot look for missing frames", missing.error());
+    for (const cache::GridName& frame : *missing) {
+        if (!pause({})) return;
+        const auto made = of_.mender.make(frame);
+        if (!made) return log_problem("cannot make a missing frame", made.error());
+        if (!*made) continue;
+        log_info({.event = Event::frame_made_again, .volume = frame.time, .domain = frame.domain},
+                 "missing frame {} {}: made again from {}", frame.domain, format_utc(frame.time),
+                 **made);
+    }
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,77 @@
+#include "daemon/care/row_keeper.h"
+
+#include <exception>
+#include <system_error>
+
+#include "base/counted.h"
+#include "base/printable.h"
+#include "daemon/log/log.h"
+
+namespace stormcellar::daemon {
+
+void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_kept) {
+    if (work_.valid()) {
+        if (work_.wait_for(std::chrono::seconds{0}) != std::future_status::ready) return;
+        rested_ = began_ + (rest + 1) * work_.get();
+    }
+    if (now < rested_) return;
+    const bool deletes = gone_kept.count() > 0 && now >= next_deletion_;
+    const auto work = [this, deletes, gone_kept] {
+        const SteadyTime began = std::chrono::steady_clock::now();
+        try {
+            const AtWork at_work(pulse_);
+            mark_missing();
+            roll_rows();
+            if (deletes) delete_gone(gone_kept);
+        } catch (const std::exception& error) {  // no memory
+            log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                        error.what());
+        }
+        return std::chrono::steady_clock::now() - began;
+    };
+    try {
+        work_ = std::async(std::launch::async, work);
+    } catch (const std::system_error& error) {  // no thread to be had
+        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                    error.what());
+        return;
+    }
+    began_ = now;
+    if (deletes) next_deletion_ = now + between_deletions;
+}
+
+void RowKeeper::mark_missing() {
+    const Result<int> marked = sink_.mark_missing([this] { pulse_.beat(); });
+    if (!marked) {
+        log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
+                    printable(marked.error().message));
+    } else if (*marked > 0) {
+        log_info({Event::files_gone}, "{} went while nobody watched",
+                 counted(static_cast<std::uint64_t>(*marked), "file"));
+    }
+}
+
+void RowKeeper::roll_rows() {
+    const Result<std::int64_t> rolled = sink_.roll_rows([this] { pulse_.beat(); });
+    if (!rolled) {
+        log_warning({Event::files_gone_failed}, "cannot delete rows of files that went: {}",
+                    printable(rolled.error().message));
+    } else if (*rolled > 0) {
+        log_info({Event::rows_deleted},
+                 "the rows of {} that went were deleted: the catalog takes no more room",
+                 counted(static_cast<std::uint64_t>(*rolled), "file"));
+    }
+}
+
+void RowKeeper::delete_gone(std::chrono::milliseconds gone_kept) {
+    const Result<int> deleted = sink_.forget_gone(now_utc() - gone_kept, [this] { pulse_.beat(); });
+    if (!deleted) {
+        log_warning({Event::files_gone_failed}, "cannot delete rows of files that went: {}",
+                    printable(deleted.error().message));
+    } else if (*deleted > 0) {
+        log_info({Event::rows_deleted}, "the rows of {} that went long ago were deleted",
+                 counted(static_cast<std::uint64_t>(*deleted), "file"));
+    }
+}
+
+}  // namespace stormcellar::daemon

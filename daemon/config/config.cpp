@@ -1,0 +1,330 @@
+#include "daemon/config/config.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "base/byte_size.h"
+#include "base/printable.h"
+#include "base/toml_file.h"
+#include "daemon/config/station_config.h"
+#include "pipeline/options/domain.h"
+#include "stormcellar/cache/grid_name.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr std::size_t most_socket_bytes = 107;  // sun_path, with its end
+
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
+    const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
+    return end.first == directory.end();
+}
+
+std::filesystem::path resolve(const std::filesystem::path& path,
+                              const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
+    std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
+    if (error) resolved = (base / path).lexically_normal();
+    // "a/" has an empty last part, which would hide that "a/b" lies within.
+    if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
+    return resolved;
+}
+
+void read_path(TomlTable& paths, std::string_view key, const std::filesystem::path& file,
+               std::filesystem::path& path) {
+    const std::optional<std::string> text = paths.text(key);
+    if (text && text->empty()) {
+        paths.complain(key, "must not be empty");
+    } else if (text) {
+        path = resolve(*text, file);
+    }
+}
+
+void read_paths(TomlTable paths, const std::filesystem::path& file, Config& config) {
+    read_path(paths, "drop", file, config.drop);
+    read_path(paths, "state", file, config.state);
+    read_path(paths, "cache", file, config.cache);
+    if (config.drop.empty()) {
+        paths.complain("drop", "the drop directory must be named");
+        return;
+    }
+    using Named = std::pair<std::string_view, const std::filesystem::path*>;
+    const std::array<Named, 3> all = {
+        Named{"drop", &config.drop}, {"state", &config.state}, {"cache", &config.cache}};
+    for (const auto& [name, path] : all) {
+        for (const auto& [other_name, other] : all) {
+            if (name == other_name || !is_within(*path, *other)) continue;
+            paths.complain(name,
+                           fmt::format("{} is or lies within {} ({}); the three must be apart",
+                                       path->native(), other->native(), other_name));
+        }
+    }
+}
+
+std::chrono::milliseconds milliseconds_of(double seconds) {
+    return std::chrono::milliseconds{std::llround(seconds * 1000)};
+}
+
+void read_seconds(TomlTable& table, std::string_view key, TomlRange range,
+                  std::chrono::milliseconds& value) {
+    if (const auto seconds = table.number(key, range)) {
+        value = milliseconds_of(*seconds);
+    }
+}
+
+void read_whole_seconds(TomlTable& table, std::string_view key, TomlRange range,
+                        std::chrono::seconds& value) {
+    if (const auto seconds = table.whole_number(key, range)) {
+        value = std::chrono::seconds{*seconds};
+    }
+}
+
+void read_levels(TomlTable& ingest, Config& config) {
+    if (const auto levels_m = pipeline::read_levels_m(ingest)) config.ingest.levels_m = *levels_m;
+}
+
+void read_size(TomlTable& ingest, Config& config) {
+    if (const auto spacing = ingest.number("spacing_km", {0.05, 100})) {
+        config.ingest.spacing_m = *spacing * 1000;
+    }
+    std::vector<double> extent_km = {460, 460};
+    if (const auto given = ingest.numbers("extent_km")) {
+        if (given->size() != 2) {
+            ingest.complain("extent_km", "must be [width, height]");
+            return;
+        }
+        extent_km = *given;
+    }
+    std::array<int, 2> counts{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double cells = extent_km[i] * 1000 / config.ingest.spacing_m;
+        if (!(cells >= 1 && cells <= 16384) || std::abs(cells - std::round(cells)) > 1e-6) {
+            ingest.complain("extent_km", fmt::format("{} km is not 1 to 16384 cells of {} km",
+                                                     extent_km[i], config.ingest.spacing_m / 1000));
+            return;
+        }
+        counts[i] = static_cast<int>(std::lround(cells));
+    }
+    config.ingest.nx = counts[0];
+    config.ingest.ny = counts[1];
+}
+
+// What the grid room would refuse is refused here, with the line.
+void check_grid(TomlTable& ingest, const Config& config) {
+    grid::GridSpec spec = grid::default_spec(0, 0);
+    spec.spacing_m = config.ingest.spacing_m;
+    spec.nx = config.ingest.nx;
+    spec.ny = config.ingest.ny;
+    if (!config.ingest.levels_m.empty()) spec.levels_m = config.ingest.levels_m;
+    if (const Status valid = grid::validate(spec); !valid) {
+        ingest.complain("levels_km", valid.error().message);
+    }
+}
+
+void read_bunzip(TomlTable& ingest, Config& config) {
+    const auto name = ingest.text("bunzip");
+    if (!name || *name == "fastest") return;
+    const auto path = bunzip::path_named(*name);
+    if (!path) {
+        ingest.complain("bunzip",
+                        fmt::format("\"{}\" is none of fastest, libbz2, plain, avx2, avx512",
+                                    printable(*name)));
+    } else if (!bunzip::is_available(*path)) {
+        ingest.complain("bunzip", fmt::format("this machine has no {}", *name));
+    } else {
+        config.bunzip = path;
+    }
+}
+
+void read_ingest(TomlTable ingest, Config& config) {
+    if (const auto workers = ingest.whole_number("workers", {0, 256})) {
+        config.workers = *workers;
+    }
+    if (const auto threads = ingest.whole_number("threads", {0, 256})) {
+        config.ingest.decode_threads = *threads;
+    } else {
+        config.ingest.decode_threads = 0;
+    }
+    if (config.ingest.decode_threads == 0) {
+        config.ingest.decode_threads =
+            std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    }
+    config.ingest.grid_threads = config.ingest.decode_threads;
+    config.stations = read_station_rule(ingest);
+    if (const auto living = ingest.flag("living")) config.living = *living;
+    read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
+    read_whole_seconds(ingest, "chunk_timeout_seconds", {1, 86400},
+                       config.ingest.living.chunk_timeout);
+    read_whole_seconds(ingest, "chunk_grace_seconds", {0, 86400}, config.ingest.living.chunk_grace);
+    read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
+    read_bunzip(ingest, config);
+    if (const auto name = ingest.text("moment")) {
+        if (const auto moment = pipeline::read_moment(ingest, "moment", *name)) {
+            config.ingest.moment = *moment;
+        }
+    }
+    read_size(ingest, config);
+    read_levels(ingest, config);
+    check_grid(ingest, config);
+}
+
+void read_storage(TomlTable& table, Config& config) {
+    if (const auto hours = table.number("refill_hours", {0, 8760})) {
+        config.refill = milliseconds_of(*hours * 3600);
+    }
+    if (const auto name = table.text("compression")) {
+        if (*name == "none" || *name == "lz4") {
+            config.packing = *name == "lz4" ? cache::Packing::lz4 : cache::Packing::none;
+        } else {
+            table.complain("compression",
+                           fmt::format("\"{}\" is none of none, lz4", printable(*name)));
+        }
+    }
+}
+
+void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
+    std::uint64_t given = 0;
+    if (table.is_text("bytes")) {
+        const auto size = parse_byte_size(*table.text("bytes"));
+        if (!size) return table.complain("bytes", size.error().message);
+        given = *size;
+    } else if (const auto number = table.number("bytes", {0, 1e15})) {
+        given = static_cast<std::uint64_t>(*number);
+    } else {
+        return;
+    }
+    bytes = given == 0 ? std::nullopt : std::optional{given};
+}
+
+void read_catalog(TomlTable catalog, Config& config) {
+    read_bytes(catalog, config.catalog_bytes);
+    if (const auto days = catalog.number("gone_days", {0, 36500}))
+        config.gone_kept = milliseconds_of(*days * 86400);
+}
+
+void read_rest(TomlTable watch, TomlTable log, Config& config) {
+    read_seconds(watch, "rescan_seconds", {1, 86400}, config.rescan);
+    read_seconds(watch, "poll_seconds", {1, 86400}, config.poll);
+    if (const auto limit = watch.whole_number("queue_limit", {16, 10'000'000})) {
+        config.queue_limit = static_cast<std::size_t>(*limit);
+    }
+    if (const auto level = log.text("level")) {
+        static constexpr std::array<std::string_view, 4> levels = {"debug", "info", "warning",
+                                                                   "error"};
+        if (std::find(levels.begin(), levels.end(), *level) == levels.end()) {
+            log.complain("level", fmt::format("\"{}\" is none of debug, info, warning, error",
+                                              printable(*level)));
+        } else {
+            config.log_level = *level;
+        }
+    }
+}
+
+void read_status(TomlTable status, const std::filesystem::path& file, Config& config) {
+    read_path(status, "socket", file, config.status.socket);
+    const std::filesystem::path& socket = config.status.socket;
+    for (const std::filesystem::path* path : {&config.drop, &config.cache}) {
+        if (socket.empty() || path->empty() || !is_within(socket, *path)) continue;
+        status.complain("socket",
+                        fmt::format("{} lies within {}", socket.native(), path->native()));
+    }
+    if (socket.native().size() > most_socket_bytes) {
+        status.complain("socket", fmt::format("is longer than {} bytes", most_socket_bytes));
+    }
+    if (const auto port = status.whole_number("http_port", {0, 65'535})) {
+        config.status.http_port = *port;
+    }
+}
+
+void read_budget(TomlTable& table, cache::Budget& budget) {
+    read_bytes(table, budget.bytes);
+    if (const auto percent = table.number("percent", {0, 100})) {
+        budget.file_system_percent = *percent == 0 ? std::nullopt : percent;
+    }
+    if (const auto hours = table.number("age_hours", {0, 1e6})) {
+        budget.age = *hours == 0 ? std::nullopt : std::optional{milliseconds_of(*hours * 3600)};
+    }
+}
+
+void read_budgets(TomlTable& cache, cache::Budgets& budgets) {
+    read_budget(cache, budgets.total);
+    if (const auto share = cache.number("low_watermark", {0.01, 1})) budgets.low_watermark = *share;
+    if (const auto hours = cache.number("protect_hours", {0, 1e6}))
+        budgets.protected_for = milliseconds_of(*hours * 3600);
+    for (TomlTable& domain : cache.tables("domain")) {
+        cache::Budget budget;
+        read_budget(domain, budget);
+        const auto name = domain.text("name");
+        if (!name) {
+            if (!domain.has("name")) domain.complain("name", "the domain must be named");
+        } else if (*name == "*") {
+            budgets.every_domain = budget;
+        } else if (!cache::is_domain_name(*name) || cache::is_part(*name)) {
+            domain.complain("name", fmt::format("\"{}\" is no domain's name", printable(*name)));
+        } else if (!budgets.domains.emplace(*name, budget).second) {
+            domain.complain("name", fmt::format("\"{}\" is named twice", *name));
+        }
+    }
+}
+
+void read_cache(TomlTable cache, Config& config) {
+    read_budgets(cache, config.budgets);
+    read_storage(cache, config);
+}
+
+}  // namespace
+
+cache::Budgets default_budgets() {
+    cache::Budgets budgets;
+    budgets.total.file_system_percent = 95;
+    return budgets;
+}
+
+std::filesystem::path default_socket(const std::filesystem::path& state,
+                                     const char* runtime_directory) {
+    std::string directory = runtime_directory == nullptr ? "" : runtime_directory;
+    directory = directory.substr(0, directory.find(':'));
+    return (directory.empty() ? state : std::filesystem::path{directory}) / "status.sock";
+}
+
+int Config::worker_count() const {
+    if (workers > 0) return workers;
+    // Asked for at every turn of the service, and read from a file.
+    static const unsigned processors = std::thread::hardware_concurrency();
+    return std::max(1, static_cast<int>(processors));
+}
+
+bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions& b) {
+    return a.moment == b.moment && a.spacing_m == b.spacing_m && a.nx == b.nx && a.ny == b.ny &&
+           a.levels_m == b.levels_m && a.domains == b.domains &&
+           a.decode_threads == b.decode_threads && a.grid_threads == b.grid_threads;
+}
+
+Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes) {
+    Result<TomlFile> toml = TomlFile::open(file);
+    if (!toml) return pass_on(toml);
+    TomlTable root = toml->root();
+    Config config;
+    read_paths(root.section("paths"), file, config);
+    read_ingest(root.section("ingest"), config);
+    config.added_stations = read_added_stations(root);
+    config.ingest.domains = pipeline::read_domains(root);
+    read_cache(root.section("cache"), config);
+    read_catalog(root.section("catalog"), config);
+    read_rest(root.section("watch"), root.section("log"), config);
+    read_status(root.section("status"), file, config);
+    config.loops = read_loops(root, std::filesystem::absolute(file).parent_path(),
+                              {config.drop, config.state, config.cache}, scenes);
+    if (const Status read = toml->finish(); !read) return pass_on(read);
+    return config;
+}
+
+}  // namespace stormcellar::daemon

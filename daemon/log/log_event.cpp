@@ -1,0 +1,95 @@
+#include "daemon/log/log_event.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+// In the order of the enumeration.
+constexpr std::array<std::string_view, event_count> names = {
+    "ready",
+    "not_ready",
+    "stopping",
+    "stopped",
+    "stopped_with_jobs",
+    "reloaded",
+    "reload_failed",
+    "reload_ignored",
+    "hang",
+    "gridded",
+    "living",
+    "no_moment",
+    "no_position",
+    "other_station",
+    "incomplete",
+    "rejected",
+    "unchanged",
+    "vanished",
+    "registered",
+    "store_failed",
+    "watch_failed",
+    "directory_problem",
+    "overflow",
+    "drop_lost",
+    "drop_back",
+    "files_gone",
+    "files_gone_failed",
+    "rows_deleted",
+    "behind",
+    "caught_up",
+    "stations_unknown",
+    "state_lost",
+    "state_mended",
+    "database_mended",
+    "database_trouble",
+    "database_back",
+    "databases_left_alone",
+    "cache_rolled",
+    "cache_problem",
+    "grid_damaged",
+    "grid_unchecked",
+    "grid_made_again",
+    "frame_made_again",
+    "care_failed",
+    "sites_compared",
+    "site_fault",
+    "loop_started",
+    "loop_made",
+    "loop_said",
+    "loop_ended",
+    "loop_failed",
+    "status_answered",
+    "status_unanswered",
+    "status_unwritten",
+};
+
+}  // namespace
+
+std::string_view name_of(Event event) {
+    return names.at(index_of(event));
+}
+
+Event event_of(pipeline::IngestResult result) {
+    using pipeline::IngestResult;
+    switch (result) {
+        case IngestResult::gridded:
+            return Event::gridded;
+        case IngestResult::no_moment:
+            return Event::no_moment;
+        case IngestResult::no_position:
+            return Event::no_position;
+        case IngestResult::other_station:
+            return Event::other_station;
+        case IngestResult::incomplete:
+            return Event::incomplete;
+        case IngestResult::rejected:
+            return Event::rejected;
+        case IngestResult::unchanged:
+            return Event::unchanged;
+        case IngestResult::vanished:
+            return Event::vanished;
+        case IngestResult::registered:
+            return Event::registered;
+    }
+    return Event::rejected;
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,92 @@
+// daemon/loops/loop_keeper.h -- keeps animations fresh by running `stormcellar loop --follow` for
+// each.
+//
+// A loop is another program, so that whatever is wrong with a picture never stops ingest. One that
+// ends by itself is logged with its status and its last line on stderr and started again, 1 s later
+// at first, doubling to 60 s; after a minute in which it ran, from 1 s again. Ends with the daemon,
+// however that ends.
+// All of it happens in one thread, which there is only when there are loops.
+// Thread contract: one thread; `wake` is called from the keeper's own and must only signal.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/steady_time.h"
+#include "daemon/config/loop_config.h"
+#include "daemon/process/child.h"
+#include "daemon/process/pulse.h"
+#include "daemon/process/wake_up.h"
+#include "daemon/watch/file_stamp.h"
+
+namespace stormcellar::daemon {
+
+class LoopKeeper {
+  public:
+    // `program` is run; empty: stormcellar, beside this program or on PATH.
+    LoopKeeper(std::filesystem::path cache, std::function<void()> wake,
+               std::filesystem::path program = {});
+    LoopKeeper(const LoopKeeper&) = delete;
+    LoopKeeper& operator=(const LoopKeeper&) = delete;
+    ~LoopKeeper();
+
+    // From now on these. One goes on undisturbed when neither it nor its scene file has changed.
+    void set(std::vector<LoopConfig> loops);
+    // Tells all to end, and does not wait; the destructor or wait() does, a few seconds at most.
+    void stop();
+    void wait();
+    // Of its thread; rests where there is none.
+    [[nodiscard]] const Pulse& pulse() const { return pulse_; }
+    // What has changed since the last call; none when nothing has.
+    std::optional<std::vector<LoopState>> news();
+
+  private:
+    struct Wanted {
+        LoopConfig loop;
+        FileStamp scene;
+        bool operator==(const Wanted&) const = default;
+    };
+    struct Slot {
+        Wanted wanted;
+        LoopState state;
+        std::optional<Child> child;
+        SteadyTime started{}, not_before{};
+        int failures = 0;
+        std::string last_line;
+        bool is_leaving = false;
+        std::optional<SteadyTime> kill_at;
+    };
+    void run();
+    void take_wanted();
+    void dismiss(Slot& slot, SteadyTime now);
+    void start_due(SteadyTime now);
+    void start(Slot& slot, SteadyTime now);
+    void listen(Slot& slot, SteadyTime now);
+    void note_made(Slot& slot, const std::string& line);
+    static void note_line(Slot& slot, const std::string& line);
+    void note_end(Slot& slot, const std::string& how, SteadyTime now);
+    void delay(Slot& slot, SteadyTime now);
+    void sleep(SteadyTime now);
+    void publish();
+
+    std::filesystem::path cache_;
+    std::function<void()> wake_;
+    std::filesystem::path program_;
+    WakeUp wake_up_;
+    std::atomic<bool> stopping_ = false;
+    Pulse pulse_;
+    std::list<Slot> slots_;  // of the thread
+    std::mutex mutex_;
+    std::optional<std::vector<LoopConfig>> wanted_;  // guarded by mutex_, as the next two
+    std::vector<LoopState> states_;
+    bool is_news_ = false;
+    std::thread thread_;  // the last member: it uses what stands above
+};
+
+}  // namespace stormcellar::daemon

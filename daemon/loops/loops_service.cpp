@@ -1,0 +1,120 @@
+#include "daemon/loops/loops_service.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include <poll.h>
+
+#include "base/counted.h"
+#include "base/printable.h"
+#include "daemon/log/log.h"
+#include "daemon/status/status.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr std::chrono::seconds longest_wait{10};
+
+}  // namespace
+
+LoopsService::LoopsService(Config config, std::filesystem::path config_file, Parts parts)
+    : config_(std::move(config)),
+      config_file_(std::move(config_file)),
+      parts_(parts),
+      watchdog_(parts_.notifier.watchdog()),
+      keeper_(config_.cache, [this] { wake_up_.set(); }) {
+    pulses_.watch("loops", keeper_.pulse());
+}
+
+std::filesystem::path LoopsService::directory(const Config& config) {
+    return config.state / "loops";
+}
+
+void LoopsService::request_stop() {
+    stop_requested_ = true;
+    wake_up_.set();
+}
+
+void LoopsService::run() {
+    publish("running");
+    parts_.notifier.send("READY=1");
+    log_info({Event::ready}, "ready: keeping {} of {}", counted(config_.loops.size(), "loop"),
+             printable(config_.cache.native()));
+    keeper_.set(config_.loops);
+    while (true) {
+        handle_signals();
+        if (stop_requested_) break;
+        wake_up_.clear();
+        const SteadyTime now = std::chrono::steady_clock::now();
+        if (auto loops = keeper_.news()) {
+            loops_ = std::move(*loops);
+            has_news_ = true;
+        }
+        if (has_news_ && now >= next_publish_) publish("running");
+        log_held_back();
+        feed(watchdog_, parts_.notifier, now, pulses_.oldest());
+        wait(now);
+    }
+    parts_.notifier.send("STOPPING=1");
+    keeper_.stop();
+    keeper_.wait();
+    if (auto loops = keeper_.news()) loops_ = std::move(*loops);
+    publish("stopped");
+    log_all_held_back();
+    log_info({Event::stopped}, "stopped");
+}
+
+void LoopsService::wait(SteadyTime now) {
+    SteadyTime until = now + longest_wait;
+    if (has_news_) until = std::min(until, next_publish_);
+    if (const auto due = watchdog_.next_time()) until = std::min(until, *due);
+    std::array<pollfd, 2> sources = {
+        pollfd{wake_up_.descriptor(), POLLIN, 0},
+        {parts_.signals == nullptr ? -1 : parts_.signals->descriptor(), POLLIN, 0}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - now);
+    ::poll(sources.data(), sources.size(),
+           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+}
+
+void LoopsService::handle_signals() {
+    if (take_signals(parts_.signals, [this] { reload(); })) stop_requested_ = true;
+}
+
+void LoopsService::reload() {
+    parts_.notifier.send(reloading_state());
+    if (const Result<Config> fresh = load_config(config_file_)) {
+        if (fresh->state != config_.state || fresh->cache != config_.cache) {
+            log_warning({Event::reload_ignored},
+                        "reload: [paths] cannot change while the service runs: restart it");
+        }
+        config_.loops = fresh->loops;
+        config_.log_level = fresh->log_level;
+        keeper_.set(config_.loops);
+        set_log_level(config_.log_level);
+        log_info({Event::reloaded}, "reloaded: {}", counted(config_.loops.size(), "loop"));
+    } else {
+        log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
+                  printable(fresh.error().message));
+    }
+    parts_.notifier.send("READY=1");
+}
+
+void LoopsService::publish(const char* state) {
+    has_news_ = false;
+    next_publish_ = std::chrono::steady_clock::now() + std::chrono::seconds{1};
+    parts_.notifier.send("STATUS=" + loops_line(loops_));
+    const std::filesystem::path path = directory(config_) / "status.json";
+    const std::string text = loops_json(loops_, state, started_, now_utc());
+    const Status written =
+        write_file_atomically(parts_.file_system, path, std::as_bytes(std::span{text}));
+    if (!written && !failing_) {
+        log_error({.event = Event::status_unwritten, .file = path},
+                  "cannot write the status: {}: {}", printable(path.native()),
+                  printable(written.error().message));
+    }
+    failing_ = !written;
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,66 @@
+// daemon/loops/loops_service.h -- the [[loop]] tables alone: `stormcellard --loops-only`.
+//
+// For a service of its own, at a lower priority and with limits of its own, beside a stormcellard
+// that was started with --no-loops. It reads no drop directory, catalog or grid itself; it keeps
+// the loops (daemon/loops/loop_keeper.h) and says how they are:
+//   STATE/loops/status.json    {"state","pid","version","started","updated","loops"}, the fields as
+//                              in daemon/status/status.h; at most once a second, and at the stop
+//   STATE/loops/stormcellard.lock   held while it runs: one keeper of loops a state directory
+// SIGHUP reads the configuration again: only the [[loop]] tables and the log's level count.
+// The watchdog is fed while no turn of the thread that keeps the loops lasts too long.
+// Thread contract: run() once; request_stop() from any thread.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "daemon/config/config.h"
+#include "daemon/loops/loop_keeper.h"
+#include "daemon/process/notify.h"
+#include "daemon/process/signals.h"
+#include "daemon/process/wake_up.h"
+#include "stormcellar/base/file_system.h"
+
+namespace stormcellar::daemon {
+
+class LoopsService {
+  public:
+    // All must outlive it. No signals: only request_stop() ends it.
+    struct Parts {
+        Notifier& notifier;
+        FileSystem& file_system;
+        const Signals* signals = nullptr;
+    };
+    // `config_file` is what SIGHUP reads again.
+    LoopsService(Config config, std::filesystem::path config_file, Parts parts);
+
+    void run();
+    void request_stop();
+
+    // Where it writes: the directory must exist.
+    [[nodiscard]] static std::filesystem::path directory(const Config& config);
+
+  private:
+    void handle_signals();
+    void reload();
+    void publish(const char* state);
+    void wait(SteadyTime now);
+
+    Config config_;
+    std::filesystem::path config_file_;
+    Parts parts_;
+    WatchdogFeed watchdog_;
+    Pulses pulses_;
+    UtcTime started_ = now_utc();
+    std::vector<LoopState> loops_;
+    bool has_news_ = false;
+    bool failing_ = false;
+    SteadyTime next_publish_{};
+    std::atomic<bool> stop_requested_ = false;
+    WakeUp wake_up_;
+    LoopKeeper keeper_;  // the last member: its thread uses what stands above
+};
+
+}  // namespace stormcellar::daemon

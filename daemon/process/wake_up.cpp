@@ -1,0 +1,31 @@
+#include "daemon/process/wake_up.h"
+
+#include <cerrno>
+#include <cstdint>
+#include <system_error>
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+namespace stormcellar::daemon {
+
+WakeUp::WakeUp() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (descriptor_ < 0) throw std::system_error(errno, std::system_category(), "eventfd");
+}
+
+WakeUp::~WakeUp() {
+    ::close(descriptor_);
+}
+
+// Neither can fail in a way that matters: a full counter is set, an empty one is clear.
+void WakeUp::set() {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = ::write(descriptor_, &one, sizeof one);
+}
+
+void WakeUp::clear() {
+    std::uint64_t count = 0;
+    [[maybe_unused]] const ssize_t got = ::read(descriptor_, &count, sizeof count);
+}
+
+}  // namespace stormcellar::daemon

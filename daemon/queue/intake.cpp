@@ -1,0 +1,343 @@
+#include "daemon/queue/intake.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/drop/chunk_path.h"
+#include "pipeline/drop/drop_names.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+constexpr std::size_t most_growing = 4096;
+constexpr std::size_t most_going_on = 4096;
+constexpr std::size_t most_problems = 64;  // in one turn of the service; the next scan has the rest
+constexpr std::size_t most_told = 4096;
+constexpr std::int64_t recent_ns = 1'000'000'000;
+constexpr std::int64_t live_ns = 600 * recent_ns;  // what is found and younger is no backlog
+
+// The same for all files of one volume.
+std::string volume_of(const std::filesystem::path& path) {
+    auto chunk = pipeline::ChunkPath::of(path);
+    return chunk ? std::move(chunk->key) : path.native();
+}
+
+// Something has come of it. Of whose station it is the file's name has said before.
+bool is_good(const Finished& finished) {
+    return finished.taken && (finished.taken->ingest.result == pipeline::IngestResult::gridded ||
+                              finished.taken->ingest.result == pipeline::IngestResult::registered ||
+                              finished.taken->ingest.goes_on);
+}
+
+}  // namespace
+
+Clock real_clock() {
+    return {[] { return std::chrono::steady_clock::now(); },
+            [] {
+                return std::int64_t{std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::system_clock::now().time_since_epoch())
+                                        .count()};
+            }};
+}
+
+Intake::Intake(const Config& config, Clock clock)
+    : drop_(config.drop),
+      stations_(config.stations),
+      clock_(std::move(clock)),
+      reread_(config.reread),
+      schedule_(config.queue_limit),
+      growing_(config.quiet, most_growing) {
+    schedule_.set_workers(config.worker_count());
+}
+
+void Intake::set_times(const Config& config) {
+    reread_ = config.reread;
+    growing_.set_quiet(config.quiet);
+    schedule_.set_workers(config.worker_count());
+}
+
+std::string Intake::station_of(const std::filesystem::path& path) const {
+    std::string station = pipeline::station_of_path(path);
+    return stations_.knows(station) ? station : std::string{};
+}
+
+void Intake::leave_to_scan(const std::filesystem::path& path) {
+    refused_ = true;
+    seen_.forget(path);
+}
+
+// What goes on with a volume that has sweeps comes before the beginnings of others.
+void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
+    if (!goes_on) {
+        going_on_.erase(volume_of(path));
+        return;
+    }
+    if (going_on_.size() >= most_going_on) going_on_.erase(going_on_.begin());
+    going_on_.insert(volume_of(path));
+}
+
+void Intake::note_displaced() {
+    for (const auto& paths : {schedule_.take_displaced(), growing_.take_displaced()}) {
+        for (const std::filesystem::path& path : paths) {
+            followed_.erase(path);
+            leave_to_scan(path);
+        }
+    }
+}
+
+// A followed file has its row since it began.
+Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
+    Job job;
+    job.path = path;
+    const bool is_followed = followed_.contains(path);
+    job.urgency = urgency;
+    // The end of a volume that could not be followed is what its grid waits for.
+    const auto chunk = pipeline::ChunkPath::of(path);
+    const bool is_end = chunk && chunk->name.kind == level2::ChunkKind::end;
+    job.is_begun = is_end || going_on_.contains(volume_of(path));
+    job.is_registered = is_followed;
+    job.station = station_of(path);
+    return job;
+}
+
+void Intake::offer(Job job, const FileStamp& stamp) {
+    const std::filesystem::path path = job.path;
+    if (schedule_.offer(std::move(job), clock_.steady()) == Offered::refused) {
+        leave_to_scan(path);
+    } else {
+        seen_.add(path, stamp);
+    }
+    note_displaced();
+}
+
+// The order of what is closed stays as it came when the clock on the wall is set back.
+std::int64_t Intake::closed_now_ns() {
+    const std::int64_t now_ns = clock_.wall_ns();
+    newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
+    return newest_closed_ns_;
+}
+
+void Intake::file_closed(const std::filesystem::path& path, const FileStamp& stamp) {
+    Job job = job_for(path, Urgency::live);
+    job.closed_at = clock_.steady();
+    job.newest_ns = closed_now_ns();
+    const auto incomplete_at = growing_.found_incomplete_at(path);
+    if (incomplete_at && !followed_.contains(path)) {
+        const SteadyTime earliest = *incomplete_at + reread_;
+        if (earliest > clock_.steady()) job.not_before = earliest;
+    }
+    growing_.forget(path);
+    offer(std::move(job), stamp);
+}
+
+void Intake::file_created(const std::filesystem::path& path, const FileStamp& stamp) {
+    if (!growing_.add_new(path, stamp, clock_.steady(), station_of(path))) leave_to_scan(path);
+    note_displaced();
+}
+
+void Intake::file_found(const std::filesystem::path& path, const FileStamp& stamp) {
+    if (growing_.contains(path)) return;  // its stamp is read every second anyway
+    if (seen_.contains(path, stamp)) {
+        seen_.found_again(path);
+        return;
+    }
+    // Written this very moment: most likely there is more to come.
+    const std::int64_t age_ns = clock_.wall_ns() - stamp.modified_ns;
+    if (age_ns >= 0 && age_ns < recent_ns) {
+        file_created(path, stamp);
+    } else {
+        const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
+        Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
+        // A time in the future puts nothing before what is closed now.
+        job.newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
+        offer(std::move(job), stamp);
+    }
+}
+
+// The sink finds nothing there and marks the rows; no hurry, so it goes behind everything else. A
+// refused one is no loss: the row says so when it is next looked at.
+void Intake::file_gone(const std::filesystem::path& path) {
+    growing_.forget(path);
+    followed_.erase(path);
+    seen_.forget(path);
+    Job job;
+    job.path = path;
+    schedule_.offer(std::move(job), clock_.steady());
+}
+
+// The kernel tells of the directory alone. One that was moved away takes files along of which
+// nothing is known here but hashes: a scan marks their rows.
+void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
+    std::vector<std::filesystem::path> gone;
+    const auto is_below = [&](const std::filesystem::path& file) {
+        return std::mismatch(path.begin(), path.end(), file.begin(), file.end()).first ==
+               path.end();
+    };
+    for (auto at = followed_.lower_bound(path); at != followed_.end() && is_below(*at); ++at)
+        gone.push_back(*at);
+    for (const std::filesystem::path& file : gone)
+        file_gone(file);
+    if (!deleted) lost_ = true;
+}
+
+void Intake::entry_left_out(const std::filesystem::path& path, std::string_view kind) {
+    tell({ErrorCode::not_a_file, fmt::format("{}: is {}: left out", path.native(), kind)});
+}
+
+void Intake::tell(Error problem) {
+    const std::filesystem::path key = problem.message;
+    if (told_.contains(key, {})) return told_.found_again(key);
+    if (problems_.size() >= most_problems) return;
+    if (told_.count() < most_told) told_.add(key, {});
+    problems_.push_back(std::move(problem));
+}
+
+void Intake::entry_unseen() {
+    ++unseen_;
+    if (!look_again_at_) {
+        look_again_at_ = clock_.steady() + Schedule::retry_delay(looks_in_vain_ + 1);
+    }
+}
+
+void Intake::events_lost() {
+    ++overflows_;
+    lost_ = true;
+}
+
+void Intake::drop_vanished() {
+    lost_ = true;
+}
+
+void Intake::directory_problem(const Error& error) {
+    tell(error);
+}
+
+void Intake::forget_seen() {
+    seen_.forget_all();
+    lost_ = true;
+}
+
+void Intake::poll_growing() {
+    for (GrowingFiles::Due& due : growing_.poll(
+             clock_.steady(), [this](const std::filesystem::path& path) { return look(path); })) {
+        Job job = job_for(due.path, Urgency::live);
+        job.finish_partial = due.finish_partial;
+        job.newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns());
+        offer(std::move(job), due.stamp);
+    }
+}
+
+// Tried often enough, and not even its rejection could be stored: that is the trouble of a
+// database, which is met again with the next scan.
+void Intake::job_failed(const Finished& finished) {
+    const ErrorCode code = finished.taken.error().code;
+    const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);
+    if (was_last) schedule_.finished(finished.job.path);
+    if (was_last || !schedule_.retry(finished.job, finished.ended))
+        leave_to_scan(finished.job.path);
+    // A full disk fails them all: there is no use in decoding the next one only to see that.
+    if (code == ErrorCode::no_space) {
+        schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
+    }
+}
+
+// Behind everything that has come meanwhile.
+void Intake::give_next_turn(const Finished& finished) {
+    schedule_.finished(finished.job.path);
+    Job job = job_for(finished.job.path, Urgency::backlog);
+    job.finish_partial = finished.job.finish_partial;
+    job.newest_ns = finished.job.newest_ns;
+    offer(std::move(job), finished.taken->stamp);
+}
+
+void Intake::job_ended(const Finished& finished) {
+    const std::filesystem::path& path = finished.job.path;
+    schedule_.worked(path, finished.ended - finished.started, finished.ended, is_good(finished));
+    if (!finished.taken) return job_failed(finished);
+    SteadyTime again{};
+    followed_.erase(path);
+    note_going_on(path, finished.taken->ingest.goes_on);
+    switch (finished.taken->ingest.result) {
+        case pipeline::IngestResult::incomplete:
+            if (finished.taken->ingest.has_next_turn) return give_next_turn(finished);
+            if (!finished.taken->ingest.followed) again = finished.ended + reread_;
+            if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
+                                         finished.taken->ingest.followed, station_of(path))) {
+                leave_to_scan(path);
+            } else if (finished.taken->ingest.followed) {
+                followed_.insert(path);
+            }
+            break;
+        case pipeline::IngestResult::vanished:
+            seen_.forget(path);
+            break;
+        default:
+            break;
+    }
+    const std::filesystem::path& waiter = finished.taken->ingest.instead_of;
+    if (!waiter.empty() && waiter != path) growing_.forget(waiter);
+    schedule_.finished(path, again);
+    note_displaced();
+}
+
+// What could not be written will be when the file is taken in.
+void Intake::registered(const Finished& noted) {
+    if (noted.taken && noted.taken->ingest.result == pipeline::IngestResult::vanished) {
+        job_ended(noted);
+    } else {
+        schedule_.registered(noted.job.path);
+    }
+}
+
+void Intake::begin_scan() {
+    lost_ = false;
+    refused_ = false;
+    is_looking_again_ = look_again_at_.has_value();
+    looks_in_vain_ += is_looking_again_ ? 1 : 0;
+    look_again_at_.reset();
+    seen_.begin_scan();
+    told_.begin_scan();
+}
+
+void Intake::end_scan(bool whole) {
+    if (!whole) {
+        if (is_looking_again_) entry_unseen();
+        return;
+    }
+    if (!look_again_at_) looks_in_vain_ = 0;
+    seen_.end_scan();
+    told_.end_scan();
+    // Those of which no event came: lost, or never sent.
+    const std::vector<std::filesystem::path> followed(followed_.begin(), followed_.end());
+    for (const std::filesystem::path& path : followed) {
+        const Standing standing = look(path).standing;
+        if (standing != Standing::regular && standing != Standing::unknown) file_gone(path);
+    }
+}
+
+bool Intake::needs_scan() const {
+    const bool looks_again = look_again_at_ && *look_again_at_ <= clock_.steady();
+    return lost_ || looks_again || (refused_ && schedule_.waiting_count() < schedule_.limit() / 2);
+}
+
+std::optional<SteadyTime> Intake::next_time(bool can_start, bool can_register) const {
+    std::optional<SteadyTime> time;
+    if (can_register) time = schedule_.next_unregistered_time();
+    for (const auto& other :
+         {can_start ? schedule_.next_time() : std::nullopt, growing_.next_time()}) {
+        if (other) time = time ? std::min(*time, *other) : *other;
+    }
+    return time;
+}
+
+SteadyTime::duration Intake::longest_wait() const {
+    const auto oldest = schedule_.oldest_offer();
+    return oldest ? clock_.steady() - *oldest : SteadyTime::duration{};
+}
+
+Pending Intake::pending() const {
+    return {schedule_.waiting_count(), schedule_.running_count(), growing_.count(),
+            schedule_.retrying_count()};
+}
+
+}  // namespace stormcellar::daemon

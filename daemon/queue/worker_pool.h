@@ -1,0 +1,78 @@
+// daemon/queue/worker_pool.h -- threads that take files in, or write them into the catalog.
+//
+// A job is handed over only when a worker is free, so nothing queues here. A worker outlives every
+// file: what is thrown becomes an error of the job.
+// Thread contract: one thread owns the pool; `wake` is called from the workers and must only
+// signal.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "daemon/queue/schedule.h"
+#include "daemon/queue/sink.h"
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::daemon {
+
+struct Finished {
+    Job job;
+    Result<Taken> taken;
+    SteadyTime started, ended;
+};
+
+class WorkerPool {
+  public:
+    // What a worker does with a job; called by all of them.
+    using Work = std::function<Result<Taken>(const Job&)>;
+
+    WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake);
+    WorkerPool(const WorkerPool&) = delete;
+    WorkerPool& operator=(const WorkerPool&) = delete;
+    ~WorkerPool();  // waits for the running jobs
+
+    // More threads start at once; surplus ones end after their job.
+    void resize(int workers);
+    [[nodiscard]] bool has_free_worker() const;
+    void submit(Job job);  // only when a worker is free
+    // What has ended since the last call.
+    std::vector<Finished> collect();
+    // The longest running job, by its file; none when all are idle.
+    struct Oldest {
+        std::filesystem::path path;
+        SteadyTime since;
+    };
+    [[nodiscard]] std::optional<Oldest> oldest() const;
+    // No job begins any more; true when the running ones ended within the time.
+    bool drain(std::chrono::milliseconds within);
+
+  private:
+    struct Begun {
+        Job job;
+        std::multimap<SteadyTime, std::filesystem::path>::iterator entry;  // of running_
+    };
+    void work();
+    std::optional<Begun> wait_for_job();
+    Result<Taken> take(const Job& job);
+
+    Work work_;
+    const char* thread_name_;
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;  // all below but threads_
+    std::condition_variable changed_;
+    std::deque<Job> inbox_;
+    std::vector<Finished> outbox_;
+    std::multimap<SteadyTime, std::filesystem::path> running_;  // by when each began
+    int wanted_ = 0;
+    int alive_ = 0;
+    bool stopping_ = false;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace stormcellar::daemon

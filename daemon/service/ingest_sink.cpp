@@ -1,0 +1,122 @@
+#include "daemon/service/ingest_sink.h"
+
+#include <utility>
+
+#include "daemon/config/station_config.h"
+#include "daemon/process/readiness.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+// Whose newest grid the cache protects. Of stations that `any` admitted nobody knows that they are
+// real.
+bool is_known_group(std::string_view group, const StationRule& stations) {
+    if (cache::is_known_group(group)) return true;
+    return stations.kind() == StationRule::Kind::listed && stations.knows(group);
+}
+
+}  // namespace
+
+IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
+                       std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors)
+    : drop_(config.drop),
+      stations_(std::move(stations)),
+      growing_(descriptors.growing),
+      catalog_(std::move(catalog)),
+      store_(std::move(store)),
+      ingestor_(catalog_, store_, options_of(config)),
+      mender_(catalog_, store_, ingestor_, config.ingest.moment),
+      site_watch_(store_, config.ingest.domains) {
+    if (auto left = catalog_.left_alone()) left_alone_ = std::move(*left);
+}
+
+pipeline::IngestOptions IngestSink::options_of(const Config& config) const {
+    pipeline::IngestOptions options = config.ingest;
+    options.stations = stations_;
+    options.beneath = config.drop;
+    options.living.scratch = config.state;
+    options.living.make = config.living;
+    options.living.count = growing_;
+    // Far below what the watchdog takes for a hang.
+    options.archive_turn = std::chrono::seconds{20};
+    options.living.has_time = [pressed = pressed_] { return !*pressed; };
+    return options;
+}
+
+Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
+    const DescriptorPlan descriptors = DescriptorPlan::of_this_process();
+    auto stations = std::make_shared<StationRule>(config.stations);
+    catalog::CatalogOptions options;
+    options.stations = stations;
+    options.most_open = descriptors.databases;
+    options.drop = config.drop;
+    options.most_bytes = config.catalog_bytes.value_or(catalog::CatalogOptions::no_limit);
+    auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog", options);
+    if (!catalog) return pass_on(catalog);
+    cache::Surroundings surroundings;
+    surroundings.is_known = [stations](std::string_view group) {
+        return is_known_group(group, *stations);
+    };
+    auto store = cache::Store::open_rolling(real_file_system(), config.cache, config.budgets,
+                                            std::move(surroundings));
+    if (!store) return pass_on(store);
+    store->pack_with(config.packing);
+    return std::unique_ptr<IngestSink>(new IngestSink(std::move(*catalog), std::move(*store),
+                                                      config, std::move(stations), descriptors));
+}
+
+Result<std::int64_t> IngestSink::roll_rows(const OnStep& step) {
+    const auto rolled = catalog_.roll(step);
+    if (!rolled) return pass_on(rolled);
+    return rolled->rows;
+}
+
+CatalogState IngestSink::catalog_state() {
+    CatalogState state;
+    for (const catalog::Trouble& trouble : catalog_.troubles())
+        state.troubles.emplace_back(trouble.station, trouble.error.message);
+    state.rule = name_of(stations_->kind());
+    state.further = stations_->further();
+    state.most_further = stations_->most_further();
+    state.left_alone = left_alone_.count;
+    state.some_left_alone = left_alone_.some;
+    return state;
+}
+
+CacheRolled IngestSink::roll_cache(const cache::Budgets& budgets, const OnStep& step) {
+    store_.set_budgets(budgets);
+    CacheRolled rolled{store_.roll(step), {}};
+    rolled.usage = store_.usage();
+    return rolled;
+}
+
+Status IngestSink::can_store() {
+    for (const std::filesystem::path& directory : {catalog_.directory(), store_.directory()}) {
+        if (Status written = can_write_in(real_file_system(), directory); !written) return written;
+    }
+    return {};
+}
+
+std::vector<std::string> IngestSink::take_repairs() {
+    std::vector<std::string> lines;
+    for (const catalog::Repair& repair : catalog_.take_repairs())
+        lines.push_back(catalog::describe(repair));
+    return lines;
+}
+
+Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_partial,
+                               pipeline::Tries tries) {
+    Taken taken;
+    const FileFound found = look_at(path, drop_);
+    taken.stamp = found.stamp;
+    if (found.standing == Standing::directory || found.standing == Standing::other) {
+        taken.ingest.result = pipeline::IngestResult::vanished;  // something else took its name
+        return taken;
+    }
+    Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_partial, tries);
+    if (!outcome) return pass_on(outcome);
+    taken.ingest = std::move(*outcome);
+    return taken;
+}
+
+}  // namespace stormcellar::daemon

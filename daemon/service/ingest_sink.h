@@ -1,0 +1,63 @@
+// daemon/service/ingest_sink.h -- the real sink: catalog, grids and cache through
+// pipeline/ingest/ingest.h. Thread contract: that of Sink.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "daemon/config/config.h"
+#include "daemon/config/descriptor_plan.h"
+#include "daemon/queue/sink.h"
+#include "pipeline/care/mend_cache.h"
+#include "pipeline/mosaic/site_watch.h"
+
+namespace stormcellar::daemon {
+
+class IngestSink final : public Sink {
+  public:
+    // Opens state/catalog and the cache for writing, making them where they are missing.
+    static Result<std::unique_ptr<IngestSink>> open(const Config& config);
+
+    Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+                       pipeline::Tries tries) override;
+    Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
+        return ingestor_.note(path);
+    }
+    void set_pressed(bool pressed) override { *pressed_ = pressed; }
+    Result<int> mark_missing(const OnStep& step) override {
+        return catalog_.mark_missing(drop_, step);
+    }
+    Result<int> forget_gone(UtcTime before, const OnStep& step) override {
+        return catalog_.forget_gone(before, step);
+    }
+    Result<std::int64_t> roll_rows(const OnStep& step) override;
+    [[nodiscard]] CatalogState catalog_state() override;
+    CacheRolled roll_cache(const cache::Budgets& budgets, const OnStep& step) override;
+    [[nodiscard]] Status can_store() override;
+    std::vector<std::string> take_repairs() override;
+
+    // For the keeper of the cache, which works beside take().
+    [[nodiscard]] catalog::Catalog& catalog() { return catalog_; }
+    [[nodiscard]] const cache::Store& store() const { return store_; }
+    [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }
+    [[nodiscard]] pipeline::SiteWatch& site_watch() { return site_watch_; }
+
+  private:
+    IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
+               std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors);
+
+    [[nodiscard]] pipeline::IngestOptions options_of(const Config& config) const;
+
+    std::filesystem::path drop_;
+    std::shared_ptr<StationRule> stations_;
+    std::size_t growing_;  // descriptors for volumes that grow (descriptor_plan.h)
+    catalog::LeftAlone left_alone_;
+    std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
+    catalog::Catalog catalog_;
+    cache::Store store_;
+    pipeline::Ingestor ingestor_;
+    pipeline::CacheMender mender_;
+    pipeline::SiteWatch site_watch_;
+};
+
+}  // namespace stormcellar::daemon

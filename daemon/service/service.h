@@ -1,0 +1,144 @@
+// daemon/service/service.h -- the loop of the daemon.
+//
+// One thread does all the bookkeeping (events, schedule, logs, status); the workers only take files
+// in. It polls for signals, directory events and ended jobs, and sleeps until something is due.
+//   start    scan the drop directory and queue what is there; say READY once drop directory, state,
+//            cache and sockets answer (readiness.h). Until then what can be taken in is
+//   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
+//   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
+// Loops are other programs, which end with the service (daemon/loops/loop_keeper.h), unless a
+// service of their own keeps them. The cache is brought within its budgets every few seconds, in a
+// thread of its own. Thread contract: run() once; request_stop(), is_idle() and sites_compared()
+// from any thread.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "daemon/care/cache_keeper.h"
+#include "daemon/care/row_keeper.h"
+#include "daemon/care/state_keeper.h"
+#include "daemon/config/config.h"
+#include "daemon/loops/loop_keeper.h"
+#include "daemon/process/notify.h"
+#include "daemon/process/pulse.h"
+#include "daemon/process/readiness.h"
+#include "daemon/process/signals.h"
+#include "daemon/process/wake_up.h"
+#include "daemon/queue/intake.h"
+#include "daemon/queue/sink.h"
+#include "daemon/queue/worker_pool.h"
+#include "daemon/status/reporter.h"
+#include "daemon/status/status_board.h"
+#include "daemon/status/status_file.h"
+#include "daemon/watch/inotify.h"
+#include "daemon/watch/watcher.h"
+#include "pipeline/mosaic/site_watch.h"
+#include "stormcellar/base/file_system.h"
+
+namespace stormcellar::daemon {
+
+// All must outlive the service.
+struct ServiceParts {
+    Sink& sink;
+    EventSource& events;
+    Notifier& notifier;
+    FileSystem& file_system;
+    const Signals* signals = nullptr;  // none: only request_stop() ends it
+    Clock clock = real_clock();
+    bool keeps_loops = true;       // false: another process does (daemon/loops/loops_service.h)
+    StatusBoard* board = nullptr;  // none: the status is in its file alone
+    StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
+};
+
+enum class Stopped {
+    cleanly,
+    with_jobs,  // jobs did not end in time: the process must be ended without waiting for them
+};
+
+class Service {
+  public:
+    // `config_file` is what SIGHUP reads again.
+    Service(Config config, std::filesystem::path config_file, ServiceParts parts);
+
+    // Before run(): a station of the catalog and its newest volume.
+    void know_station(const std::string& station, UtcTime newest_volume);
+    Stopped run();
+    void request_stop();
+    // Whether no file waits, for work that may wait; from any thread.
+    [[nodiscard]] bool is_idle() const { return idle_; }
+    // What two sites say otherwise than each other, for the log and the status; from any thread.
+    void sites_compared(pipeline::PairReport report);
+    // Before run(): what must also answer before READY is said.
+    void need(Readiness::Check check) { readiness_.need(std::move(check)); }
+    // Before run(): a thread beside the service's own that the watchdog is to see. Its pulse must
+    // stand until run() is over.
+    void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
+
+  private:
+    void start();
+    void turn();
+    void wait();
+    Stopped stop();
+    void handle_signals();
+    void reload();
+    void apply(const Config& fresh);
+    void collect();
+    void scan_if_due();
+    void scan();
+    void keep_workers_busy();
+    void note_drop(const Status& scanned);
+    void get_ready();
+    void start_jobs();
+    void report_backlog(SteadyTime now);
+    void keep_house();
+    void report_repairs();
+    void report_catalog(SteadyTime now);
+    void report(const Finished& finished);
+    void report_sites();
+    void look_at_others_loops(SteadyTime now);
+    void keep_state(SteadyTime now);
+    void publish(bool at_once);
+    [[nodiscard]] std::optional<Step> oldest_step() const;
+    [[nodiscard]] SteadyTime next_time() const;
+
+    Config config_;
+    std::filesystem::path config_file_;
+    ServiceParts parts_;
+    Intake intake_;
+    Watcher watcher_;
+    StatusBook status_;
+    StatusFile status_file_;
+    Pending published_;  // as it was last looked at
+    WatchdogFeed watchdog_;
+    Pulses pulses_;
+    WakeUp wake_up_;
+    std::atomic<bool> stop_requested_ = false;
+    std::atomic<bool> idle_ = false;
+    std::mutex compared_mutex_;
+    std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
+    Readiness readiness_;
+    bool drop_missing_ = false;
+    std::string drop_problem_;
+    // The earliest next scan, the regular one, and the next that looks for rows of missing files
+    // when the regular ones are polls.
+    SteadyTime rested_{}, next_scan_{}, next_rescan_{};
+    SteadyTime next_state_look_{};
+    bool state_lost_ = false;  // and it stands in the log
+    bool is_behind_ = false;   // the same
+    SteadyTime next_backlog_{}, next_behind_line_{};
+    SteadyTime next_catalog_look_{}, next_held_back_{}, next_memory_look_{};
+    SteadyTime next_loops_look_{};
+    bool loops_kept_twice_ = false;  // and it stands in the log
+    WorkerPool pool_;                // last: its threads, and the next one's, use what stands above
+    WorkerPool registrar_;
+    // The last members: their threads are waited for before the rest goes.
+    RowKeeper row_keeper_;
+    CacheKeeper cache_keeper_;
+    LoopKeeper loop_keeper_;
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,138 @@
+#include "daemon/status/http_listener.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fcntl.h>
+#include <microhttpd.h>
+#include <strings.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "daemon/config/loopback_host.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+// For the request line and all headers, and the headers of the answer.
+constexpr std::size_t request_memory = 8192;
+
+// Each Host field is looked at: whoever sends two may mean the other one.
+MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
+    if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
+        !is_loopback_host(value == nullptr ? "" : value)) {
+        *static_cast<bool*>(are_ours) = false;
+    }
+    return MHD_YES;
+}
+
+bool names_another_host(MHD_Connection* connection, std::optional<int> port) {
+    if (!port) return false;  // whoever may open a Unix socket is no page of the web
+    bool are_ours = true;
+    MHD_get_connection_values(connection, MHD_HEADER_KIND, &look_at_host, &are_ours);
+    return !are_ours;
+}
+
+}  // namespace
+
+// What libmicrohttpd calls, always from within turn() or the destructor.
+struct HttpListener::Callbacks {
+    static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
+                             const char* method, const char* /*version*/, const char* /*data*/,
+                             std::size_t* /*data_size*/, void** /*of_request*/) {
+        auto* listener = static_cast<HttpListener*>(self);
+        const Answer answer = listener->answerer_(
+            {method, url, names_another_host(connection, listener->socket_.port())});
+        if (answer.response == nullptr) return MHD_NO;
+        return MHD_queue_response(connection, answer.status, answer.response);
+    }
+
+    static void connection(void* self, MHD_Connection* connection, void** /*of_connection*/,
+                           MHD_ConnectionNotificationCode what) {
+        auto* listener = static_cast<HttpListener*>(self);
+        ++listener->changes_;
+        if (what == MHD_CONNECTION_NOTIFY_CLOSED) {
+            listener->open_.erase(connection);
+            return;
+        }
+        const auto* info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+        if (info == nullptr) return;
+        const SteadyTime ends =
+            std::chrono::steady_clock::now() + listener->limits_.longest_connection;
+        listener->make_room();
+        listener->open_[connection] = {info->connect_fd, ends, false};
+    }
+};
+
+HttpListener::HttpListener(ListeningSocket socket, Limits limits, Answerer answerer)
+    : socket_(std::move(socket)), limits_(limits), answerer_(std::move(answerer)) {}
+
+Result<std::unique_ptr<HttpListener>> HttpListener::open(ListeningSocket socket, Limits limits,
+                                                         Answerer answerer) {
+    std::unique_ptr<HttpListener> made(
+        new HttpListener(std::move(socket), limits, std::move(answerer)));
+    // Its own copy, which it closes.
+    const int copy = ::fcntl(made->socket_.descriptor(), F_DUPFD_CLOEXEC, 3);
+    if (copy < 0) return fail(ErrorCode::io, "no descriptor is left");
+    made->daemon_ = MHD_start_daemon(
+        MHD_USE_EPOLL, 0, nullptr, nullptr, &Callbacks::answer, made.get(),
+        MHD_OPTION_LISTEN_SOCKET, copy, MHD_OPTION_CONNECTION_LIMIT, limits.most_connections,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, request_memory, MHD_OPTION_NOTIFY_CONNECTION,
+        &Callbacks::connection, made.get(), MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_END);
+    if (made->daemon_ == nullptr) return fail(ErrorCode::io, "libmicrohttpd cannot begin");
+    const auto* info = MHD_get_daemon_info(made->daemon_, MHD_DAEMON_INFO_EPOLL_FD);
+    if (info == nullptr) return fail(ErrorCode::internal, "libmicrohttpd gives no descriptor");
+    made->epoll_ = info->epoll_fd;
+    return made;
+}
+
+HttpListener::~HttpListener() {
+    if (daemon_ != nullptr) MHD_stop_daemon(daemon_);
+}
+
+std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
+    if (is_behind_) return now;
+    std::optional<SteadyTime> next;
+    const auto take = [&](SteadyTime time) { next = next ? std::min(*next, time) : time; };
+    MHD_UNSIGNED_LONG_LONG wait_ms = 0;
+    if (MHD_get_timeout(daemon_, &wait_ms) == MHD_YES) {
+        take(now + std::chrono::milliseconds{std::min<MHD_UNSIGNED_LONG_LONG>(wait_ms, 60'000)});
+    }
+    for (const auto& [connection, open] : open_)
+        if (!open.is_cut) take(open.ends);
+    return next;
+}
+
+// Whoever asks gets an answer at once; those that have stood for longest ask for nothing.
+void HttpListener::make_room() {
+    const auto stands = [](const auto& one) { return !one.second.is_cut; };
+    const auto standing = std::count_if(open_.begin(), open_.end(), stands);
+    if (4 * standing < 3 * std::ptrdiff_t{limits_.most_connections}) return;
+    auto oldest = open_.end();
+    for (auto one = open_.begin(); one != open_.end(); ++one) {
+        if (stands(*one) && (oldest == open_.end() || one->second.ends < oldest->second.ends))
+            oldest = one;
+    }
+    if (oldest == open_.end()) return;
+    ::shutdown(oldest->second.descriptor, SHUT_RDWR);
+    oldest->second.is_cut = true;
+}
+
+void HttpListener::turn(SteadyTime now) {
+    // Cut here, they are closed by libmicrohttpd, which sees that they have ended.
+    for (auto& [connection, open] : open_) {
+        if (open.is_cut || open.ends > now) continue;
+        ::shutdown(open.descriptor, SHUT_RDWR);
+        open.is_cut = true;
+    }
+    // One run takes few new connections, and none while there are as many as may be. Those that end
+    // in a run make room in the next one alone, of which no descriptor tells.
+    is_behind_ = true;
+    for (int round = 0; is_behind_ && round < most_rounds; ++round) {
+        const std::uint64_t before = changes_;
+        MHD_run(daemon_);
+        is_behind_ = changes_ != before;
+    }
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,20 @@
+// daemon/status/metrics_text.h -- the status as Prometheus metrics; docs/operations.md explains
+// each.
+//
+// Names begin with stormcellar_ and end with their unit, counters with _total. Labels: station,
+// domain, loop, result, reason, state: bounded by the configuration, by our own words, or by what
+// a StationBook remembers. Families without any sample are left out.
+// Thread contract: pure function.
+#pragma once
+
+#include <string>
+
+#include "daemon/status/metrics_writer.h"
+#include "daemon/status/status.h"
+
+namespace stormcellar::daemon {
+
+[[nodiscard]] std::string metrics_text(const StatusFacts& facts, const Pending& pending,
+                                       UtcTime now);
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,47 @@
+// daemon/status/metrics_writer.h -- the text format in which Prometheus reads metrics, version
+// 0.0.4.
+//
+// One family after the other: "# HELP", "# TYPE", then its samples, one line each:
+//   name{label="value",...} 12.5
+// Label values are escaped (\\ \" \n); bytes that are not UTF-8 become \xNN, as elsewhere. Numbers
+// are written so that the same double is read back; NaN, +Inf and -Inf by those names.
+// Source: prometheus.io, "Exposition formats". tests/daemon/metrics_reader.h reads it strictly.
+// Thread contract: one thread.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "daemon/status/timings.h"
+
+namespace stormcellar::daemon {
+
+inline constexpr std::string_view metrics_content_type = "text/plain; version=0.0.4; charset=utf-8";
+
+class MetricsWriter {
+  public:
+    using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+
+    enum class Type { counter, gauge, summary };
+    // Begins a family; a name is used once, and its samples follow before the next one begins.
+    void family(std::string_view name, Type type, std::string_view help);
+    void sample(double value, Labels labels = {});
+    void sample(std::uint64_t value, Labels labels = {});
+    // Median, 95th percentile and maximum (quantiles 0.5, 0.95 and 1) of the last values, where
+    // there are any; sum and count of all since the start. Of a summary's family.
+    void sample(const Timings& timings, Labels labels = {});
+
+    [[nodiscard]] std::string take() { return std::move(text_); }
+
+  private:
+    void line(std::string_view suffix, Labels labels, std::string_view quantile,
+              std::string_view value);
+
+    std::string name_;
+    std::string text_;
+};
+
+}  // namespace stormcellar::daemon

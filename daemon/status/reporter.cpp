@@ -1,0 +1,153 @@
+#include "daemon/status/reporter.h"
+
+#include "base/printable.h"
+#include "daemon/queue/intake.h"
+#include "daemon/status/status.h"
+#include "daemon/status/status_names.h"
+#include "stormcellar/base/utc_time.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using pipeline::IngestOutcome;
+using pipeline::IngestResult;
+
+constexpr std::size_t longest_reason = 512;
+
+// "KTLX 2022-03-17T00:08:42Z NAME": what the event is about.
+std::string subject(const Finished& finished) {
+    const IngestOutcome& outcome = finished.taken->ingest;
+    return fmt::format("{} {} {}", outcome.station.empty() ? "????" : printable(outcome.station),
+                       outcome.volume_time ? format_utc(*outcome.volume_time) : "-",
+                       printable(finished.job.path.native()));
+}
+
+std::string because(const IngestOutcome& outcome) {
+    if (outcome.reason.empty()) return "";
+    return fmt::format(" ({})", printable(outcome.reason.substr(0, longest_reason)));
+}
+
+std::string describe_gridded(const Finished& finished) {
+    const IngestOutcome& outcome = finished.taken->ingest;
+    const std::optional<double> latency = latency_of(finished);
+    const double took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
+    return fmt::format("gridded {}{}: {}, read {:.0f} decode {:.0f} grid {:.0f} commit {:.0f} ms{}",
+                       outcome.partial ? "partial " : "", subject(finished),
+                       latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
+                               : fmt::format("{:.0f} ms", took_s * 1000),
+                       outcome.read_s * 1000, outcome.decode_s * 1000, outcome.grid_s * 1000,
+                       outcome.commit_s * 1000, because(outcome));
+}
+
+// Sweeps have entered the grid of a volume that goes on growing.
+bool shows_living(const IngestOutcome& outcome) {
+    return outcome.result != IngestResult::gridded && !outcome.living.empty();
+}
+
+std::string describe_living(const Finished& finished) {
+    const std::optional<double> latency = latency_of(finished);
+    return fmt::format("sweep of {}: {}", subject(finished),
+                       latency ? fmt::format("{:.0f} ms after close", *latency * 1000)
+                               : std::string{"close not seen"});
+}
+
+}  // namespace
+
+std::string describe(const Finished& finished) {
+    if (!finished.taken) {
+        const Error& error = finished.taken.error();
+        const int tries = finished.job.failures + 1;
+        const std::string next =
+            tries < Intake::most_tries || is_shortage(error.code)
+                ? fmt::format("trying again in {} s", Schedule::retry_delay(tries).count())
+                : fmt::format("given up after {} tries until the drop directory is scanned", tries);
+        return fmt::format("cannot store {}: {}; {}", printable(finished.job.path.native()),
+                           printable(error.message), next);
+    }
+    const IngestOutcome& outcome = finished.taken->ingest;
+    if (shows_living(outcome)) return describe_living(finished);
+    switch (outcome.result) {
+        case IngestResult::gridded:
+            return describe_gridded(finished);
+        case IngestResult::no_moment:
+            return fmt::format("nothing to grid {}{}", subject(finished), because(outcome));
+        case IngestResult::no_position:
+            return fmt::format("no position for {}{}", subject(finished), because(outcome));
+        case IngestResult::other_station:
+            return fmt::format("not gridded {}{}", subject(finished), because(outcome));
+        case IngestResult::incomplete:
+            return fmt::format("waiting for the rest of {}{}", subject(finished), because(outcome));
+        case IngestResult::rejected:
+            return fmt::format("rejected {}{}", subject(finished), because(outcome));
+        case IngestResult::unchanged:
+            return fmt::format("unchanged {}", printable(finished.job.path.native()));
+        case IngestResult::vanished:
+            return fmt::format("gone {}", printable(finished.job.path.native()));
+        case IngestResult::registered:
+            return fmt::format("registered {}", subject(finished));
+    }
+    return {};
+}
+
+About about(const Finished& finished) {
+    if (!finished.taken) {
+        return {.event = Event::store_failed,
+                .file = finished.job.path,
+                .reason = name_of(finished.taken.error().code)};
+    }
+    const IngestOutcome& outcome = finished.taken->ingest;
+    About subject{.event = event_of(outcome.result),
+                  .station = printable(outcome.station),
+                  .volume = outcome.volume_time,
+                  .file = finished.job.path};
+    if (outcome.rejected_with) subject.reason = name_of(*outcome.rejected_with);
+    if (shows_living(outcome)) subject.event = Event::living;
+    if (!outcome.grids.empty() || !outcome.living.empty()) subject.latency_s = latency_of(finished);
+    subject.took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
+    return subject;
+}
+
+void Reporter::report(const Finished& finished, Named named) {
+    const auto severity = [&] {
+        if (!finished.taken) return named == Named::before ? Severity::debug : Severity::error;
+        switch (finished.taken->ingest.result) {
+            case IngestResult::gridded:
+                return finished.taken->ingest.no_room ? Severity::warning : Severity::info;
+            case IngestResult::no_moment:
+                return Severity::info;
+            case IngestResult::rejected:
+            case IngestResult::no_position:
+            case IngestResult::other_station:
+                return Severity::warning;
+            case IngestResult::incomplete:
+            case IngestResult::unchanged:
+            case IngestResult::vanished:
+            case IngestResult::registered:
+                return Severity::debug;
+        }
+        return Severity::debug;
+    };
+    log_line(severity(), about(finished), describe(finished));
+}
+
+void Reporter::report_directory(const Error& error) {
+    const bool is_blind = error.code == ErrorCode::no_space || error.code == ErrorCode::unsupported;
+    log_warning({.event = Event::directory_problem, .reason = name_of(error.code)}, "{}{}",
+                printable(error.message),
+                is_blind ? "; the drop directory is polled ([watch] poll_seconds)" : "");
+}
+
+// Where the air is clear nothing can be told: that is no news, hour by hour.
+void Reporter::report_sites(const pipeline::PairReport& report) {
+    const About compared{
+        .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};
+    log_line(pipeline::tells_anything(report.found) ? Severity::info : Severity::debug, compared,
+             fmt::format("sites of {} at {}: {}", printable(report.domain),
+                         format_utc(report.instant), pipeline::describe(report.found)));
+    About faulty = compared;
+    faulty.event = Event::site_fault;
+    for (const std::string& fault : report.faults)
+        log_warning(faulty, "sites of {}: {}", printable(report.domain), fault);
+}
+
+}  // namespace stormcellar::daemon

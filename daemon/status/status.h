@@ -1,0 +1,138 @@
+// daemon/status/status.h -- what the daemon says of itself: counters, latencies, stations.
+//
+// Written as JSON (status_json.h: state/status.json and the socket) and as Prometheus text
+// (metrics_text.h).
+// Thread contract: one thread; StatusFacts is plain data and may be copied to others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "daemon/config/loop_config.h"
+#include "daemon/queue/pending.h"
+#include "daemon/queue/sink.h"
+#include "daemon/queue/worker_pool.h"
+#include "daemon/status/rejected_paths.h"
+#include "daemon/status/station_book.h"
+#include "daemon/status/status_names.h"
+#include "daemon/status/timings.h"
+#include "pipeline/mosaic/site_watch.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::daemon {
+
+// Names and reasons of all these are printable.
+struct RecentVolume {
+    std::string file, station, time;
+    std::size_t grids = 0;
+    std::optional<double> latency_s, antenna_s;
+    double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0;
+};
+
+// Of a volume without an end, to which nothing comes.
+struct WaitingFile {
+    std::string file;
+    double left_s = 0;  // until it is taken in as it is
+};
+
+struct RejectedFile {
+    std::string file, station, reason;
+    std::string_view code;
+    UtcTime at;
+};
+
+struct StatusFacts {
+    std::filesystem::path drop, cache, socket;  // no socket: empty
+    std::string drop_lost;                      // why it cannot be read; empty: it can
+    int http_port = 0;                          // none: 0
+    UtcTime started = now_utc();
+    std::string state = "starting";
+    std::uint64_t ingested = 0, grids = 0, partial = 0, failures = 0;
+    PerResult<std::uint64_t> results{};      // files
+    PerErrorCode<std::uint64_t> rejected{};  // of results: by what was wrong with the file
+    PerErrorCode<std::uint64_t> failed{};    // of failures: by what hindered
+    std::uint64_t overflows = 0, scans = 0;
+    std::uint64_t unseen = 0;  // what could not be looked at when an event told of it
+    std::size_t directories = 0;
+    double longest_wait_s = 0;               // of the files that wait
+    std::vector<WaitingFile> waiting_files;  // of the growing ones, the soonest first
+    std::uint64_t lone_chunks = 0;  // files that look like one chunk, and are not named like one
+    std::uint64_t not_kept = 0;     // files of which the cache's limits keep nothing
+    std::uint64_t living_left_out = 0;  // living grids, for want of time
+    std::uint64_t given_up = 0;         // growing volumes, for want of room: they are read again
+    std::optional<cache::StoreUsage> usage;
+    CatalogState catalog;
+    std::vector<LoopState> loops;
+    std::vector<LoopState> others_loops;  // that another process keeps (others_loops.h)
+    Timings close_to_cache{4096};
+    std::uint64_t living = 0;                 // grids of volumes that had not ended, each time
+    Timings close_to_living{4096};            // of the chunk with which a sweep was complete
+    Timings antenna_to_cache{4096};           // of data that can have come live
+    std::uint64_t not_live = 0;               // volumes that it leaves out
+    std::deque<RecentVolume> volumes;         // the last 64, oldest first, as the next
+    std::deque<RejectedFile> rejected_files;  // each path once
+    StationBook stations;
+    std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
+};
+
+class StatusBook {
+  public:
+    StatusBook(std::filesystem::path drop, std::filesystem::path cache);
+
+    // `at`: when it ended, by the clock on the wall. False: the file was rejected before, for the
+    // same reason, and is not counted again.
+    bool add(const Finished& finished, UtcTime at = now_utc());
+    void count_overflow() { ++facts_.overflows; }
+    void count_unseen(std::uint64_t count) { facts_.unseen += count; }
+    void set_longest_wait(double seconds) { facts_.longest_wait_s = seconds; }
+    void set_waiting_files(std::vector<WaitingFile> files) {
+        facts_.waiting_files = std::move(files);
+    }
+    void count_scan() { ++facts_.scans; }
+    void set_directories(std::size_t watched) { facts_.directories = watched; }
+    void set_drop_lost(std::string why) { facts_.drop_lost = std::move(why); }
+    void set_state(std::string state) { facts_.state = std::move(state); }
+    void set_listening(std::filesystem::path socket, int http_port);
+    void add(pipeline::PairReport report);
+    void set_loops(std::vector<LoopState> loops) { facts_.loops = std::move(loops); }
+    void set_others_loops(std::vector<LoopState> loops) { facts_.others_loops = std::move(loops); }
+    void set_catalog(CatalogState state) { facts_.catalog = std::move(state); }
+    void set_usage(const cache::StoreUsage& usage) { facts_.usage = usage; }
+    // For chunks that are put together (station_book.h), and stations known before the start.
+    [[nodiscard]] StationBook& stations() { return facts_.stations; }
+
+    [[nodiscard]] const StatusFacts& facts() const { return facts_; }
+    [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
+    // "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1, waiting 3": for STATUS=. It
+    // begins with "drop directory DIR: WHY; " while that cannot be read.
+    [[nodiscard]] std::string line(const Pending& pending) const;
+    [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
+
+  private:
+    void add_ingested(const Finished& finished, UtcTime at);
+    void add_rejected(const Finished& finished, UtcTime at);
+    void add_living(const Finished& finished);
+
+    StatusFacts facts_;
+    RejectedPaths rejected_;
+};
+
+// The document and the STATUS= line of a process that keeps loops alone
+// (daemon/loops/loops_service.h): "2 of 3 loops run, made 12".
+[[nodiscard]] std::string loops_json(const std::vector<LoopState>& loops, std::string_view state,
+                                     UtcTime started, UtcTime now);
+[[nodiscard]] std::string loops_line(const std::vector<LoopState>& loops);
+
+// Seconds from the last close that was seen to the end of the job; none when none was seen.
+[[nodiscard]] std::optional<double> latency_of(const Finished& finished);
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,39 @@
+// daemon/status/status_board.h -- the status as it was last published, for those who are not the
+// service.
+//
+// The service posts a copy, at most once a second; whoever asks renders from that copy in a thread
+// of its own, so that no number of questions costs the service anything.
+// Thread contract: any thread.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "daemon/status/status.h"
+
+namespace stormcellar::daemon {
+
+struct StatusSnapshot {
+    StatusFacts facts;
+    Pending pending;
+};
+
+class StatusBoard {
+  public:
+    void post(const StatusFacts& facts, const Pending& pending) {
+        auto fresh = std::make_shared<const StatusSnapshot>(StatusSnapshot{facts, pending});
+        const std::scoped_lock lock(mutex_);
+        latest_.swap(fresh);
+    }
+    // Null before the first was posted.
+    [[nodiscard]] std::shared_ptr<const StatusSnapshot> latest() const {
+        const std::scoped_lock lock(mutex_);
+        return latest_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::shared_ptr<const StatusSnapshot> latest_;
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,52 @@
+#include "daemon/status/status_file.h"
+
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/printable.h"
+#include "daemon/log/log.h"
+
+namespace stormcellar::daemon {
+
+StatusFile::StatusFile(FileSystem& file_system, const std::filesystem::path& state,
+                       Notifier& notifier)
+    : file_system_(file_system),
+      path_(state / "status.json"),
+      temporary_(state / fmt::format("{}status", temporary_prefix)),
+      notifier_(notifier) {}
+
+Status StatusFile::write(const std::string& text) {
+    (void)file_system_.remove(temporary_);  // of a daemon that was killed in between
+    const Result<int> descriptor = file_system_.create_exclusive(temporary_);
+    if (!descriptor) return pass_on(descriptor);
+    Status written = file_system_.write_at(*descriptor, 0, std::as_bytes(std::span{text}));
+    file_system_.close(*descriptor);
+    if (written) written = file_system_.rename(temporary_, path_);
+    if (!written) (void)file_system_.remove(temporary_);
+    return written;
+}
+
+bool StatusFile::publish(const StatusBook& book, const Pending& pending, SteadyTime now,
+                         bool force) {
+    if (!force && (!changed_ || now < next_)) return false;
+    changed_ = false;
+    next_ = now + std::chrono::seconds{1};
+    notifier_.send("STATUS=" + book.line(pending));
+    const Status written = write(book.json(pending, now_utc()));
+    if (!written && !failing_) {
+        log_error({.event = Event::status_unwritten, .file = path_},
+                  "cannot write the status: {}: {}", printable(path_.native()),
+                  printable(written.error().message));
+    }
+    failing_ = !written;
+    changed_ = failing_;  // to be tried again
+    return true;
+}
+
+std::optional<SteadyTime> StatusFile::next_time() const {
+    if (!changed_) return std::nullopt;
+    return next_;
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,260 @@
+#include "daemon/status/status_server.h"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <exception>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <microhttpd.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "base/printable.h"
+#include "daemon/log/log.h"
+#include "daemon/status/http_listener.h"
+#include "daemon/status/metrics_text.h"
+#include "daemon/status/status_json.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+using ResponsePointer = std::unique_ptr<MHD_Response, void (*)(MHD_Response*)>;
+
+ResponsePointer response_of(std::string_view text, const char* type) {
+    std::string copy{text};
+    ResponsePointer response(
+        MHD_create_response_from_buffer(copy.size(), copy.data(), MHD_RESPMEM_MUST_COPY),
+        &MHD_destroy_response);
+    if (response) {
+        MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONTENT_TYPE, type);
+        MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONNECTION, "close");
+        MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
+        MHD_add_response_header(response.get(), MHD_HTTP_HEADER_X_CONTENT_TYPE_OPTIONS, "nosniff");
+    }
+    return response;
+}
+
+constexpr const char* plain = "text/plain; charset=utf-8";
+
+// The service's umask is for its files and would keep the group from the socket. This thread, which
+// makes nothing else, gets one of its own; where the system refuses that, the umask narrows the
+// socket, and Worker::open() says so.
+void take_own_umask() {
+    if (::unshare(CLONE_FS) == 0) ::umask(0117);
+}
+
+void warn_if_narrow(const std::string& name, mode_t mode) {
+    constexpr mode_t group_may_ask = 0060;
+    if ((mode & group_may_ask) == group_may_ask) return;
+    log_warning({Event::status_unanswered},
+                "the umask keeps the group from asking for the status: {} has mode {:04o}",
+                printable(name), mode);
+}
+
+}  // namespace
+
+// All that the thread has.
+class StatusServer::Worker {
+  public:
+    Worker(StatusServerOptions options, Render render);
+
+    // Opens what is to be open and is not.
+    void open(SteadyTime now);
+    // What keeps an address from being listened at; empty: all are.
+    [[nodiscard]] std::string unanswered() const;
+    void wait(SteadyTime now, const WakeUp& wake_up);
+    void turn(SteadyTime now);
+
+  private:
+    struct Address {
+        std::string name;
+        std::function<Result<ListeningSocket>()> listen;
+        bool may_lack = false;  // a machine without IPv6 is no error
+        std::unique_ptr<HttpListener> listener = nullptr;
+        bool failing = false;   // said once, until it works again
+        bool hopeless = false;  // not tried again
+        std::string problem = {};
+    };
+    struct Page {
+        ResponsePointer response{nullptr, &MHD_destroy_response};
+        SteadyTime made{};
+    };
+    void open(Address& address);
+    HttpListener::Answer answer(const HttpListener::Request& request) noexcept;
+    HttpListener::Answer page(StatusPage which);
+
+    StatusServerOptions options_;
+    Render render_;
+    std::array<Page, 2> pages_;
+    ResponsePointer not_found_ = response_of("GET /metrics or /status.json\n", plain);
+    ResponsePointer not_allowed_ = response_of("GET only\n", plain);
+    ResponsePointer not_here_ =
+        response_of("ask for 127.0.0.1, localhost or [::1], with this port or none\n", plain);
+    ResponsePointer not_yet_ = response_of("starting\n", plain);
+    SteadyTime next_open_{};
+    std::vector<Address> addresses_;  // last: what they answer stands above
+};
+
+StatusServer::Worker::Worker(StatusServerOptions options, Render render)
+    : options_(std::move(options)), render_(std::move(render)) {
+    MHD_add_response_header(not_allowed_.get(), MHD_HTTP_HEADER_ALLOW, "GET, HEAD");
+    if (!options_.socket.empty()) {
+        addresses_.push_back({options_.socket.native(),
+                              [this] { return ListeningSocket::at_path(options_.socket); }});
+    }
+    if (options_.http_port == 0) return;
+    for (const Loopback loopback : {Loopback::ipv4, Loopback::ipv6}) {
+        const bool is_new = loopback == Loopback::ipv6;
+        addresses_.push_back(
+            {fmt::format("http://{}:{}", is_new ? "[::1]" : "127.0.0.1", options_.http_port),
+             [this, loopback] { return ListeningSocket::at_port(loopback, options_.http_port); },
+             is_new});
+    }
+}
+
+void StatusServer::Worker::open(Address& address) {
+    if (address.hopeless || (address.listener && address.listener->still_stands())) return;
+    address.listener.reset();
+    Result<ListeningSocket> socket = address.listen();
+    Status opened = socket ? Status{} : Status{pass_on(socket)};
+    if (socket) {
+        if (!socket->port()) warn_if_narrow(address.name, socket->mode());
+        auto listener = HttpListener::open(
+            std::move(*socket), {options_.longest_connection, options_.most_connections},
+            [this](const HttpListener::Request& request) { return answer(request); });
+        if (listener) {
+            address.listener = std::move(*listener);
+        } else {
+            opened = pass_on(listener);
+        }
+    }
+    if (opened) {
+        log_info({Event::status_answered}, "the status is answered at {}", printable(address.name));
+    } else if (!address.failing) {
+        address.hopeless = opened.error().code == ErrorCode::bad_argument;
+        log_line(
+            address.may_lack ? Severity::debug : Severity::error,
+            {.event = Event::status_unanswered, .reason = name_of(opened.error().code)},
+            fmt::format(
+                "the status cannot be asked for: {}; {}", printable(opened.error().message),
+                address.hopeless ? "name another [status] socket and restart" : "trying again"));
+    }
+    address.failing = !opened;
+    address.problem = opened ? std::string{} : opened.error().message;
+}
+
+std::string StatusServer::Worker::unanswered() const {
+    for (const Address& address : addresses_) {
+        if (address.may_lack || address.hopeless) continue;
+        if (address.listener && address.problem.empty()) continue;
+        return fmt::format("the status cannot be asked for: {}", address.problem);
+    }
+    return {};
+}
+
+void StatusServer::Worker::open(SteadyTime now) {
+    if (now < next_open_) return;
+    next_open_ = now + options_.retry;
+    for (Address& address : addresses_)
+        open(address);
+}
+
+void StatusServer::Worker::wait(SteadyTime now, const WakeUp& wake_up) {
+    SteadyTime next = next_open_;
+    std::vector<pollfd> sources = {{wake_up.descriptor(), POLLIN, 0}};
+    for (const Address& address : addresses_) {
+        if (!address.listener) continue;
+        sources.push_back({address.listener->descriptor(), POLLIN, 0});
+        if (const auto due = address.listener->next_time(now)) next = std::min(next, *due);
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - now);
+    ::poll(sources.data(), sources.size(),
+           static_cast<int>(std::max<std::int64_t>(0, left.count())));
+}
+
+void StatusServer::Worker::turn(SteadyTime now) {
+    for (Address& address : addresses_)
+        if (address.listener) address.listener->turn(now);
+}
+
+HttpListener::Answer StatusServer::Worker::page(StatusPage which) {
+    Page& page = pages_.at(static_cast<std::size_t>(which));
+    const SteadyTime now = std::chrono::steady_clock::now();
+    if (!page.response || now - page.made >= options_.freshness) {
+        const std::string text = render_(which);
+        if (text.empty()) return {not_yet_.get(), MHD_HTTP_SERVICE_UNAVAILABLE};
+        page.response = response_of(
+            text, which == StatusPage::json ? "application/json" : metrics_content_type.data());
+        page.made = now;
+    }
+    return {page.response.get(), MHD_HTTP_OK};
+}
+
+HttpListener::Answer StatusServer::Worker::answer(const HttpListener::Request& request) noexcept {
+    try {
+        if (request.names_another_host) return {not_here_.get(), MHD_HTTP_MISDIRECTED_REQUEST};
+        const std::string_view word = request.method;
+        if (word != MHD_HTTP_METHOD_GET && word != MHD_HTTP_METHOD_HEAD)
+            return {not_allowed_.get(), MHD_HTTP_METHOD_NOT_ALLOWED};
+        const std::string_view path = request.url;
+        if (path == "/metrics") return page(StatusPage::metrics);
+        if (path == "/status.json") return page(StatusPage::json);
+        return {not_found_.get(), MHD_HTTP_NOT_FOUND};
+    } catch (const std::exception&) {  // no memory: whoever asked may ask again
+        return {};
+    }
+}
+
+StatusServer::StatusServer(StatusServerOptions options, Render render)
+    : worker_(std::make_unique<Worker>(std::move(options), std::move(render))),
+      thread_([this] { run(); }) {}
+
+StatusServer::~StatusServer() {
+    stopping_ = true;
+    wake_up_.set();
+    thread_.join();
+}
+
+void StatusServer::run() {
+    // A client that went is an error of its connection, and of nothing else.
+    sigset_t pipe;
+    sigemptyset(&pipe);
+    sigaddset(&pipe, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
+    // Of this thread alone, on Linux; where it may not, it goes on as it is.
+    (void)::setpriority(PRIO_PROCESS, 0, 10);
+    take_own_umask();
+    while (!stopping_) {
+        {
+            const AtWork at_work(pulse_);
+            worker_->turn(std::chrono::steady_clock::now());
+            worker_->open(std::chrono::steady_clock::now());
+            const std::scoped_lock lock(unanswered_mutex_);
+            unanswered_ = worker_->unanswered();
+        }
+        worker_->wait(std::chrono::steady_clock::now(), wake_up_);
+    }
+}
+
+Status StatusServer::answers() const {
+    const std::scoped_lock lock(unanswered_mutex_);
+    if (unanswered_.empty()) return {};
+    return fail(ErrorCode::io, "{}", unanswered_);
+}
+
+StatusServer::Render pages_of(const StatusBoard& board) {
+    return [&board](StatusPage which) -> std::string {
+        const auto snapshot = board.latest();
+        if (!snapshot) return {};
+        return (which == StatusPage::json ? status_json : metrics_text)(
+            snapshot->facts, snapshot->pending, now_utc());
+    };
+}
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,38 @@
+// daemon/status/timings.h -- how long something took, over the last times that it was done.
+//
+// Count and sum are of all since the start, as counters of a monitoring system want them; median,
+// 95th percentile and maximum of the last `window` values, so memory is bounded.
+// Thread contract: plain data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace stormcellar::daemon {
+
+struct LatencySummary {
+    std::size_t count = 0;
+    double median = 0, p95 = 0, max = 0;  // seconds; of `count` 0 meaningless
+};
+// By nearest rank: the smallest value that at least the share of all values do not exceed.
+[[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
+
+class Timings {
+  public:
+    explicit Timings(std::size_t window) : window_(window) {}
+
+    void add(double seconds);
+    [[nodiscard]] LatencySummary summary() const { return summarise(last_); }
+    [[nodiscard]] std::uint64_t count() const { return count_; }
+    [[nodiscard]] double sum_s() const { return sum_s_; }
+
+  private:
+    std::size_t window_;
+    std::vector<double> last_;  // a ring once it is full
+    std::size_t next_ = 0;
+    std::uint64_t count_ = 0;
+    double sum_s_ = 0;
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,37 @@
+// daemon/watch/file_stamp.h -- what tells one state of a raw file from another without reading it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include <sys/stat.h>
+
+namespace stormcellar::daemon {
+
+struct FileStamp {
+    std::uint64_t inode = 0;
+    std::uint64_t size_bytes = 0;
+    std::int64_t modified_ns = 0;  // since the epoch
+    std::int64_t changed_ns = 0;  // the same of its rights and owner: an unreadable file was mended
+
+    bool operator==(const FileStamp&) const = default;
+};
+
+[[nodiscard]] FileStamp stamp_of(const struct stat& facts);
+
+// What stands at a path. Symbolic links are never followed.
+enum class Standing { regular, directory, other, missing, unknown };
+struct FileFound {
+    Standing standing = Standing::missing;
+    FileStamp stamp;
+    mode_t mode = 0;
+};
+// A path that may not be looked at counts as missing; one that cannot be now, as when descriptors
+// run out, is unknown.
+[[nodiscard]] FileFound look_at(const std::filesystem::path& path);
+// The same below a directory: what lies behind links is missing too (base/beneath.h).
+[[nodiscard]] FileFound look_at(const std::filesystem::path& path,
+                                const std::filesystem::path& beneath);
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,138 @@
+#include "daemon/watch/tree_walk.h"
+
+#include <cerrno>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "pipeline/drop/drop_names.h"
+
+namespace stormcellar::daemon {
+namespace {
+
+struct CloseDirectory {
+    void operator()(DIR* directory) const { ::closedir(directory); }
+};
+using DirectoryHandle = std::unique_ptr<DIR, CloseDirectory>;
+
+DirectoryHandle open_directory(int parent, const char* name) {
+    const int descriptor =
+        ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) return nullptr;
+    DIR* directory = ::fdopendir(descriptor);
+    if (directory == nullptr) ::close(descriptor);
+    return DirectoryHandle{directory};
+}
+
+std::string reason_of(int error_number) {
+    return std::system_category().message(error_number);
+}
+
+std::string too_deep(const std::filesystem::path& path) {
+    return fmt::format("{}: more than {} directories deep, left out", path.native(),
+                       max_walk_depth);
+}
+
+void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
+                  const WalkVisitor& visitor);
+
+void walk_below(int parent, const char* name, const std::filesystem::path& path, int depth,
+                const WalkVisitor& visitor) {
+    if (depth > max_walk_depth) {
+        visitor.problem(too_deep(path));
+        return;
+    }
+    visitor.directory(path);
+    const DirectoryHandle directory = open_directory(parent, name);
+    if (directory) {
+        walk_entries(directory.get(), path, depth, visitor);
+    } else if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) {  // gone since: no problem
+        const int error_number = errno;
+        visitor.problem(fmt::format("{}: {}", path.native(), reason_of(error_number)));
+        const bool is_for_now =
+            error_number == EMFILE || error_number == ENFILE || error_number == ENOMEM;
+        if (is_for_now && visitor.unseen) visitor.unseen();
+    }
+}
+
+// What makes some names of a directory unusable is said once of it.
+class NameProblem {
+  public:
+    NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)
+        : path_(path), visitor_(visitor) {}
+    void say(std::string_view what) {
+        if (!std::exchange(said_, true))
+            visitor_.problem(fmt::format("{}: {}", path_.native(), what));
+    }
+
+  private:
+    const std::filesystem::path& path_;
+    const WalkVisitor& visitor_;
+    bool said_ = false;
+};
+
+void walk_entry(int descriptor, const char* name, const std::filesystem::path& directory, int depth,
+                const WalkVisitor& visitor, NameProblem& problem) {
+    struct stat facts {};
+    if (::fstatat(descriptor, name, &facts, AT_SYMLINK_NOFOLLOW) != 0) {
+        if (errno != ENOENT) problem.say(reason_of(errno));
+        return;
+    }
+    std::filesystem::path path = directory / name;
+    if (path.native().size() >= most_path_bytes) {
+        problem.say(
+            fmt::format("holds paths of more than {} bytes, left out", most_path_bytes - 1));
+    } else if (S_ISREG(facts.st_mode)) {
+        visitor.file(path, stamp_of(facts));
+    } else if (S_ISDIR(facts.st_mode)) {
+        walk_below(descriptor, name, path, depth + 1, visitor);
+    } else if (visitor.other) {
+        visitor.other(path, facts.st_mode);
+    }
+}
+
+void walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
+                  const WalkVisitor& visitor) {
+    const int descriptor = ::dirfd(directory);
+    NameProblem problem(path, visitor);
+    for (int entries = 1;; ++entries) {
+        if (entries % entries_a_step == 0 && visitor.step) visitor.step();
+        errno = 0;
+        const struct dirent* entry = ::readdir(directory);
+        if (entry == nullptr) {
+            if (errno != 0) problem.say(reason_of(errno));
+            return;
+        }
+        if (pipeline::is_temporary_name(entry->d_name)) continue;
+        walk_entry(descriptor, entry->d_name, path, depth, visitor, problem);
+    }
+}
+
+}  // namespace
+
+Status walk(const std::filesystem::path& root, const WalkVisitor& visitor, int depth) {
+    if (depth > max_walk_depth) {
+        visitor.problem(too_deep(root));
+        return {};
+    }
+    visitor.directory(root);
+    const std::filesystem::path opened = depth == 0 ? root / "." : root;
+    const DirectoryHandle directory = open_directory(AT_FDCWD, opened.c_str());
+    if (!directory) {
+        const int error_number = errno;
+        const ErrorCode code = error_number == ENOENT || error_number == ENOTDIR
+                                   ? ErrorCode::not_found
+                               : error_number == EACCES ? ErrorCode::permission
+                                                        : ErrorCode::io;
+        return fail(code, "{}: {}", root.native(), reason_of(error_number));
+    }
+    walk_entries(directory.get(), root, depth, visitor);
+    return {};
+}
+
+}  // namespace stormcellar::daemon

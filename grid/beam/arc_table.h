@@ -1,0 +1,49 @@
+// grid/beam/arc_table.h -- a function of the arc, tabulated every 500 m and linear in between.
+//
+// Accuracy: half the function's second derivative times 250 m squared
+// (tests/grid/sweep_mixture_test.cpp); what that comes to is said where a table is used. Threads:
+// immutable.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace stormcellar::grid {
+
+// Where along the tables an arc lies.
+struct ArcPlace {
+    std::size_t index = 0;
+    float fraction = 0;
+};
+
+class ArcTable {
+  public:
+    static constexpr double step_m = 500;
+
+    ArcTable() = default;
+    // `at` gives the value for an arc in metres.
+    template <class Function>
+    ArcTable(std::size_t size, Function at) {
+        values_.reserve(size);
+        for (std::size_t i = 0; i < size; ++i)
+            values_.push_back(static_cast<float>(at(step_m * static_cast<double>(i))));
+    }
+    [[nodiscard]] float at(ArcPlace place) const {
+        const float here = values_[place.index];
+        return here + place.fraction * (values_[place.index + 1] - here);
+    }
+    // At arc index * step_m.
+    [[nodiscard]] float operator[](std::size_t index) const { return values_[index]; }
+    // The arc must be at least 0; the place lies within a table whose size exceeds index + 1.
+    [[nodiscard]] static ArcPlace place_of(float arc_m) {
+        const float along = arc_m / static_cast<float>(step_m);
+        const auto index = static_cast<std::size_t>(along);
+        return {index, along - static_cast<float>(index)};
+    }
+    [[nodiscard]] std::size_t size() const { return values_.size(); }
+
+  private:
+    std::vector<float> values_;
+};
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,31 @@
+// grid/beam/detection_limit.h -- the weakest reflectivity that a radar shows at a range.
+//
+// It is what "no echo" stands for where a cell mixes it with echo (DESIGN section 5).
+//   limit_dbz = dbz0 + 20 log10(range / 1 km) + attenuation * range + snr_threshold
+// dbz0 (calibration: reflectivity at 1 km of echo as strong as the noise), attenuation and
+// threshold are those of message 31. Source: ICD 2620002 tables XVII-B, E, F and H. Where the
+// message has no calibration, a stated curve stands in for dbz0 + snr_threshold: -41.5 dBZ for
+// WSR-88D (-7.5 dBZ at 50 km, the specified sensitivity) and -46 dBZ for TDWR (as the data show).
+// Accuracy: the weakest echo of real volumes lies within 3.5 dB of it (docs/geometry.md).
+#pragma once
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::grid {
+
+inline constexpr double wsr88d_limit_at_1km_dbz = -41.5;
+inline constexpr double tdwr_limit_at_1km_dbz = -46;
+
+struct DetectionLimit {
+    double at_1km_dbz = wsr88d_limit_at_1km_dbz;  // without attenuation
+    double attenuation_db_per_km = 0;             // both ways, positive
+
+    // Ranges below 100 m count as 100 m.
+    [[nodiscard]] double at(double range_m) const;
+};
+
+// What one radial of a sweep can see.
+[[nodiscard]] DetectionLimit detection_limit(const level2::Radial& radial,
+                                             const level2::SweepMoment& moment, bool is_tdwr);
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,378 @@
+#include "stormcellar/grid/brick_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "base/checksum.h"
+#include "base/floating_point.h"
+#include "base/parallel.h"
+
+namespace stormcellar::grid {
+namespace {
+
+constexpr std::size_t state_block_bytes = brick_cells / 4;
+// More than one, since storms make some bricks dearer than others.
+constexpr int pieces_a_thread = 4;
+
+// The nearest code; a value beyond the ends of the code range takes the end and is counted.
+std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
+    const double steps =
+        (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
+        static_cast<double>(quantization.step);
+    // To the nearest whole number, of halves to the even one: what lies above 2^52 has no fraction.
+    constexpr double no_fraction = 0x1.8p52;
+    const double code = steps + no_fraction - no_fraction + first_value_code;
+    if (is_within<double>(code, first_value_code, quantization.largest_code())) {
+        return static_cast<std::uint16_t>(code);
+    }
+    ++clamped;
+    return std::isgreater(code, double{first_value_code}) ? quantization.largest_code()
+                                                          : first_value_code;
+}
+
+// One brick of cells as codes; cells beyond the grid's edge stay 0.
+template <class Code>
+class BrickReader {
+  public:
+    BrickReader(const Grid& grid, const Quantization& quantization)
+        : grid_(grid), quantization_(quantization) {}
+
+    void read(int bx, int by, int bz, const BrickExtent& extent) {
+        if (extent.cells() < static_cast<int>(brick_cells)) codes_.fill(0);
+        const GridSpec& spec = grid_.spec;
+        for (int x = 0; x < extent.x; ++x) {
+            for (int y = 0; y < extent.y; ++y) {
+                const std::size_t from =
+                    spec.index(bx * brick_edge + x, by * brick_edge + y, bz * brick_edge);
+                read_column(from, extent.z, codes_.data() + brick_edge * (brick_edge * x + y));
+            }
+        }
+    }
+    [[nodiscard]] const Code* codes() const { return codes_.data(); }
+    [[nodiscard]] std::uint64_t clamped_count() const { return clamped_; }
+
+  private:
+    void read_column(std::size_t from, int height, Code* to) {
+        const CellStatus* status = grid_.status.data() + from;
+        if (height == brick_edge) {
+            if (!copy_states<brick_edge>(status, to)) return;
+        } else {
+            bool has_value = false;
+            for (int z = 0; z < height; ++z)
+                has_value |= copy_states<1>(status + z, to + z);
+            if (!has_value) return;
+        }
+        const float* values = grid_.values.data() + from;
+        for (int z = 0; z < height; ++z) {
+            if (status[z] == CellStatus::value) {
+                to[z] = static_cast<Code>(code_of(values[z], quantization_, clamped_));
+            }
+        }
+    }
+
+    // Whether there is a value among them.
+    template <int count>
+    static bool copy_states(const CellStatus* status, Code* to) {
+        std::uint8_t largest = 0;
+        for (int z = 0; z < count; ++z) {
+            const auto state = static_cast<std::uint8_t>(status[z]);
+            largest |= static_cast<std::uint8_t>(state & (state >> 1));
+            to[z] = state;
+        }
+        return largest != 0;
+    }
+
+    const Grid& grid_;
+    const Quantization& quantization_;
+    std::array<Code, brick_cells> codes_{};
+    std::uint64_t clamped_ = 0;
+};
+
+// The cells of a brick, those beyond the extent (code 0) among the not seen.
+struct CodeCounts {
+    std::size_t not_seen = 0;
+    std::size_t no_echo = 0;
+    std::size_t range_folded = 0;
+    std::uint16_t smallest = 65535;  // of the cells with a value
+    std::uint16_t largest = 0;
+    [[nodiscard]] std::size_t values() const {
+        return brick_cells - not_seen - no_echo - range_folded;
+    }
+};
+
+template <class Code>
+CodeCounts count_codes(const Code* codes) {
+    // Sixteen side by side, which runs in vectors; 128 of each, which a byte can count.
+    constexpr std::size_t lanes = 16;
+    constexpr std::size_t row = 128 * lanes;
+    using Lanes = std::array<Code, lanes>;
+    // Codes of values from 0 on; the states wrap round and are larger than any.
+    const auto wrapped = [](Code code) { return static_cast<Code>(code - first_value_code); };
+    CodeCounts counts;
+    Lanes smallest;
+    smallest.fill(wrapped(0));
+    Lanes largest{};
+    for (std::size_t first = 0; first < brick_cells; first += row) {
+        Lanes not_seen{}, no_echo{}, range_folded{};
+        for (std::size_t i = first; i < first + row; i += lanes) {
+            Lanes here;
+            std::copy_n(codes + i, lanes, here.begin());
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                const Code code = here[lane];
+                not_seen[lane] = static_cast<Code>(not_seen[lane] + (code == 0 ? 1 : 0));
+                no_echo[lane] = static_cast<Code>(no_echo[lane] + (code == 1 ? 1 : 0));
+                range_folded[lane] = static_cast<Code>(range_folded[lane] + (code == 2 ? 1 : 0));
+                const Code value = wrapped(code);
+                smallest[lane] = value < smallest[lane] ? value : smallest[lane];
+                largest[lane] = code > largest[lane] ? code : largest[lane];
+            }
+        }
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            counts.not_seen += not_seen[lane];
+            counts.no_echo += no_echo[lane];
+            counts.range_folded += range_folded[lane];
+        }
+    }
+    counts.smallest = static_cast<std::uint16_t>(
+        *std::min_element(smallest.begin(), smallest.end()) + first_value_code);
+    counts.largest = *std::max_element(largest.begin(), largest.end());
+    return counts;
+}
+
+template <class Code>
+std::array<std::byte, state_block_bytes> pack_states(const Code* codes) {
+    std::array<std::byte, state_block_bytes> packed;
+    for (std::size_t i = 0; i < packed.size(); ++i, codes += 4) {
+        packed[i] =
+            static_cast<std::byte>(codes[0] | codes[1] << 2 | codes[2] << 4 | codes[3] << 6);
+    }
+    return packed;
+}
+
+template <class Code>
+void read_columns(const Grid& grid, const BrickView& shape, int begin_x, int end_x,
+                  BricksWriter& writer) {
+    BrickReader<Code> reader(grid, shape.quantization);
+    auto index = static_cast<std::size_t>(begin_x) * static_cast<std::size_t>(shape.bricks_y) *
+                 static_cast<std::size_t>(shape.bricks_z);
+    for (int bx = begin_x; bx < end_x; ++bx) {
+        for (int by = 0; by < shape.bricks_y; ++by) {
+            for (int bz = 0; bz < shape.bricks_z; ++bz, ++index) {
+                const BrickExtent extent = brick_extent(grid.spec, bx, by, bz);
+                reader.read(bx, by, bz, extent);
+                writer.put_codes(index, reader.codes(), extent);
+            }
+        }
+    }
+    writer.count_clamped(reader.clamped_count());
+}
+
+// In pieces along x, one behind the other, so that what the writers hold is in order.
+template <class Code>
+void read_all(const Grid& grid, int threads, BrickGrid& made) {
+    const BrickView shape = made.view();
+    const int pieces = threads <= 1 ? 1 : std::min(shape.bricks_x, pieces_a_thread * threads);
+    std::vector<BricksWriter> writers(static_cast<std::size_t>(pieces), BricksWriter(made));
+    for_each_piece(pieces, threads, [&](int piece) {
+        read_columns<Code>(grid, shape, shape.bricks_x * piece / pieces,
+                           shape.bricks_x * (piece + 1) / pieces,
+                           writers[static_cast<std::size_t>(piece)]);
+    });
+    made.finish(writers);
+}
+
+}  // namespace
+
+BrickExtent brick_extent(const GridSpec& spec, int bx, int by, int bz) {
+    const auto along = [](int brick, int cells) {
+        return std::min(brick_edge, cells - brick * brick_edge);
+    };
+    return {along(bx, spec.nx), along(by, spec.ny), along(bz, spec.nz())};
+}
+
+BrickGrid::BrickGrid(GridSpec spec, const Quantization& quantization)
+    : spec_(std::move(spec)), quantization_(quantization) {
+    bricks_.resize(static_cast<std::size_t>(bricks_along(spec_.nx)) *
+                   static_cast<std::size_t>(bricks_along(spec_.ny)) *
+                   static_cast<std::size_t>(bricks_along(spec_.nz())));
+    codes_ = SparseBytes(bricks_.size() * brick_cells *
+                         static_cast<std::size_t>(quantization.code_bytes));
+}
+
+BrickGrid BrickGrid::from(const Grid& grid, const Quantization& quantization, int threads) {
+    BrickGrid made(grid.spec, quantization);
+    if (quantization.code_bytes == 1) {
+        read_all<std::uint8_t>(grid, threads, made);
+    } else {
+        read_all<std::uint16_t>(grid, threads, made);
+    }
+    return made;
+}
+
+void BrickGrid::finish(std::span<BricksWriter> writers) {
+    std::size_t size = 0;
+    for (const BricksWriter& writer : writers)
+        size += writer.states_.size();
+    states_.reserve(size);
+    for (BricksWriter& writer : writers) {
+        auto block = static_cast<std::uint32_t>(states_.size() / state_block_bytes);
+        for (const std::size_t brick : writer.bricks_with_states_)
+            bricks_[brick].status_index = block++;
+        states_.insert(states_.end(), writer.states_.begin(), writer.states_.end());
+        clamped_count_ += writer.clamped_count_;
+        writer = BricksWriter(*this);
+    }
+}
+
+BrickView BrickGrid::view() const {
+    BrickView view;
+    view.spec = &spec_;
+    view.quantization = quantization_;
+    view.bricks_x = bricks_along(spec_.nx);
+    view.bricks_y = bricks_along(spec_.ny);
+    view.bricks_z = bricks_along(spec_.nz());
+    view.codes = codes_.bytes();
+    view.bricks = bricks_;
+    view.states = states_;
+    return view;
+}
+
+void BrickGrid::clear(std::size_t brick) {
+    BrickEntry& entry = bricks_[brick];
+    if (entry.kind == BrickKind::stored) {
+        const std::size_t size = brick_cells * static_cast<std::size_t>(quantization_.code_bytes);
+        std::memset(codes_.data() + brick * size, 0, size);
+    }
+    entry = {};
+}
+
+void BrickGrid::finish_again(std::span<BricksWriter> writers) {
+    const std::vector<std::byte> before = std::move(states_);
+    states_.clear();
+    std::vector<const std::byte*> blocks;  // of the bricks that were written now
+    std::size_t count = 0;
+    for (const BricksWriter& writer : writers)
+        count += writer.bricks_with_states_.size();
+    blocks.reserve(count);
+    for (const BricksWriter& writer : writers) {
+        for (std::size_t i = 0; i < writer.bricks_with_states_.size(); ++i) {
+            // Numbers from the end on stand for them until all are put in order.
+            bricks_[writer.bricks_with_states_[i]].status_index =
+                static_cast<std::uint32_t>(before.size() / state_block_bytes + blocks.size());
+            blocks.push_back(writer.states_.data() + i * state_block_bytes);
+        }
+        clamped_count_ += writer.clamped_count_;
+    }
+    const std::size_t old_blocks = before.size() / state_block_bytes;
+    const auto has_states = [](const BrickEntry& entry) {
+        return entry.kind == BrickKind::status_only;
+    };
+    const auto all = std::count_if(bricks_.begin(), bricks_.end(), has_states);
+    states_.reserve(static_cast<std::size_t>(all) * state_block_bytes);
+    std::uint32_t next = 0;
+    for (BrickEntry& entry : bricks_) {
+        if (!has_states(entry)) continue;
+        const std::byte* block = entry.status_index < old_blocks
+                                     ? before.data() + entry.status_index * state_block_bytes
+                                     : blocks[entry.status_index - old_blocks];
+        states_.insert(states_.end(), block, block + state_block_bytes);
+        entry.status_index = next++;
+    }
+    for (BricksWriter& writer : writers)
+        writer = BricksWriter(*this);
+}
+
+void BricksWriter::put_uniform(std::size_t brick, CellStatus status) {
+    grid_->bricks_[brick].uniform_status = status;
+}
+
+template <class Code>
+void BricksWriter::put_codes(std::size_t brick, const Code* codes, const BrickExtent& extent) {
+    const bool all_alike = std::memcmp(codes, codes + 1, (brick_cells - 1) * sizeof(Code)) == 0;
+    if (all_alike && codes[0] < first_value_code) {
+        return put_uniform(brick, static_cast<CellStatus>(codes[0]));
+    }
+    const CodeCounts counts = count_codes(codes);
+    const auto cells = static_cast<std::size_t>(extent.cells());
+    BrickEntry& entry = grid_->bricks_[brick];
+    if (counts.values() > 0) {
+        entry.kind = BrickKind::stored;
+        entry.value_count = static_cast<std::uint16_t>(counts.values());
+        entry.min_code = counts.smallest;
+        entry.max_code = counts.largest;
+        std::byte* place = grid_->codes_.data() + brick * brick_cells * sizeof(Code);
+        std::memcpy(place, codes, brick_cells * sizeof(Code));
+        entry.checksum = xxh3_64({place, brick_cells * sizeof(Code)});
+    } else if (counts.no_echo == cells) {
+        entry.uniform_status = CellStatus::no_echo;
+    } else if (counts.range_folded == cells) {
+        entry.uniform_status = CellStatus::range_folded;
+    } else if (counts.not_seen < brick_cells) {
+        const auto packed = pack_states(codes);
+        add_states(brick, packed, xxh3_64(packed));
+    }
+}
+template void BricksWriter::put_codes(std::size_t, const std::uint8_t*, const BrickExtent&);
+template void BricksWriter::put_codes(std::size_t, const std::uint16_t*, const BrickExtent&);
+
+void BricksWriter::put_states(std::size_t brick, std::span<const std::byte> states,
+                              const BrickExtent& extent) {
+    std::array<std::size_t, 3> counts{};
+    for (const std::byte four : states) {
+        const auto bits = std::to_integer<unsigned>(four);
+        for (unsigned shift = 0; shift < 8; shift += 2)
+            ++counts[(bits >> shift) & 3U];
+    }
+    const auto cells = static_cast<std::size_t>(extent.cells());
+    if (counts[0] == brick_cells) return;
+    if (counts[1] == cells) return put_uniform(brick, CellStatus::no_echo);
+    if (counts[2] == cells) return put_uniform(brick, CellStatus::range_folded);
+    add_states(brick, states, xxh3_64(states));
+}
+
+void BricksWriter::copy(std::size_t brick, const BrickView& from, std::size_t from_brick) {
+    const BrickEntry& source = from.bricks[from_brick];
+    if (source.kind == BrickKind::status_only) {
+        const auto states =
+            from.states.subspan(source.status_index * state_block_bytes, state_block_bytes);
+        return add_states(brick, states, source.checksum);
+    }
+    grid_->bricks_[brick] = source;
+    grid_->bricks_[brick].packed_bytes = 0;  // of the file that it came from
+    if (source.kind == BrickKind::uniform) return;
+    const std::size_t size = brick_cells * static_cast<std::size_t>(from.quantization.code_bytes);
+    std::memcpy(grid_->codes_.data() + brick * size, from.codes.data() + from_brick * size, size);
+}
+
+void BricksWriter::add_states(std::size_t brick, std::span<const std::byte> states,
+                              std::uint64_t checksum) {
+    BrickEntry& entry = grid_->bricks_[brick];
+    entry.kind = BrickKind::status_only;
+    entry.checksum = checksum;
+    states_.insert(states_.end(), states.begin(), states.end());
+    bricks_with_states_.push_back(brick);
+}
+
+Grid to_dense(const BrickView& view) {
+    Grid grid;
+    grid.spec = *view.spec;
+    grid.values.resize(grid.spec.cell_count());
+    grid.status.resize(grid.spec.cell_count());
+    for (int iy = 0; iy < grid.spec.ny; ++iy) {
+        for (int ix = 0; ix < grid.spec.nx; ++ix) {
+            for (int iz = 0; iz < grid.spec.nz(); ++iz) {
+                const std::size_t cell = grid.spec.index(ix, iy, iz);
+                grid.status[cell] = view.status(ix, iy, iz);
+                if (grid.status[cell] == CellStatus::value) {
+                    grid.values[cell] = view.value(ix, iy, iz);
+                }
+            }
+        }
+    }
+    return grid;
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,85 @@
+#include "stormcellar/grid/brick_view.h"
+
+#include <cstring>
+
+namespace stormcellar::grid {
+namespace {
+
+constexpr std::size_t state_block_bytes = brick_cells / 4;
+
+std::size_t brick_of(const BrickView& view, int ix, int iy, int iz) {
+    return view.brick_index(ix / brick_edge, iy / brick_edge, iz / brick_edge);
+}
+
+CellStatus status_of_code(std::uint16_t code) {
+    return code < first_value_code ? static_cast<CellStatus>(code) : CellStatus::value;
+}
+
+CellStatus stored_state(const BrickView& view, const BrickEntry& brick, std::size_t cell) {
+    const std::size_t at = brick.status_index * state_block_bytes + cell / 4;
+    const auto four_cells = static_cast<unsigned>(view.states[at]);
+    return static_cast<CellStatus>((four_cells >> (2 * (cell % 4))) & 3U);
+}
+
+}  // namespace
+
+std::string_view cell_status_name(CellStatus status) {
+    switch (status) {
+        case CellStatus::not_seen:
+            return "not_seen";
+        case CellStatus::no_echo:
+            return "no_echo";
+        case CellStatus::range_folded:
+            return "range_folded";
+        case CellStatus::value:
+            return "value";
+    }
+    return "unknown";
+}
+
+Quantization default_quantization(level2::Moment moment) {
+    switch (moment) {
+        case level2::Moment::ref:
+            return {1, -32, 0.5F};
+        case level2::Moment::vel:
+            return {2, -256, 0.25F};
+        case level2::Moment::sw:
+            return {1, 0, 0.25F};
+        case level2::Moment::zdr:
+            return {2, -32, 0.03125F};
+        case level2::Moment::phi:
+            return {2, 0, 0.25F};
+        case level2::Moment::rho:
+            return {2, 0, 0.001953125F};
+        case level2::Moment::cfp:
+            return {2, -256, 0.25F};
+    }
+    return {};
+}
+
+std::uint16_t BrickView::code_at(std::size_t offset) const {
+    if (quantization.code_bytes == 1) return static_cast<std::uint16_t>(codes[offset]);
+    std::uint16_t code = 0;
+    std::memcpy(&code, codes.data() + 2 * offset, sizeof code);
+    return code;
+}
+
+CellStatus BrickView::status(int ix, int iy, int iz) const {
+    const BrickEntry& brick = bricks[brick_of(*this, ix, iy, iz)];
+    const std::size_t offset = offset_x(ix) + offset_y(iy) + offset_z(iz);
+    switch (brick.kind) {
+        case BrickKind::uniform:
+            return brick.uniform_status;
+        case BrickKind::status_only:
+            return stored_state(*this, brick, offset % brick_cells);
+        case BrickKind::stored:
+            return status_of_code(code_at(offset));
+    }
+    return CellStatus::not_seen;
+}
+
+float BrickView::value(int ix, int iy, int iz) const {
+    return quantization.value_of(code_at(offset_x(ix) + offset_y(iy) + offset_z(iz)));
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,145 @@
+#include "grid/fill/column_filler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "grid/fill/mixed_columns.h"
+#include "grid/fill/sampled_columns.h"
+#include "stormcellar/grid/tile.h"
+
+namespace stormcellar::grid {
+namespace {
+
+constexpr std::size_t tiles_a_piece = 16;
+
+// Never inlined: what is off shall not crowd what is on.
+[[gnu::noinline]] void to_db(const FillWork& work, std::span<const TileColumn> columns) {
+    for (const TileColumn& column : columns) {
+        const std::span status = status_of(work, column);
+        const std::span values = values_of(work, column);
+        for (std::size_t level = 0; level < status.size(); ++level) {
+            if (status[level] == CellStatus::value) values[level] = 10 * std::log10(values[level]);
+        }
+    }
+}
+
+// Fills tiles one after another, in arrays that are made once.
+template <class Columns>
+class TileFiller {
+  public:
+    explicit TileFiller(const FillWork& work) : work_(work), filler_(work) {}
+
+    void fill(const Tile& tile) {
+        if (!(tile.bounds.least_arc_m < work_.table_end)) return;  // beyond every gate: not seen
+        find_columns(tile);
+        plan_.make(work_.stack.sweeps, work_.stack.adjacent_to_next, tile.bounds,
+                   filler_.reach_over(tile));
+        filler_.fill(plan_.sweeps(), columns_);
+        if (work_.method.averaging == Averaging::in_z) to_db(work_, columns_);
+    }
+
+  private:
+    void find_columns(const Tile& tile) {
+        columns_.clear();
+        const std::size_t height = work_.levels.size();
+        for (int iy = tile.first_y; iy < tile.end_y; ++iy) {
+            const std::span<const ColumnPlace> row = work_.geometry.row(iy);
+            std::size_t cell = work_.grid.spec.index(tile.first_x, iy, 0);
+            for (int ix = tile.first_x; ix < tile.end_x; ++ix, cell += height) {
+                const ColumnPlace& at = row[static_cast<std::size_t>(ix)];
+                if (!(at.arc_m < work_.table_end)) continue;
+                columns_.push_back({ix, iy, at.azimuth_deg, ArcTable::place_of(at.arc_m), cell});
+            }
+        }
+    }
+
+    const FillWork& work_;
+    TilePlan plan_;
+    Columns filler_;
+    std::vector<TileColumn> columns_;
+};
+
+template <class Columns>
+void fill_tiles(const FillWork& work, std::span<const Tile> tiles) {
+    TileFiller<Columns> filler(work);
+    for (const Tile& tile : tiles)
+        filler.fill(tile);
+}
+
+using Fill = void (*)(const FillWork&, std::span<const Tile>);
+
+template <bool radial_elevations, bool nearest>
+Fill sampled_fill(bool circular) {
+    return circular ? fill_tiles<SampledColumns<radial_elevations, nearest, true>>
+                    : fill_tiles<SampledColumns<radial_elevations, nearest, false>>;
+}
+
+// Everything that is alike for all tiles is asked here, once.
+Fill fill_by(const Method& method, Blending blending) {
+    const bool nearest = method.interpolation == Interpolation::nearest;
+    const bool sampled = nearest || method.interpolation == Interpolation::linear;
+    if (!sampled || method.cell == CellExtent::area) return fill_tiles<MixedColumns>;
+    const bool circular = is_circular(blending);
+    if (method.radial_elevations) {
+        return nearest ? sampled_fill<true, true>(circular) : sampled_fill<true, false>(circular);
+    }
+    return nearest ? sampled_fill<false, true>(circular) : sampled_fill<false, false>(circular);
+}
+
+// The most sweeps above a sweep that count for a cell beside it.
+int sweeps_by_pattern(const SweepStack& stack) {
+    const std::vector<float>& elevations_deg = stack.elevations_deg;
+    int most = 1;
+    for (std::size_t low = 0; low < elevations_deg.size(); ++low) {
+        int within = 1;
+        for (std::size_t high = low + 1; high < elevations_deg.size(); ++high) {
+            // Radials may be measured up to half a beam off, either way.
+            if (elevations_deg[high] - elevations_deg[low] < 2 * stack.beam_width_deg) ++within;
+        }
+        most = std::max(most, within);
+    }
+    return most;
+}
+
+SampleReach reach_of(const SweepStack& stack, const Method& method) {
+    const bool one_gate = method.interpolation == Interpolation::nearest ||
+                          method.interpolation == Interpolation::linear;
+    if (one_gate && method.cell == CellExtent::point) return {0, 0, 1, stack.in_order};
+    SampleReach reach{0, 2 * stack.gate_spacing_m, 1, stack.in_order};
+    for (const PolarSweep& sweep : stack.sweeps) {
+        reach.azimuth_deg = std::max(
+            reach.azimuth_deg, 2 * std::max(sweep.azimuths().spacing_deg(), stack.beam_width_deg));
+    }
+    if (method.interpolation == Interpolation::beam_weighted)
+        reach.sweeps = sweeps_by_pattern(stack);
+    return reach;
+}
+
+}  // namespace
+
+void fill_grid(const SweepStack& stack, const ColumnGeometry& geometry, std::span<const Tile> tiles,
+               const Method& method, int threads, Grid& grid) {
+    std::vector<float> levels_m;
+    for (const double level_m : grid.spec.levels_m)
+        levels_m.push_back(static_cast<float>(level_m));
+    std::vector<float> heights_m = heights_of_levels(levels_m, method.cell);
+    const FillWork work{
+        stack,
+        geometry,
+        method,
+        stack.sweeps.front().blending(),
+        LevelTable(std::move(levels_m)),
+        std::move(heights_m),
+        reach_of(stack, method),
+        static_cast<float>(static_cast<double>(stack.table_size - 2) * ArcTable::step_m),
+        grid};
+    const Fill fill = fill_by(method, work.blending);
+    const std::size_t pieces = (tiles.size() + tiles_a_piece - 1) / tiles_a_piece;
+    for_each_piece(static_cast<int>(pieces), threads, [&](int piece) {
+        const std::size_t first = static_cast<std::size_t>(piece) * tiles_a_piece;
+        fill(work, tiles.subspan(first, std::min(tiles_a_piece, tiles.size() - first)));
+    });
+}
+
+}  // namespace stormcellar::grid

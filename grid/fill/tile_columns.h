@@ -1,0 +1,61 @@
+// grid/fill/tile_columns.h -- what the fillers of tiles share: the columns of a tile, and their
+// beams.
+//
+// Threads: plain values; `FillWork` is read by all and its grid written by each tile in its own
+// cells.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "grid/cells/level_table.h"
+#include "grid/fill/column_filler.h"
+#include "grid/fill/tile_plan.h"
+
+namespace stormcellar::grid {
+
+// One for all tiles.
+struct FillWork {
+    const SweepStack& stack;
+    const ColumnGeometry& geometry;
+    const Method& method;
+    Blending blending;
+    LevelTable levels;
+    std::vector<float> heights_m;  // mixed columns are taken there, one or four a level
+    SampleReach reach;
+    float table_end;
+    Grid& grid;
+};
+
+// A column of a tile, in the place of the tables.
+struct TileColumn {
+    int ix = 0;
+    int iy = 0;
+    float azimuth_deg = 0;
+    ArcPlace place;
+    std::size_t first_cell = 0;
+};
+
+inline std::span<CellStatus> status_of(const FillWork& work, const TileColumn& column) {
+    return std::span(work.grid.status).subspan(column.first_cell, work.levels.size());
+}
+inline std::span<float> values_of(const FillWork& work, const TileColumn& column) {
+    return std::span(work.grid.values).subspan(column.first_cell, work.levels.size());
+}
+
+// Beams whose radials were measured higher or lower than their sweeps may change places. A lost cut
+// stays where it is: between the places, not the beams.
+template <class Beam>
+void put_in_order(std::span<Beam> beams) {
+    const auto lower = [](const Beam& a, const Beam& b) { return a.height_m < b.height_m; };
+    if (std::is_sorted(beams.begin(), beams.end(), lower)) return;
+    std::vector<bool> adjacent;
+    for (const Beam& beam : beams)
+        adjacent.push_back(beam.adjacent_to_next);
+    std::stable_sort(beams.begin(), beams.end(), lower);
+    for (std::size_t i = 0; i < beams.size(); ++i)
+        beams[i].adjacent_to_next = adjacent[i];
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,29 @@
+// grid/frame/sphere_frame.h -- great circles from one point of a sphere of 6371 km, latitudes taken
+// as they are: the cheap rung of the site frame.
+//
+// Units    metres along the sphere, degrees; azimuths clockwise from north, [0, 360).
+// Accuracy against the same sphere in 113-bit floats 1e-7 m: on the sphere up to the antipode; in
+//          the plane of azimuth and arc, which draws apart what lies about the antipode, up to
+//          19,000 km. Nothing cancels close to the site (tests/grid/frame_ladder_test.cpp).
+//          Against WGS84 see sphere_error_bound_m() (stormcellar/grid/frame_ladder.h).
+// Threads  a SphereFrame is immutable.
+#pragma once
+
+#include "stormcellar/grid/site_frame.h"
+
+namespace stormcellar::grid {
+
+class SphereFrame {
+  public:
+    static constexpr double radius_m = 6371000;
+
+    SphereFrame(double latitude_deg, double longitude_deg) noexcept;
+
+    [[nodiscard]] PolarPoint to_polar(GeoPoint point) const noexcept;
+
+  private:
+    double latitude_deg_, longitude_deg_;
+    double sine_, cosine_;  // of the latitude
+};
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,44 @@
+// grid/judge/held_out_sequence.h -- a sequence of volumes, each held out in turn and made again
+// from its neighbors (grid/judge/held_out.h).
+//
+// Thread contract: each call works alone; it starts up to `threads` threads of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/judge/held_out.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::grid {
+
+// One volume of a sequence, and what it is called.
+struct TimedVolume {
+    level2::Volume volume;
+    SitePosition site;
+    std::string name;
+};
+
+// To hold one out takes a neighbor before it and one after it.
+inline constexpr std::size_t least_sequence = 3;
+
+// The repeated cuts (SAILS, MRLE) of a volume's lowest elevation, each as a volume of its own.
+// Errors: not_found when there are fewer than three.
+[[nodiscard]] Result<std::vector<TimedVolume>> repeats_of(const level2::Volume& volume,
+                                                          const SitePosition& site,
+                                                          level2::Moment moment);
+
+struct HeldOutRow {
+    std::string name;                  // of what was held out
+    double before_s = 0, after_s = 0;  // from the neighbors' middles to its own
+    HeldOut held_out;
+};
+
+// One row for each volume that has two neighbors. All volumes are of one site, in order of time.
+// Errors name the volume: those of make_grid() and score_held_out().
+[[nodiscard]] Result<std::vector<HeldOutRow>> score_sequence(
+    const std::vector<TimedVolume>& sequence, const GridSpec& spec, const GridderOptions& options);
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,87 @@
+// grid/mosaic/instant_brick.h -- one brick of a grid for an instant between two volumes.
+//
+// Inside the grid room only; see grid/mosaic/time_interpolation.h for what it does.
+// Threads: an InstantMaker is immutable and shared, an InstantBrick is for one thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "grid/beam/detection_limit.h"
+#include "grid/cells/code_block.h"
+#include "grid/mosaic/time_interpolation.h"
+#include "grid/sweep/mixture.h"
+
+namespace stormcellar::grid {
+
+// What all bricks share.
+class InstantMaker {
+  public:
+    InstantMaker(const TimedView& before, const std::optional<TimedView>& after,
+                 const ColumnGeometry& geometry, const InstantOptions& options);
+
+  private:
+    friend class InstantBrick;
+    struct End {
+        TimedView timed;
+        double middle_s = 0;  // from the instant: negative before it
+        std::optional<SweepClock> clock;
+    };
+    static End end_of(const TimedView& timed, const ColumnGeometry& geometry,
+                      const InstantOptions& options);
+
+    std::vector<End> ends_;  // one or two, the earlier first
+    const ColumnGeometry* geometry_;
+    InstantOptions options_;
+    Blending blending_;
+    DetectionLimit limit_;
+    bool moves_;
+};
+
+class InstantBrick {
+  public:
+    InstantBrick(const InstantMaker& maker, int bx, int by);
+
+    // The brick at this height.
+    void write(int bz, BricksWriter& writer);
+
+  private:
+    static constexpr std::size_t columns = static_cast<std::size_t>(brick_edge) * brick_edge;
+    // Of one end, for the bricks of a height.
+    struct Source {
+        CodeBlock codes;
+        // Each cell's own time, from the instant; of the columns at all heights, where their volume
+        // has a clock.
+        std::vector<float> column_seconds;
+        std::array<float, brick_cells> seconds;
+        ColumnBox box;
+        bool is_still = true;  // no column has moved
+    };
+
+    // The state of all cells, where that is known without looking at any; else codes_ holds them.
+    std::optional<CellStatus> make(int bz);
+    void read_times(std::size_t end);
+    void take_times(std::size_t end, int bz);
+    void find_box(std::size_t end);
+    void fill();
+    [[nodiscard]] Sample sample(std::size_t end, std::size_t cell);
+    [[nodiscard]] Sample mix(const Source& source, double x, double y, std::size_t cell);
+    [[nodiscard]] Sample sample_of(std::uint16_t code) const;
+    [[nodiscard]] Sample with_limit(Sample sample, std::size_t cell);
+    [[nodiscard]] float weight_of_after(std::size_t cell) const;
+    [[nodiscard]] std::uint16_t code_of(const CellResult& cell) const;
+
+    const InstantMaker& maker_;
+    int bx_, by_;
+    int bz_ = 0;
+    std::array<CellMotion, columns> motion_{};
+    std::array<float, columns> arc_m_{};
+    std::array<Source, 2> sources_;
+    std::array<float, brick_cells> limits_{};  // dBZ; NaN: not asked for yet
+    std::array<std::uint16_t, brick_cells> codes_{};
+};
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,179 @@
+#include "stormcellar/grid/mosaic.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/floating_point.h"
+#include "grid/mosaic/brick_merge.h"
+#include "grid/mosaic/mosaic_fill.h"
+#include "grid/mosaic/mosaic_sites.h"
+
+namespace stormcellar::grid {
+namespace {
+
+constexpr double least_length_m = 1000;
+constexpr double largest_length_m = 1e7;
+
+Status check_options(const MosaicOptions& options) {
+    const bool sets_apart =
+        options.moment == level2::Moment::vel || options.moment == level2::Moment::phi;
+    if (sets_apart && options.overlap != Overlap::nearest) {
+        return fail(ErrorCode::bad_argument,
+                    "{} of different sites is not to be mixed ({}): take the overlap rule nearest, "
+                    "not {}",
+                    level2::moment_name(options.moment),
+                    options.moment == level2::Moment::vel ? "each measures along its own beams"
+                                                          : "each has an offset of its own",
+                    overlap_name(options.overlap));
+    }
+    if (options.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
+        return fail(ErrorCode::bad_argument, "only reflectivity is averaged in Z, not {}",
+                    level2::moment_name(options.moment));
+    }
+    if (!is_within(options.length_m, least_length_m, largest_length_m)) {
+        return fail(ErrorCode::bad_argument, "the length of the weights must be {} to {} m, not {}",
+                    least_length_m, largest_length_m, options.length_m);
+    }
+    if (options.threads < 1) {
+        return fail(ErrorCode::bad_argument, "threads must be at least 1, not {}", options.threads);
+    }
+    return {};
+}
+
+Mosaic empty_mosaic(const GridSpec& domain, const Quantization& quantization,
+                    const MosaicOptions& options) {
+    Mosaic made{BrickGrid(domain, quantization), std::nullopt, std::nullopt};
+    if (options.counts) made.counts.emplace(domain, count_quantization);
+    if (options.weights) made.weights.emplace(domain, weight_quantization);
+    return made;
+}
+
+Status check_previous(const MosaicView& previous, const MosaicOptions& options) {
+    const auto fits = [&](const BrickView& view, const Quantization& quantization) {
+        return view.spec != nullptr && *view.spec == *previous.cells.spec &&
+               view.quantization == quantization && has_shape_of(view, *view.spec);
+    };
+    const bool good =
+        previous.cells.spec != nullptr && fits(previous.cells, previous.cells.quantization) &&
+        (!options.counts || (previous.counts && fits(*previous.counts, count_quantization))) &&
+        (!options.weights || (previous.weights && fits(*previous.weights, weight_quantization)));
+    if (good) return {};
+    return fail(ErrorCode::bad_argument,
+                "the mosaic to be brought up to date is not whole, or lacks counts or weights");
+}
+
+std::vector<bool> changed_columns(const BrickView& shape, std::span<const GridWindow> windows) {
+    const auto rows = static_cast<std::size_t>(shape.bricks_y);
+    std::vector<bool> changed(static_cast<std::size_t>(shape.bricks_x) * rows);
+    for (const GridWindow& window : windows) {
+        const int end_x = std::min(shape.bricks_x, bricks_along(window.end_x()));
+        const int end_y = std::min(shape.bricks_y, bricks_along(window.end_y()));
+        for (int bx = std::max(0, window.first_x / brick_edge); bx < end_x; ++bx) {
+            for (int by = std::max(0, window.first_y / brick_edge); by < end_y; ++by)
+                changed[static_cast<std::size_t>(bx) * rows + static_cast<std::size_t>(by)] = true;
+        }
+    }
+    return changed;
+}
+
+// Of sites whose windows hold nothing changed nothing is asked.
+void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
+                    std::vector<PlacedSite>& sites) {
+    std::erase_if(sites, [&](const PlacedSite& site) {
+        for (int bx = site.window.first_x / brick_edge; bx < bricks_along(site.window.end_x());
+             ++bx) {
+            for (int by = site.window.first_y / brick_edge; by < bricks_along(site.window.end_y());
+                 ++by) {
+                if (changed[static_cast<std::size_t>(bx) *
+                                static_cast<std::size_t>(shape.bricks_y) +
+                            static_cast<std::size_t>(by)]) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    });
+}
+
+}  // namespace
+
+std::string_view overlap_name(Overlap overlap) {
+    switch (overlap) {
+        case Overlap::mean:
+            return "mean";
+        case Overlap::maximum:
+            return "maximum";
+        case Overlap::nearest:
+            return "nearest";
+        case Overlap::distance_weighted:
+            return "distance-weighted";
+    }
+    return "unknown";
+}
+
+std::optional<Overlap> overlap_from_name(std::string_view name) {
+    for (const Overlap overlap :
+         {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
+        if (name == overlap_name(overlap)) return overlap;
+    }
+    return std::nullopt;
+}
+
+Overlap default_overlap(level2::Moment moment) {
+    const bool sets_apart = moment == level2::Moment::vel || moment == level2::Moment::phi;
+    return sets_apart ? Overlap::nearest : Overlap::distance_weighted;
+}
+
+MosaicView Mosaic::view() const {
+    MosaicView view{cells.view(), std::nullopt, std::nullopt};
+    if (counts) view.counts = counts->view();
+    if (weights) view.weights = weights->view();
+    return view;
+}
+
+Result<Mosaic> merge(const GridSpec& domain, std::span<const Partial> partials,
+                     const MosaicOptions& options) {
+    if (Status good = validate(domain); !good) return pass_on(good);
+    if (Status good = check_options(options); !good) return pass_on(good);
+    const Quantization quantization = partials.empty() ? default_quantization(options.moment)
+                                                       : partials.front().view.quantization;
+    auto sites = place_sites(domain, partials, quantization);
+    if (!sites) return pass_on(sites);
+    measure_distances(domain, options.threads, *sites);
+    Mosaic made = empty_mosaic(domain, quantization, options);
+    fill_mosaic({domain, options, *sites, nullptr, {}, made});
+    return made;
+}
+
+Result<Mosaic> update(const MosaicView& previous, std::span<const Partial> partials,
+                      std::span<const GridWindow> changed, const MosaicOptions& options) {
+    if (Status good = check_options(options); !good) return pass_on(good);
+    if (Status good = check_previous(previous, options); !good) return pass_on(good);
+    const GridSpec& domain = *previous.cells.spec;
+    auto sites = place_sites(domain, partials, previous.cells.quantization);
+    if (!sites) return pass_on(sites);
+    std::vector<bool> columns = changed_columns(previous.cells, changed);
+    drop_untouched(previous.cells, columns, *sites);
+    measure_distances(domain, options.threads, *sites);
+    Mosaic made = empty_mosaic(domain, previous.cells.quantization, options);
+    fill_mosaic({domain, options, *sites, &previous, std::move(columns), made});
+    return made;
+}
+
+Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
+                       std::span<const GridWindow> changed, const MosaicOptions& options) {
+    if (Status good = check_options(options); !good) return good;
+    const MosaicView view = mosaic.view();
+    if (Status good = check_previous(view, options); !good) return good;
+    const GridSpec& domain = *view.cells.spec;
+    auto sites = place_sites(domain, partials, view.cells.quantization);
+    if (!sites) return pass_on(sites);
+    std::vector<bool> columns = changed_columns(view.cells, changed);
+    drop_untouched(view.cells, columns, *sites);
+    measure_distances(domain, options.threads, *sites);
+    refill_mosaic({domain, options, *sites, nullptr, std::move(columns), mosaic});
+    return {};
+}
+
+}  // namespace stormcellar::grid

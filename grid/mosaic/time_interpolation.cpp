@@ -1,0 +1,70 @@
+#include "grid/mosaic/time_interpolation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "grid/mosaic/instant_brick.h"
+
+namespace stormcellar::grid {
+namespace {
+
+constexpr std::array<std::pair<TimeMethod, std::string_view>, 3> names = {{
+    {TimeMethod::nearest, "nearest"},
+    {TimeMethod::blend, "blend"},
+    {TimeMethod::advected, "advected"},
+}};
+
+Status check(const TimedView& view, const ColumnGeometry& geometry,
+             const Quantization& quantization) {
+    if (*view.view.spec != geometry.spec()) {
+        return fail(ErrorCode::bad_argument, "a grid of another spec than its columns' geometry");
+    }
+    if (view.view.quantization != quantization) {
+        return fail(ErrorCode::bad_argument, "two grids in steps of different sizes");
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string_view time_method_name(TimeMethod method) {
+    for (const auto& [known, name] : names) {
+        if (known == method) return name;
+    }
+    return "unknown";
+}
+
+std::optional<TimeMethod> time_method_from_name(std::string_view name) {
+    for (const auto& [method, known] : names) {
+        if (known == name) return method;
+    }
+    return std::nullopt;
+}
+
+Result<BrickGrid> grid_at(const TimedView& before, const std::optional<TimedView>& after,
+                          const ColumnGeometry& geometry, const InstantOptions& options) {
+    const BrickView& view = before.view;
+    if (Status good = check(before, geometry, view.quantization); !good) return pass_on(good);
+    if (after) {
+        if (Status good = check(*after, geometry, view.quantization); !good) return pass_on(good);
+    }
+    const InstantMaker maker(before, after, geometry, options);
+    BrickGrid made(geometry.spec(), view.quantization);
+    std::vector<BricksWriter> writers;
+    writers.reserve(static_cast<std::size_t>(view.bricks_x));
+    for (int bx = 0; bx < view.bricks_x; ++bx)
+        writers.emplace_back(made);
+    for_each_piece(view.bricks_x, options.threads, [&](int bx) {
+        for (int by = 0; by < view.bricks_y; ++by) {
+            InstantBrick brick(maker, bx, by);
+            for (int bz = 0; bz < view.bricks_z; ++bz)
+                brick.write(bz, writers[static_cast<std::size_t>(bx)]);
+        }
+    });
+    made.finish(writers);
+    return made;
+}
+
+}  // namespace stormcellar::grid

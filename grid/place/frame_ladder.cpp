@@ -1,0 +1,161 @@
+#include "stormcellar/grid/frame_ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "grid/frame/sphere_frame.h"
+#include "grid/place/frame_table.h"
+#include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/grid/projection.h"
+
+namespace stormcellar::grid {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+constexpr double geodesic_error_m = 1e-6;
+constexpr double half_meridian_m = 20003931.5;  // of WGS84: no two points are farther apart
+constexpr double quarter_meridian_m = 10001965.7;
+
+// How much longer the sphere is than the ellipsoid along the meridian and along the parallel.
+struct ScaleError {
+    double north = 0;
+    double east = 0;
+};
+ScaleError scale_error(double latitude_deg) {
+    constexpr double e2 = wgs84_flattening * (2 - wgs84_flattening);
+    const double sine = std::sin(latitude_deg * radians);
+    const double w2 = 1 - e2 * sine * sine;
+    const double prime_vertical_m = wgs84_semi_major_m / std::sqrt(w2);
+    return {SphereFrame::radius_m / (prime_vertical_m * (1 - e2) / w2) - 1,
+            SphereFrame::radius_m / prime_vertical_m - 1};
+}
+
+// The largest scale error in any direction between two latitudes. Both errors fall from the
+// equator to the poles, so their extremes stand at the ends.
+double largest_scale_error(double latitude_deg, double width_deg) {
+    const double middle_deg = std::abs(latitude_deg);
+    const ScaleError low = scale_error(std::max(0.0, middle_deg - width_deg));
+    const ScaleError high = scale_error(std::min(90.0, middle_deg + width_deg));
+    return std::max(
+        {std::abs(low.north), std::abs(low.east), std::abs(high.north), std::abs(high.east)});
+}
+
+// Columns along the border of a grid, at most some 256 a side, its corners included.
+std::vector<ColumnPoint> border_of(const GridSpec& spec) {
+    std::vector<ColumnPoint> border;
+    const auto along = [](int count, auto add) {
+        const int pieces = std::min(count - 1, 256);
+        for (int i = 0; i <= pieces; ++i)
+            add(pieces == 0 ? 0.0 : static_cast<double>(count - 1) * i / pieces);
+    };
+    along(spec.nx, [&](double x) { border.push_back({x, 0}); });
+    along(spec.ny, [&](double y) { border.push_back({spec.nx - 1.0, y}); });
+    along(spec.nx, [&](double x) { border.push_back({spec.nx - 1.0 - x, spec.ny - 1.0}); });
+    along(spec.ny, [&](double y) { border.push_back({0, spec.ny - 1.0 - y}); });
+    return border;
+}
+
+// The arc from a site has no greatest value inside a region but at the site's antipode.
+bool holds_antipode(const SitePosition& site, const GridSpec& spec,
+                    const GridProjection& projection) {
+    const ColumnPoint at = projection.to_column({-site.latitude_deg, site.longitude_deg + 180});
+    return at.x > -1 && at.x < spec.nx && at.y > -1 && at.y < spec.ny;
+}
+
+}  // namespace
+
+std::string_view frame_kind_name(FrameKind kind) {
+    switch (kind) {
+        case FrameKind::sphere:
+            return "sphere";
+        case FrameKind::table:
+            return "table";
+        case FrameKind::geodesic:
+            return "geodesic";
+    }
+    return "unknown";
+}
+
+bool is_centered_at(const SitePosition& site, const GridSpec& spec) {
+    return spec.projection == Projection::azimuthal_equidistant &&
+           site.latitude_deg == spec.center_latitude_deg &&
+           site.longitude_deg == spec.center_longitude_deg;
+}
+
+double reach_m(const SitePosition& site, const GridSpec& spec) {
+    if (is_centered_at(site, spec)) {
+        const double x_m = std::max(-spec.x_m(0), spec.x_m(spec.nx - 1));
+        const double y_m = std::max(-spec.y_m(0), spec.y_m(spec.ny - 1));
+        return std::min(std::hypot(x_m, y_m), half_meridian_m);
+    }
+    const GridProjection projection(spec);
+    if (holds_antipode(site, spec, projection)) return half_meridian_m;
+    const SiteFrame frame(site.latitude_deg, site.longitude_deg);
+    double farthest_m = 0;
+    double widest_gap_m = 0;
+    GeoPoint last;
+    bool first = true;
+    for (const ColumnPoint column : border_of(spec)) {
+        const GeoPoint point = projection.to_geo(column);
+        farthest_m = std::max(farthest_m, frame.to_polar(point).arc_m);
+        if (!first) {
+            const SiteFrame here(last.latitude_deg, last.longitude_deg);
+            widest_gap_m = std::max(widest_gap_m, here.to_polar(point).arc_m);
+        }
+        last = point;
+        first = false;
+    }
+    // A column of the border is at most half a gap from one that was asked; a tenth more, because
+    // the border may be curved between them.
+    return std::min(farthest_m + 0.55 * widest_gap_m, half_meridian_m);
+}
+
+double storage_error_bound_m(double reach_m) noexcept {
+    // Half a unit in the last place of a float: of an azimuth below 360, and of the arc.
+    constexpr double azimuth_rad = 0x1p-16 * radians;
+    const double arc_m = std::ldexp(1.0, std::ilogb(std::max(reach_m, 1e-30)) - 24);
+    return std::hypot(reach_m * azimuth_rad, arc_m);
+}
+
+// Along a geodesic from the site the sphere's image of a step ds is the step stretched by
+// (1 + north) along the meridian and (1 + east) along the parallel, both of the latitude there. The
+// image curve turns against a great circle by exactly what these stretches turn it (latitude and
+// azimuth change alike on both), so that its end is off by at most the integral of the larger one,
+// and in the equidistant plane by theta / sin(theta) more. 1 % is for products of the errors.
+double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
+    if (!(reach_m > 0)) return 0;
+    // Two points of the disc cannot be farther apart than it is wide.
+    if (reach_m > quarter_meridian_m) return 2.01 * reach_m;
+    constexpr int steps = 64;
+    constexpr double shortest_degree_m = 110574;  // of latitude, at the equator
+    double sum = 0;
+    for (int step = 1; step <= steps; ++step) {
+        const double width_deg = reach_m * step / steps / shortest_degree_m;
+        sum += largest_scale_error(site_latitude_deg, width_deg);
+    }
+    const double theta = reach_m / SphereFrame::radius_m;
+    return 1.01 * sum / steps * reach_m * theta / std::sin(theta);
+}
+
+double frame_error_bound_m(FrameKind kind, double site_latitude_deg, double reach_m) noexcept {
+    const double storage_m = storage_error_bound_m(reach_m);
+    switch (kind) {
+        case FrameKind::sphere:
+            return storage_m + sphere_error_bound_m(site_latitude_deg, reach_m);
+        case FrameKind::table:
+            return storage_m + frame_table_error_m;
+        case FrameKind::geodesic:
+            break;
+    }
+    return storage_m + geodesic_error_m;
+}
+
+double frame_error_bound_m(FrameKind kind, const SitePosition& site, const GridSpec& spec) {
+    const double farthest_m = reach_m(site, spec);
+    if (is_centered_at(site, spec)) return storage_error_bound_m(farthest_m);
+    return frame_error_bound_m(kind, site.latitude_deg, farthest_m);
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,33 @@
+#include "grid/place/site_extent.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stormcellar::grid {
+
+GeoPoint middle_of(std::span<const SitePosition> sites) {
+    const double base_deg = sites.front().longitude_deg;
+    double south = 90, north = -90, west = 360, east = -360;
+    for (const SitePosition& site : sites) {
+        const double off_deg = std::remainder(site.longitude_deg - base_deg, 360.0);
+        south = std::min(south, site.latitude_deg);
+        north = std::max(north, site.latitude_deg);
+        west = std::min(west, off_deg);
+        east = std::max(east, off_deg);
+    }
+    return {(south + north) / 2, std::remainder(base_deg + (west + east) / 2, 360.0)};
+}
+
+HalfExtent half_extent_of(std::span<const SitePosition> sites, GeoPoint center) {
+    const SiteFrame frame(center.latitude_deg, center.longitude_deg);
+    HalfExtent half;
+    for (const SitePosition& site : sites) {
+        const auto place =
+            SiteFrame::to_plane(frame.to_polar({site.latitude_deg, site.longitude_deg}));
+        half.x_m = std::max(half.x_m, std::abs(place.x_m));
+        half.y_m = std::max(half.y_m, std::abs(place.y_m));
+    }
+    return half;
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,183 @@
+#include "grid/plan/effects.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+namespace stormcellar::grid {
+namespace {
+
+using accuracy::Effect;
+using accuracy::Step;
+
+constexpr double degree = std::numbers::pi / 180;
+
+// Times of 460 x 460 x 32 cells over a convective volume, of which nearest gates take 1
+// (docs/accuracy.md).
+constexpr std::array<std::pair<std::string_view, double>, 11> efforts{{
+    {"ellipsoid", 0.1},
+    {"exact_geodesic", 28},
+    {"earth_curvature", 0},
+    {"refraction", 0.15},
+    {"antenna_jitter", 0.1},
+    {"column_interpolation", 0.02},
+    {"horizontal_interpolation", 4.5},
+    {"beam_width", 2.7},
+    {"cell_size", 29},
+    {"velocity_folding", 0.05},
+    {"phase_folding", 0.05},
+}};
+
+Effect effect(std::string name, std::string rung, std::string what) {
+    const auto* const known = std::find_if(efforts.begin(), efforts.end(),
+                                           [&](const auto& each) { return each.first == name; });
+    const double effort = known != efforts.end() ? known->second : 0;
+    return accuracy::make_effect(std::move(name), std::move(rung), std::move(what), effort);
+}
+
+Step frame_step() {
+    return {
+        std::string{step::frame},
+        "sphere",
+        {effect("ellipsoid", "WGS84 table", "The earth is an ellipsoid, not a sphere of 6371 km."),
+         effect("exact_geodesic", "WGS84 geodesic",
+                "Each column has its own geodesic, not one from polynomials.")}};
+}
+
+Step beam_step() {
+    return {std::string{step::beam},
+            "flat earth",
+            {effect("earth_curvature", "4/3 earth",
+                    "The earth falls away below the beam, which air bends down a little."),
+             effect("refraction", "ray traced",
+                    "Air bends the beam more or less than over a 4/3 earth, and delays it.")}};
+}
+
+Step elevation_step() {
+    return {std::string{step::elevation},
+            "one a sweep",
+            {effect("antenna_jitter", "each radial's",
+                    "Each radial was measured at an elevation of its own.")}};
+}
+
+Step interpolation_step() {
+    return {std::string{step::interpolation},
+            "nearest",
+            {effect("column_interpolation", "linear up the column",
+                    "Between two sweeps a value lies between theirs."),
+             effect("horizontal_interpolation", "eight-point",
+                    "Between radials and gates a value lies between theirs."),
+             effect("beam_width", "beam-weighted",
+                    "A gate counts as the antenna's pattern does off its axis.")}};
+}
+
+Step cell_step() {
+    return {std::string{step::cell},
+            "point",
+            {effect("cell_size", "area", "A cell is the mean of all gates inside, not a point.")}};
+}
+
+constexpr const char* in_z = "in Z";
+
+Step averaging_step(Averaging averaging) {
+    return {
+        std::string{step::averaging}, averaging == Averaging::in_z ? in_z : "in its own unit", {}};
+}
+
+Step circle_step(level2::Moment moment) {
+    Effect wrap = effect("phase_folding", "on the circle", "A phase of 360 degrees is 0.");
+    if (moment == level2::Moment::vel) {
+        wrap = effect("velocity_folding", "on the Nyquist circle",
+                      "Velocities beyond the Nyquist velocity come back on the other side.");
+    }
+    return {std::string{step::circle}, "as numbers", {wrap}};
+}
+
+}  // namespace
+
+accuracy::Chain effects_of(level2::Moment moment, Averaging averaging) {
+    accuracy::Chain chain;
+    chain.steps = {frame_step(),         beam_step(), elevation_step(),
+                   interpolation_step(), cell_step(), averaging_step(averaging)};
+    if (is_circular(blending_of(moment))) chain.steps.push_back(circle_step(moment));
+    chain.value_unit = value_unit_of(moment);
+    return chain;
+}
+
+SceneChoice scene_choice(const accuracy::Chain& chain, const accuracy::Choice& choice) {
+    const auto rung = [&](std::string_view step) { return accuracy::rung_of(chain, choice, step); };
+    SceneChoice scene;
+    scene.frame = static_cast<FrameKind>(rung(step::frame));
+    scene.method.beam = static_cast<BeamKind>(rung(step::beam));
+    scene.method.radial_elevations = rung(step::elevation) > 0;
+    scene.method.interpolation = static_cast<Interpolation>(rung(step::interpolation));
+    scene.method.cell = rung(step::cell) > 0 ? CellExtent::area : CellExtent::point;
+    scene.method.averaging = Averaging::in_db;
+    scene.method.on_circle = true;
+    const auto averaging = accuracy::find_step(chain, step::averaging);
+    if (averaging && chain.steps[*averaging].cheapest == in_z) {
+        scene.method.averaging = Averaging::in_z;
+    }
+    if (accuracy::find_step(chain, step::circle)) scene.method.on_circle = rung(step::circle) > 0;
+    return scene;
+}
+
+accuracy::Choice reference_choice(const accuracy::Chain& chain) {
+    accuracy::Choice choice;
+    for (const Step& step : chain.steps)
+        choice.rungs.push_back(step.name == step::frame ? 1 : step.effects.size());
+    return choice;
+}
+
+SceneChoice as_measured(SceneChoice choice) {
+    if (choice.frame == FrameKind::geodesic) choice.frame = FrameKind::table;
+    return choice;
+}
+
+double joint_effort(Interpolation interpolation, CellExtent cell) {
+    if (cell == CellExtent::point) return 0;
+    if (interpolation == Interpolation::eight_point) return 25;
+    return interpolation == Interpolation::beam_weighted ? 32 : 0;
+}
+
+accuracy::Choice usual_choice(const accuracy::Chain& chain) {
+    accuracy::Choice choice;
+    for (const Step& step : chain.steps) {
+        const std::size_t rung =
+            step.name == step::cell ? 0 : std::min<std::size_t>(1, step.effects.size());
+        const accuracy::RungRange allowed = accuracy::allowed_rungs(step);
+        choice.rungs.push_back(std::clamp(rung, allowed.least, allowed.most));
+    }
+    return choice;
+}
+
+accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
+                                double beam_width_deg) {
+    accuracy::Choice choice = usual_choice(chain);
+    const double beam_m = wide_cells_arc_m * beam_width_deg * degree;
+    if (std::max(spec.cell_width_m(), spec.cell_height_m()) <= beam_m) return choice;
+    const auto cell = accuracy::find_step(chain, step::cell);
+    if (cell) choice.rungs[*cell] = accuracy::allowed_rungs(chain.steps[*cell]).most;
+    return choice;
+}
+
+accuracy::ValueUnit value_unit_of(level2::Moment moment) {
+    switch (moment) {
+        case level2::Moment::ref:
+        case level2::Moment::zdr:
+        case level2::Moment::cfp:
+            return accuracy::ValueUnit::db;
+        case level2::Moment::vel:
+        case level2::Moment::sw:
+            return accuracy::ValueUnit::mps;
+        case level2::Moment::phi:
+            return accuracy::ValueUnit::degree;
+        case level2::Moment::rho:
+            break;
+    }
+    return accuracy::ValueUnit::ratio;
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,96 @@
+// grid/plan/effects.h -- the steps, rungs and effects of a grid, as the accuracy planner knows
+// them.
+//
+//   step           rungs, from cheap to exact                           effects that reach them
+//   frame          sphere, table, geodesic                              ellipsoid, exact_geodesic
+//   beam           flat earth, 4/3 earth, traced                        earth_curvature, refraction
+//   elevation      one a sweep, each radial's                           antenna_jitter
+//   interpolation  nearest, linear, eight-point, beam-weighted          column_interpolation,
+//                                                        horizontal_interpolation, beam_width
+//   cell           point, area                                          cell_size
+//   averaging      in dB or, for REF, in Z: what the user says, a definition with no effect
+//   circle         (VEL, PHI) as numbers, on the circle                 velocity_folding,
+//   phase_folding
+// The chain's exact form is the last rung of every step; a budget bounds the difference from it on
+// the same gates. Which of two forms is nearer to the truth is another question: docs/accuracy.md.
+// Threads: pure functions, but for those that take a scene (grid/plan/scene.h).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "grid/plan/scene.h"
+#include "stormcellar/accuracy/budget.h"
+#include "stormcellar/accuracy/chain.h"
+#include "stormcellar/accuracy/plan.h"
+
+namespace stormcellar::grid {
+
+// The steps by name. A step is found by these, so that a misspelled one does not compile.
+namespace step {
+inline constexpr std::string_view frame = "frame";
+inline constexpr std::string_view beam = "beam";
+inline constexpr std::string_view elevation = "elevation";
+inline constexpr std::string_view interpolation = "interpolation";
+inline constexpr std::string_view cell = "cell";
+inline constexpr std::string_view averaging = "averaging";
+inline constexpr std::string_view circle = "circle";
+}  // namespace step
+
+// Names, rungs and sentences; sizes and costs are 0 and settings automatic. The chain's exact form
+// averages as stated, too: neither dB nor Z is the other's approximation.
+[[nodiscard]] accuracy::Chain effects_of(level2::Moment moment,
+                                         Averaging averaging = Averaging::in_db);
+
+[[nodiscard]] SceneChoice scene_choice(const accuracy::Chain& chain,
+                                       const accuracy::Choice& choice);
+
+// The table, the 4/3 earth, each radial's elevation, linear along the column at a point, in the
+// moment's unit on its circle. The effects' settings change it.
+[[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
+
+// What choices are measured against: the last rung of every step, but for the frame's, which is the
+// table. A geodesic for each column differs from it by a millimeter and takes half a second.
+[[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
+
+// The same choice as it is measured: by the table in place of geodesics.
+[[nodiscard]] SceneChoice as_measured(SceneChoice choice);
+
+// Effort (stormcellar/accuracy/effect.h) that these two rungs take together beyond what each takes
+// alone.
+[[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
+
+// What is done when no budget is given: the usual; but area where cells are wider than the beam is
+// 160 km away (2.7 km of a WSR-88D), because a point sample would alias. Not by the grid's extent:
+// a part of a grid holds what the whole does.
+inline constexpr double wide_cells_arc_m = 160e3;
+[[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
+                                              double beam_width_deg);
+
+// dB for REF, ZDR and CFP, m/s for VEL and SW, degrees for PHI, a ratio for RHO.
+[[nodiscard]] accuracy::ValueUnit value_unit_of(level2::Moment moment);
+
+struct PlanOptions {
+    std::size_t predict_columns = 500;   // estimates of each effect's size and cost
+    std::size_t measure_columns = 2500;  // bounds of what is chosen: so many, or what a bound needs
+    std::uint64_t seed = 1;
+};
+
+// Each effect's size and cost for this scene: positions by proven bounds, values by a sample.
+[[nodiscard]] Status predict(GridScene& scene, const PlanOptions& options, accuracy::Chain& chain);
+
+struct GridPlan {
+    accuracy::Plan plan;
+    SceneChoice choice;
+};
+
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget: the default, with each
+// effect's size. Errors: those of accuracy::govern() and of gridding.
+[[nodiscard]] Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
+                                         const std::optional<accuracy::Budget>& budget,
+                                         const PlanOptions& options = {});
+
+// For provenance: "position 70.3 m, value 0.42 dB (99th percentile)", as the plan promises.
+[[nodiscard]] std::string predicted_error(const accuracy::Plan& plan);
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,155 @@
+// grid/sweep/azimuth_table.h -- which radials of a sweep see an azimuth.
+//
+// The nearest one, or the two on either side of it, or all within a reach. Where neighbouring
+// radials are more than one and a half spacings apart there is a gap: each then reaches half a
+// spacing into it, the rest is seen by none, and no pair or neighbourhood reaches across. Of
+// radials at the same azimuth the later one (in the order given) counts. Any order, any number,
+// wrap included.
+// Exact: a lookup is a table of quarter degrees and a step or two along sorted boundaries.
+// Threads: immutable.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace stormcellar::grid {
+
+class AzimuthTable {
+  public:
+    static constexpr int none = -1;
+
+    // Azimuths in [0, 360), one a radial; a spacing above 0.
+    AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg);
+
+    // The position in the list given, or none. The azimuth must be in [0, 360).
+    [[nodiscard]] int find(float azimuth_deg) const { return radials_[sector_at(azimuth_deg)]; }
+
+    // The nearest radial and the one on the other side of the azimuth, `other_weight` in [0, 1/2]
+    // being the latter's share if values are linear in between; none across a gap.
+    struct Bracket {
+        int nearest = none;
+        int other = none;
+        float other_weight = 0;
+    };
+    [[nodiscard]] Bracket bracket(float azimuth_deg) const;
+
+    // The radials within `reach_deg` of an azimuth that some radial sees, none of them across a
+    // gap: visit(position, offset_deg), the offset positive clockwise. Nothing where none sees it.
+    template <class Visit>
+    void visit(float azimuth_deg, float reach_deg, Visit visit) const;
+
+    // The same, but gaps do not matter, and all radials when the reach is 180.
+    template <class Visit>
+    void visit_all(float azimuth_deg, float reach_deg, Visit visit) const;
+
+    // The share of the azimuths from `from_deg`, clockwise over `width_deg` of at most 360, that
+    // some radial sees.
+    [[nodiscard]] double seen_share(double from_deg, double width_deg) const;
+
+    // Every radial that sees some azimuth from `from_deg` to `to_deg` (from <= to < from + 360,
+    // from in [0, 360)): visit(position), which may be none. Stops when visit returns false.
+    template <class Visit>
+    void visit_between(float from_deg, float to_deg, Visit visit) const;
+
+    [[nodiscard]] bool has_gaps() const { return has_gaps_; }
+    [[nodiscard]] float spacing_deg() const { return spacing_deg_; }
+
+  private:
+    static constexpr float bins_a_degree = 4;
+    static constexpr std::size_t bin_count = 1440;
+
+    struct Entry {
+        float azimuth_deg;
+        int radial;
+        bool gap_after;  // before the next one, clockwise
+    };
+
+    [[nodiscard]] std::size_t sector_at(float azimuth_deg) const {
+        std::size_t at = first_of_bin_[static_cast<std::size_t>(azimuth_deg * bins_a_degree)];
+        while (azimuth_deg >= ends_deg_[at])
+            ++at;
+        return at;
+    }
+    // From one azimuth to another, within +-180.
+    [[nodiscard]] static float turn_deg(float from_deg, float to_deg) {
+        const float turn = to_deg - from_deg;
+        return turn > 180 ? turn - 360 : turn < -180 ? turn + 360 : turn;
+    }
+    void sort(std::span<const float> azimuths_deg);
+    void make_sectors();
+    void add_sector(double end_deg, int entry);
+
+    float spacing_deg_;
+    bool has_gaps_ = false;
+    std::vector<Entry> entries_;  // by azimuth
+    // Sectors side by side from 0 to 360 degrees: where each ends, who sees it, and which entry
+    // that is.
+    std::vector<float> ends_deg_;
+    std::vector<int> radials_;
+    std::vector<int> sector_entries_;
+    std::array<std::uint32_t, bin_count + 1> first_of_bin_{};
+};
+
+template <class Visit>
+void AzimuthTable::visit(float azimuth_deg, float reach_deg, Visit visit) const {
+    const int nearest = sector_entries_[sector_at(azimuth_deg)];
+    if (nearest == none) return;
+    const auto count = entries_.size();
+    const auto start = static_cast<std::size_t>(nearest);
+    visit(entries_[start].radial, turn_deg(azimuth_deg, entries_[start].azimuth_deg));
+    std::size_t at = start;
+    for (std::size_t step = 1; step < count && !entries_[at].gap_after; ++step) {
+        at = at + 1 == count ? 0 : at + 1;
+        const float offset_deg = turn_deg(azimuth_deg, entries_[at].azimuth_deg);
+        if (!(offset_deg >= 0 && offset_deg < reach_deg)) break;
+        visit(entries_[at].radial, offset_deg);
+    }
+    at = start;
+    for (std::size_t step = 1; step < count; ++step) {
+        at = at == 0 ? count - 1 : at - 1;
+        if (entries_[at].gap_after) break;
+        const float offset_deg = turn_deg(azimuth_deg, entries_[at].azimuth_deg);
+        if (!(offset_deg <= 0 && offset_deg > -reach_deg)) break;
+        visit(entries_[at].radial, offset_deg);
+    }
+}
+
+template <class Visit>
+void AzimuthTable::visit_all(float azimuth_deg, float reach_deg, Visit visit) const {
+    const auto count = entries_.size();
+    float from_deg = azimuth_deg - reach_deg;
+    if (from_deg < 0) from_deg += 360;
+    const auto from =
+        std::lower_bound(entries_.begin(), entries_.end(), from_deg,
+                         [](const Entry& entry, float deg) { return entry.azimuth_deg < deg; });
+    auto at = static_cast<std::size_t>(from - entries_.begin());
+    for (std::size_t step = 0; step < count; ++step, ++at) {
+        if (at == count) at = 0;
+        const float offset_deg = turn_deg(azimuth_deg, entries_[at].azimuth_deg);
+        if (reach_deg < 180 && offset_deg > reach_deg) return;
+        if (reach_deg < 180 && offset_deg < -reach_deg) continue;  // by rounding alone
+        visit(entries_[at].radial, offset_deg);
+    }
+}
+
+template <class Visit>
+void AzimuthTable::visit_between(float from_deg, float to_deg, Visit visit) const {
+    std::size_t at = sector_at(from_deg);
+    float turned_deg = 0;  // 360 after north was passed
+    while (true) {
+        if (!visit(radials_[at])) return;
+        if (ends_deg_[at] + turned_deg > to_deg) return;
+        if (++at == ends_deg_.size()) {
+            at = 0;
+            turned_deg += 360;
+            if (turned_deg > 360) return;
+        }
+    }
+}
+
+}  // namespace stormcellar::grid

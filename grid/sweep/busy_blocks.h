@@ -1,0 +1,50 @@
+// grid/sweep/busy_blocks.h -- where along the radials of a sweep there is anything but no echo.
+//
+// A bit for each block of 32 gates of each radial. Exact: a quiet stretch holds code 0 alone.
+// Threads: immutable after the last mark().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace stormcellar::grid {
+
+class BusyBlocks {
+  public:
+    BusyBlocks() = default;
+    // `rows` radials of at most `gates` gates.
+    BusyBlocks(std::size_t rows, std::size_t gates);
+
+    // The codes of a radial; those it lacks up to `gates` count as quiet.
+    void mark(std::size_t row, std::span<const std::uint8_t> codes);
+
+    // Blocks of all gates from one to another, both included and within `gates`.
+    struct Stretch {
+        std::size_t first = 0, last = 0;
+    };
+    [[nodiscard]] static Stretch blocks_of(std::int32_t first_gate, std::int32_t last_gate) {
+        return {static_cast<std::size_t>(first_gate) / gates_a_block,
+                static_cast<std::size_t>(last_gate) / gates_a_block};
+    }
+    [[nodiscard]] bool is_quiet(std::size_t row, Stretch blocks) const {
+        const std::uint64_t* words = words_.data() + row * words_a_row_;
+        std::size_t word = blocks.first / 64;
+        const std::size_t last_word = blocks.last / 64;
+        std::uint64_t mask = ~std::uint64_t{0} << (blocks.first % 64);
+        for (; word < last_word; ++word, mask = ~std::uint64_t{0})
+            if ((words[word] & mask) != 0) return false;
+        mask &= ~std::uint64_t{0} >> (63 - blocks.last % 64);
+        return (words[word] & mask) == 0;
+    }
+    [[nodiscard]] bool is_empty() const { return words_a_row_ == 0; }
+
+  private:
+    static constexpr std::size_t gates_a_block = 32;
+
+    std::size_t words_a_row_ = 0;
+    std::vector<std::uint64_t> words_;
+};
+
+}  // namespace stormcellar::grid

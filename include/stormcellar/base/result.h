@@ -1,0 +1,103 @@
+// stormcellar/base/result.h -- how a function says that it failed.
+//
+// Library code never logs and never throws for bad input: it returns a Result. The message of an
+// Error is one line that names the file or the value and the reason, fit to be shown to a user.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tl/expected.hpp>
+
+namespace stormcellar {
+
+// What kind of failure, for a caller that acts on it. Empty, truncated, corrupt and unsupported
+// input are different things to a user, so they are different codes.
+enum class ErrorCode {
+    bad_argument,  // the caller asked for something that makes no sense
+    not_found,     // the thing named does not exist
+    empty,         // the input holds no bytes
+    truncated,     // the input ends before anything whole
+    corrupt,       // the input contradicts itself or its checksum
+    unsupported,   // valid, but of a kind that this software does not handle
+    not_level2,    // the input is not a Level II file
+    not_a_file,    // a directory, FIFO or other thing that is not a regular file
+    io,            // the operating system refused a read or a write
+    exhausted,     // the system gives no memory or no descriptors
+    no_space,      // the file system is full
+    over_budget,   // what may be kept is used up, though the file system may have room
+    permission,    // the file may not be read or written
+    internal,      // a defect of this software
+};
+
+// Who has to change something before another try can succeed.
+enum class Cause {
+    data,           // whoever wrote the input: another try reads the same bytes
+    system,         // the machine, or another process: another try may succeed as it is
+    configuration,  // whoever asked for this, or said what is allowed
+};
+
+[[nodiscard]] constexpr Cause cause_of(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::empty:
+        case ErrorCode::truncated:
+        case ErrorCode::corrupt:
+        case ErrorCode::unsupported:
+        case ErrorCode::not_level2:
+        case ErrorCode::not_a_file:
+            return Cause::data;
+        case ErrorCode::not_found:
+        case ErrorCode::io:
+        case ErrorCode::exhausted:
+        case ErrorCode::no_space:
+        case ErrorCode::internal:
+            return Cause::system;
+        case ErrorCode::bad_argument:
+        case ErrorCode::over_budget:
+        case ErrorCode::permission:
+            return Cause::configuration;
+    }
+    return Cause::system;
+}
+
+// Whether the system itself is short of what everybody uses: disk, memory, descriptors. Whatever
+// fails so is not to blame, however often it is tried.
+[[nodiscard]] constexpr bool is_shortage(ErrorCode code) {
+    return code == ErrorCode::no_space || code == ErrorCode::exhausted;
+}
+
+struct Error {
+    ErrorCode code = ErrorCode::internal;
+    std::string message;
+    // Where the code alone does not say it: a function that knows what it was given corrects it.
+    std::optional<Cause> known_cause = std::nullopt;
+
+    [[nodiscard]] Cause cause() const { return known_cause.value_or(cause_of(code)); }
+};
+
+// The same error, of which the caller knows better than its code who has to change something.
+[[nodiscard]] inline Error caused_by(Cause cause, Error error) {
+    error.known_cause = cause;
+    return error;
+}
+
+template <class T>
+using Result = tl::expected<T, Error>;
+using Status = Result<void>;
+
+// Builds an Error with a formatted message: return fail(ErrorCode::io, "{}: {}", path, reason);
+template <class... Args>
+[[nodiscard]] tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<Args...> format,
+                                         Args&&... args) {
+    return tl::unexpected<Error>(Error{code, fmt::format(format, std::forward<Args>(args)...)});
+}
+
+// Passes an error on, as in: if (!volume) return pass_on(volume);
+template <class T>
+[[nodiscard]] tl::unexpected<Error> pass_on(const Result<T>& result) {
+    return tl::unexpected<Error>(result.error());
+}
+
+}  // namespace stormcellar

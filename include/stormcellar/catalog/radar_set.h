@@ -1,0 +1,47 @@
+// stormcellar/catalog/radar_set.h -- one object a station: its files in time, raw and decoded.
+//
+// The shape is that of the 2008 paper's storage-broker client, so that programs written to it can
+// be moved. A file is given only where it is still the one that was cataloged
+// (stormcellar/catalog/read_cataloged.h). Thread contract: as Catalog.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/level2/decode.h"
+
+namespace stormcellar::catalog {
+
+class RadarSet {
+  public:
+    // One for each station of a catalog directory whose database can be read, sorted by ICAO.
+    static Result<std::vector<RadarSet>> open_all(const std::filesystem::path& catalog_directory);
+    // not_found when the catalog has no such station.
+    static Result<RadarSet> open(const std::filesystem::path& catalog_directory,
+                                 const std::string& station);
+
+    [[nodiscard]] const std::string& station() const { return station_; }
+
+    // The names (without directories) of the files whose volumes start within [from, to], oldest
+    // first, each once.
+    [[nodiscard]] Result<std::vector<std::string>> build_data_list(UtcTime from, UtcTime to) const;
+    // not_found when the station has no volume.
+    [[nodiscard]] Result<std::string> oldest_file_name() const;
+    // Raw bytes of a file named by build_data_list. Errors: not_found when the catalog or the disk
+    // has it no more, and those of read_cataloged().
+    [[nodiscard]] Result<std::vector<std::byte>> radar_file(const std::string& name) const;
+    [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
+
+  private:
+    RadarSet(std::shared_ptr<Catalog> catalog, std::string station);
+    std::shared_ptr<Catalog> catalog_;
+    std::string station_;
+};
+
+}  // namespace stormcellar::catalog

@@ -1,0 +1,97 @@
+// stormcellar/grid/brick_view.h -- a read-only view of a quantised grid in bricks, wherever its
+// bytes are.
+//
+// The codes are dense-addressed: every brick of 16x16x16 cells has its fixed place, so the address
+// of a cell is the sum of three numbers, one for each axis, and needs no lookup. Bricks that hold
+// no value are absent: their place reads as zeros (a hole of a sparse file, untouched memory) and
+// their status comes from the brick's entry. A brick of 8-bit codes is one page of 4,096 bytes.
+//
+// Inside a brick z runs fastest, then y, then x. Bricks follow each other z fastest, then y, x.
+// Code 0 not seen, 1 no echo, 2 range folded; from 3 on, value = first_value + step * (code - 3).
+// Thread contract: a view is plain data over bytes that somebody else owns and keeps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "stormcellar/grid/grid.h"
+
+namespace stormcellar::grid {
+
+inline constexpr int brick_edge = 16;
+inline constexpr std::size_t brick_cells = 4096;
+inline constexpr std::uint16_t first_value_code = 3;
+
+struct Quantization {
+    int code_bytes = 1;       // 1 or 2
+    float first_value = -32;  // value of code 3
+    float step = 0.5F;        // so the rounding error is at most step / 2
+
+    [[nodiscard]] float value_of(std::uint16_t code) const {
+        return first_value + step * static_cast<float>(code - first_value_code);
+    }
+    [[nodiscard]] std::uint16_t largest_code() const { return code_bytes == 1 ? 255 : 65535; }
+    bool operator==(const Quantization&) const = default;
+};
+
+// Steps that are no coarser than the radar's own codes: REF 0.5 dBZ from -32, and so on.
+[[nodiscard]] Quantization default_quantization(level2::Moment moment);
+
+enum class BrickKind : std::uint8_t {
+    uniform = 0,      // absent: every cell has uniform_status
+    status_only = 1,  // absent, but the states differ: 1,024 bytes of 2-bit states
+    stored = 2,       // codes are stored
+};
+
+struct BrickEntry {
+    BrickKind kind = BrickKind::uniform;
+    CellStatus uniform_status = CellStatus::not_seen;
+    std::uint16_t value_count = 0;  // cells with a value, at most 4,096
+    std::uint16_t min_code = 0;     // of the cells with a value
+    std::uint16_t max_code = 0;
+    std::uint32_t status_index = 0;  // status_only: which 1,024-byte block
+    std::uint32_t packed_bytes = 0;  // stored, in a file whose codes are packed: what they take
+    std::uint64_t checksum = 0;      // XXH3 of the brick's codes or of its states
+};
+static_assert(sizeof(BrickEntry) == 24);
+
+struct BrickView {
+    const GridSpec* spec = nullptr;
+    Quantization quantization;
+    int bricks_x = 0, bricks_y = 0, bricks_z = 0;
+    std::span<const std::byte> codes;  // bricks_x * y * z places of 4,096 * code_bytes bytes
+    std::span<const BrickEntry> bricks;
+    std::span<const std::byte> states;  // blocks of 1,024 bytes, 4 cells a byte, low bits first
+
+    [[nodiscard]] std::size_t brick_index(int bx, int by, int bz) const {
+        return (static_cast<std::size_t>(bx) * static_cast<std::size_t>(bricks_y) +
+                static_cast<std::size_t>(by)) *
+                   static_cast<std::size_t>(bricks_z) +
+               static_cast<std::size_t>(bz);
+    }
+    // Cell offsets (in codes) along each axis: the address of a cell is their sum.
+    [[nodiscard]] std::size_t offset_x(int ix) const {
+        return brick_index(ix / brick_edge, 0, 0) * brick_cells +
+               static_cast<std::size_t>(ix % brick_edge) * brick_edge * brick_edge;
+    }
+    [[nodiscard]] std::size_t offset_y(int iy) const {
+        return brick_index(0, iy / brick_edge, 0) * brick_cells +
+               static_cast<std::size_t>(iy % brick_edge) * brick_edge;
+    }
+    [[nodiscard]] std::size_t offset_z(int iz) const {
+        return brick_index(0, 0, iz / brick_edge) * brick_cells +
+               static_cast<std::size_t>(iz % brick_edge);
+    }
+    // The stored code at an offset; 0 inside absent bricks, whatever their status.
+    [[nodiscard]] std::uint16_t code_at(std::size_t offset) const;
+    // Slow and complete: what a cell holds, absent bricks included. The cell must exist.
+    [[nodiscard]] CellStatus status(int ix, int iy, int iz) const;
+    [[nodiscard]] float value(int ix, int iy, int iz) const;  // of a cell whose status is value
+};
+
+[[nodiscard]] constexpr int bricks_along(int cells) {
+    return (cells + brick_edge - 1) / brick_edge;
+}
+
+}  // namespace stormcellar::grid

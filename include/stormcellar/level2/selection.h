@@ -1,0 +1,31 @@
+// stormcellar/level2/selection.h -- which moments and cuts of a volume are asked for.
+//
+// What is decoded of them is what a whole decode gives, but for the limit that record_plan.h
+// states. Thread contract: plain data.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::level2 {
+
+struct Selection {
+    std::vector<Moment> moments;         // empty: all
+    std::vector<int> elevation_numbers;  // the VCP's cuts, from 1; empty: all
+
+    [[nodiscard]] bool wants(Moment moment) const {
+        return moments.empty() ||
+               std::find(moments.begin(), moments.end(), moment) != moments.end();
+    }
+    [[nodiscard]] bool wants_cut(int elevation_number) const {
+        return elevation_numbers.empty() ||
+               std::find(elevation_numbers.begin(), elevation_numbers.end(), elevation_number) !=
+                   elevation_numbers.end();
+    }
+    [[nodiscard]] bool all_cuts() const { return elevation_numbers.empty(); }
+};
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,235 @@
+// stormcellar/level2/volume.h -- what a Level II file says, as decoded and nothing more.
+//
+// Codes are kept as they came (8 or 16 bit) with their scale and offset; a value is computed when
+// asked for. Arrays are contiguous, one row a radial. Nothing here is interpreted beyond the ICDs
+// (RDA/RPG 2620002, Archive II/User 2620010).
+// Units: metres, degrees, m/s, dBZ, dB; ranges are slant ranges to the CENTRE of a gate.
+// Thread contract: plain data; const access from many threads is safe.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/utc_time.h"
+
+namespace stormcellar::level2 {
+
+enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
+inline constexpr int moment_count = 7;
+inline constexpr std::array<Moment, moment_count> all_moments = {
+    Moment::ref, Moment::vel, Moment::sw, Moment::zdr, Moment::phi, Moment::rho, Moment::cfp};
+
+[[nodiscard]] std::string_view moment_name(Moment moment);   // "REF", "VEL", ...
+[[nodiscard]] std::string_view moment_units(Moment moment);  // "dBZ", "m/s", "dB", "degree", "1"
+[[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);  // upper case
+
+// What a gate's code stands for. Code 0 is below threshold, code 1 range folded (for CFP: codes 0
+// to 7 are flags and give no_data); a gate beyond the radial's last is no_data.
+enum class GateStatus : std::uint8_t { valid, below_threshold, range_folded, no_data };
+
+enum class RadialStatus : std::uint8_t {
+    start_of_elevation = 0,
+    intermediate = 1,
+    end_of_elevation = 2,
+    start_of_volume = 3,
+    end_of_volume = 4,
+    start_of_last_elevation = 5,
+};
+
+struct Radial {
+    UtcTime time;
+    float azimuth_deg = 0;
+    float elevation_deg = 0;  // as measured; may be negative
+    float nyquist_mps = 0;    // 0 where the radar does not say (TDWR, surveillance cuts)
+    float unambiguous_range_m = 0;
+    // Reflectivity of the noise at 1 km as the radar is calibrated (dBZ0); none in message 1.
+    std::optional<float> calibration_dbz;
+    std::optional<float> horizontal_noise_dbm;
+    std::optional<float> vertical_noise_dbm;
+    std::uint16_t azimuth_number = 0;
+    std::uint8_t status = 1;  // a RadialStatus; other values are kept as they came
+    std::uint8_t cut_sector = 0;
+    std::uint8_t spot_blanking = 0;
+    std::uint8_t azimuth_indexing = 0;
+    std::uint16_t radial_flags = 0;
+    std::optional<std::int16_t> attenuation_db_per_km_thousandths;  // elevation block: dB/km * 1000
+    std::optional<float> elevation_calibration_db;                  // elevation block
+    std::optional<float> vertical_calibration_dbz;
+};
+
+// One moment of one sweep: rows of `gate_stride` codes, one row for each radial of the sweep.
+// A sweep whose radials differ in gate geometry, word size, scale or offset has one SweepMoment
+// for each kind; gate_counts says which radials belong to it.
+struct SweepMoment {
+    Moment moment = Moment::ref;
+    std::int32_t first_gate_m = 0;  // to the centre of gate 0; negative in some legacy volumes
+    std::int32_t gate_spacing_m = 0;
+    std::int32_t gate_stride = 0;  // codes in a row: the largest gate count of any radial
+    int word_size_bits = 8;        // 8 or 16; says which of the two code arrays is in use
+    float scale = 1;               // value = (code - offset) / scale; 0 means value = code
+    float offset = 0;
+    int control_flags = 0;                   // message 31; -1 in message 1, which has none
+    float snr_threshold_db = 0;              // message 31; 0 in message 1
+    float folding_threshold_db = 0;          // message 31 "tover"
+    std::vector<std::uint16_t> gate_counts;  // per radial; 0: the radial lacks this moment
+    std::vector<std::uint8_t> codes8;
+    std::vector<std::uint16_t> codes16;
+
+    // No bounds check: radial < gate_counts.size(), 0 <= gate < gate_stride.
+    [[nodiscard]] std::uint16_t code(std::size_t radial, std::int32_t gate) const {
+        const std::size_t at =
+            radial * static_cast<std::size_t>(gate_stride) + static_cast<std::size_t>(gate);
+        return word_size_bits == 8 ? codes8[at] : codes16[at];
+    }
+    // What the gate holds; safe for any gate number, no_data outside the radial's gates.
+    [[nodiscard]] GateStatus status(std::size_t radial, std::int32_t gate) const;
+    // The physical value of a valid code.
+    [[nodiscard]] float value_of(std::uint16_t code) const {
+        const auto number = static_cast<float>(code);
+        return scale == 0 ? number : (number - offset) / scale;
+    }
+    [[nodiscard]] double range_m(std::int32_t gate) const {
+        return first_gate_m + static_cast<double>(gate_spacing_m) * gate;
+    }
+};
+
+// Radials in file order that share an elevation number: a new sweep begins where the number
+// changes or a radial has status 0, 3 or 5.
+struct Sweep {
+    int elevation_number = 0;                // the VCP's cut, from 1
+    int message_type = 31;                   // 1 or 31
+    float azimuth_spacing_deg = 0;           // 0.5 or 1; 0 where the message does not say
+    std::optional<float> vcp_elevation_deg;  // the cut's fixed angle, from message 5
+    std::vector<Radial> radials;
+    std::vector<SweepMoment> moments;
+
+    [[nodiscard]] const SweepMoment* find(Moment moment) const;  // the first; null when absent
+    [[nodiscard]] double mean_elevation_deg() const;             // NaN for no radials
+};
+
+// One cut of the volume coverage pattern, message 5 or 7 (ICD 2620002 table XI).
+struct VcpCut {
+    float elevation_deg = 0;
+    std::uint8_t channel_configuration = 0;
+    std::uint8_t waveform = 0;  // 1 surveillance, 2 Doppler with, 3 without ambiguity, 4 batch
+    std::uint8_t super_resolution = 0;
+    std::uint8_t surveillance_prf = 0;
+    std::uint16_t surveillance_pulses = 0;
+    std::int16_t azimuth_rate_code = 0;
+    std::uint16_t supplemental = 0;                      // flags: SAILS, MRLE, MPDA, base tilt
+    std::array<std::int16_t, 6> thresholds_eighth_db{};  // REF VEL SW ZDR PHI RHO, dB * 8
+    std::array<std::uint8_t, 22> rest{};                 // Doppler sectors, as they came
+
+    [[nodiscard]] bool is_sails() const { return (supplemental & 0x0001U) != 0; }
+    [[nodiscard]] int sails_sequence() const { return (supplemental >> 1) & 0x7; }
+    [[nodiscard]] bool is_mrle() const { return (supplemental & 0x0010U) != 0; }
+    [[nodiscard]] int mrle_sequence() const { return (supplemental >> 5) & 0x7; }
+    [[nodiscard]] bool is_mpda() const { return (supplemental & 0x0200U) != 0; }
+    [[nodiscard]] bool is_base_tilt() const { return (supplemental & 0x0400U) != 0; }
+};
+
+struct Vcp {
+    int message_type = 5;
+    std::uint16_t pattern_type = 2;
+    std::uint16_t pattern_number = 0;
+    std::uint8_t version = 0;
+    std::uint8_t clutter_group = 0;
+    std::uint8_t doppler_resolution = 0;  // 2: 0.5 m/s, 4: 1 m/s
+    std::uint8_t pulse_width = 0;         // 2 short, 4 long
+    std::uint16_t sequencing = 0;
+    std::uint16_t supplemental = 0;
+    std::vector<VcpCut> cuts;
+
+    [[nodiscard]] bool is_sails() const { return (supplemental & 0x0001U) != 0; }
+    [[nodiscard]] int sails_count() const { return (supplemental >> 1) & 0x7; }
+    [[nodiscard]] bool is_mrle() const { return (supplemental & 0x0010U) != 0; }
+    [[nodiscard]] int mrle_count() const { return (supplemental >> 5) & 0x7; }
+    [[nodiscard]] bool is_mpda() const { return (supplemental & 0x0800U) != 0; }
+    [[nodiscard]] bool has_base_tilt() const { return (supplemental & 0x1000U) != 0; }
+    [[nodiscard]] int base_tilt_count() const { return (supplemental >> 13) & 0x7; }
+};
+
+// The volume data block of message 31.
+struct VolumeBlock {
+    std::uint16_t size_bytes = 44;
+    std::uint8_t version_major = 1;
+    std::uint8_t version_minor = 0;
+    float latitude_deg = 0;
+    float longitude_deg = 0;
+    std::int16_t site_height_m = 0;    // base of the tower above mean sea level
+    std::uint16_t tower_height_m = 0;  // feed horn above the base
+    float calibration_db = 0;
+    float horizontal_power_kw = 0;
+    float vertical_power_kw = 0;
+    float differential_reflectivity_db = 0;
+    float initial_differential_phase_deg = 0;
+    std::uint16_t vcp = 0;
+    std::uint16_t processing_status = 0;
+    std::vector<std::uint8_t> rest;  // bytes beyond the 44 of the first version, as they came
+};
+
+// The 24 bytes before the first record.
+struct VolumeHeader {
+    std::string filename;    // "AR2V0006.116", "ARCHIVE2.031"
+    std::uint32_t date = 0;  // NEXRAD day number
+    std::uint32_t ms = 0;    // after midnight
+    std::string icao;        // empty in ARCHIVE2 files
+
+    [[nodiscard]] UtcTime time() const { return time_from_nexrad(date, ms); }
+    // The number after the dot, 0-999, or none.
+    [[nodiscard]] std::optional<int> volume_number() const;
+};
+
+enum class VcpSource : std::uint8_t { none, message_5, message_7, radial };
+
+struct Volume {
+    std::optional<VolumeHeader> header;
+    std::string station;  // ICAO from the header, else message 31, else the file name; or empty
+    std::optional<VolumeBlock> block;
+    std::optional<Vcp> vcp_message;
+    std::optional<int> vcp;
+    VcpSource vcp_source = VcpSource::none;
+    std::vector<Sweep> sweeps;  // file order
+
+    // Start of the volume: the header's time, else the first radial's, of those that are plausible
+    // and that others of the sweep bear out. A header that is more than an hour off its radials is
+    // not believed.
+    [[nodiscard]] std::optional<UtcTime> start_time() const;
+    [[nodiscard]] std::size_t radial_count() const;
+};
+
+// Whether a radar can have meant this time: 1970 to 2149, the years that messages can say. A day
+// number of 0 stands for no time.
+[[nodiscard]] bool is_plausible(UtcTime time);
+// Whether a radial's time is possible in a volume that starts then. A volume takes minutes, but a
+// single radial may carry any time, or that of another day.
+[[nodiscard]] bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start);
+
+// Without the top bit, which marks bad data.
+[[nodiscard]] RadialStatus status_of(const Radial& radial);
+// The last radial is marked as the volume's last.
+[[nodiscard]] bool has_ended(const Volume& volume);
+[[nodiscard]] bool has_ended(std::span<const Sweep> sweeps);
+
+// Where the antenna stands (DESIGN section 5): altitude = site height + tower height of message
+// 31; where the two are equal (TDWR) the site height alone. Where the radar stands within 0.01
+// degrees of the station table and its height is more than 30 m off, the height is the table's; a
+// site that moved by up to 1 degree has its own position and height; farther off, or without a
+// position, the table wins. None when neither knows the site.
+struct AntennaPosition {
+    double latitude_deg = 0;
+    double longitude_deg = 0;
+    double altitude_m = 0;  // above mean sea level
+    bool from_table = false;
+    // Set when message 31 and the table differ by more than 30 m in altitude or 0.01 degrees.
+    std::optional<std::string> disagreement;
+};
+[[nodiscard]] std::optional<AntennaPosition> antenna_position(const Volume& volume);
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,27 @@
+// stormcellar/render/image.h -- pixels.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace stormcellar::render {
+
+using Rgba8 = std::array<std::uint8_t, 4>;  // not premultiplied, sRGB
+
+// A colour over an opaque one.
+[[nodiscard]] Rgba8 over(const Rgba8& colour, const Rgba8& below);
+
+// Row 0 is the top. Opaque unless stated otherwise.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;  // width * height * 4, R G B A
+
+    Image() = default;
+    Image(int w, int h, Rgba8 fill);
+    [[nodiscard]] Rgba8 at(int x, int y) const;  // the pixel must exist
+    void set(int x, int y, Rgba8 colour);
+};
+
+}  // namespace stormcellar::render

@@ -1,0 +1,19 @@
+// level2/containers/archive_header.h -- the 24 bytes before the first record (ICD 2620010,
+// section 7.3.3).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::level2 {
+
+inline constexpr std::size_t archive_header_bytes = 24;
+
+// The header at the start of `bytes`, or none: it begins with "AR2V" or "ARCHIVE2" and a dot.
+// An ICAO that is not one (spaces, zeros) is left empty.
+[[nodiscard]] std::optional<VolumeHeader> read_archive_header(std::span<const std::byte> bytes);
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,73 @@
+// level2/containers/compress_stream.h -- Unix compress (.Z) as archives of the 1990s have it, piece
+// by piece.
+//
+// What was expanded before damage is given out; damage is a state at the end, never lost.
+// Format  3 bytes (1F 9D, then the largest code width, 9 to 16, and 0x80 when code 256 clears the
+//         table); then codes, low bits first, beginning with 9 bits. Codes of one width come in
+//         groups of eight; where the width changes, or the table is cleared, the rest of the group
+//         is padding. The format has no checksum and no length, so a cut between two codes cannot
+//         be seen here.
+// Source  Welch, IEEE Computer 17(6) 1984 (the algorithm); the behaviour of compress 4.0 for the
+//         grouping, which no document states.
+// Memory  256 KiB of tables and a piece.
+// Thread contract: one thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace stormcellar::level2 {
+
+[[nodiscard]] bool is_compress(std::span<const std::byte> bytes);
+
+enum class CompressEnd : std::uint8_t {
+    none,       // not at the end yet
+    whole,      // all codes; see above
+    truncated,  // shorter than its head
+    corrupt     // a code that cannot be
+};
+
+class CompressStream {
+  public:
+    static constexpr std::size_t piece_bytes = std::size_t{256} << 10;
+
+    explicit CompressStream(std::span<const std::byte> bytes);
+
+    // The next bytes, valid until the next call; empty at the end.
+    [[nodiscard]] std::span<const std::byte> next();
+    [[nodiscard]] CompressEnd end() const { return end_; }
+    // How far into the compressed bytes.
+    [[nodiscard]] std::size_t position() const;
+
+  private:
+    static constexpr int least_width = 9;
+    static constexpr int most_width = 16;
+
+    [[nodiscard]] std::optional<std::uint32_t> next_code();
+    // Skips what is left of the group of eight codes; the next one has this width.
+    void begin_group(int width);
+    void take(std::uint32_t code);
+    void enter(std::uint32_t prefix, std::byte last);
+    // Appends the string of a code to the output; gives its first byte.
+    std::byte expand(std::uint32_t code);
+
+    std::span<const std::byte> bytes_;
+    std::uint64_t bit_ = 0;          // of the next code
+    std::uint64_t group_start_ = 0;  // bit at which the codes of this width began
+    int width_ = least_width;
+    int limit_ = least_width;  // the largest width
+    bool clears_ = false;
+    std::uint32_t next_entry_ = 256;
+    std::optional<std::uint32_t> previous_;
+    std::byte first_of_previous_{};
+    std::vector<std::uint16_t> prefixes_;
+    std::vector<std::byte> lasts_;
+    std::vector<std::byte> output_;
+    CompressEnd end_ = CompressEnd::none;
+};
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,50 @@
+#include "level2/containers/content.h"
+
+#include "level2/containers/archive_header.h"
+#include "level2/containers/bzip2_stream.h"
+#include "level2/containers/compress_stream.h"
+#include "level2/containers/gzip_stream.h"
+#include "level2/containers/ldm_framer.h"
+#include "level2/messages/message_header.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+bool plausible_at(std::span<const std::byte> bytes, std::size_t at) {
+    if (bytes.size() < at + message_header_bytes) return false;
+    const auto header_bytes = bytes.subspan(at, message_header_bytes);
+    return !all_zero(header_bytes) && is_plausible(read_message_header(header_bytes));
+}
+
+bool messages_at_start(std::span<const std::byte> bytes, bool after_header) {
+    if (is_surely_message(bytes)) return true;
+    const bool first = plausible_at(bytes, 0);
+    if (after_header && first) return true;
+    // Two headers a frame apart are no accident, one sure message is none either.
+    if (bytes.size() < frame_bytes) return false;
+    return is_surely_message(bytes.subspan(frame_bytes)) ||
+           (first && plausible_at(bytes, frame_bytes));
+}
+
+}  // namespace
+
+Content content_at_start(std::span<const std::byte> bytes) {
+    if (is_gzip(bytes)) return Content::gzip;
+    if (is_compress(bytes)) return Content::compress;
+    if (is_bzip2(bytes)) return Content::bzip2;
+    const bool header = read_archive_header(bytes).has_value();
+    const auto rest = bytes.subspan(header ? archive_header_bytes : 0);
+    if (is_ldm_record(rest)) return Content::ldm;
+    if (messages_at_start(rest, header)) return Content::messages;
+    return Content::unknown;
+}
+
+Content content_anywhere(std::span<const std::byte> bytes) {
+    const Content content = content_at_start(bytes);
+    if (content != Content::unknown) return content;
+    if (find_bzip2(bytes, 0)) return Content::ldm;
+    if (find_message(bytes, 0)) return Content::messages;
+    return Content::unknown;
+}
+
+}  // namespace stormcellar::level2

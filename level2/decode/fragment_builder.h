@@ -1,0 +1,72 @@
+// level2/decode/fragment_builder.h -- puts radials, in the order of the stream, into pieces of
+// sweeps.
+//
+// A piece ends where the elevation number or the message type changes, where a radial has status
+// 0, 3 or 5, and at a 24-byte header. Codes are copied once, from the message into the arrays.
+// Memory: what a fragment holds stays in the room given; add() and add_pattern() then say so and
+// the builder takes no more.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "level2/decode/array_room.h"
+#include "level2/decode/report_writer.h"
+#include "level2/messages/radial_message.h"
+#include "stormcellar/level2/fragment.h"
+#include "stormcellar/level2/selection.h"
+
+namespace stormcellar::level2 {
+
+// Radials that are compressed inside messages expand to so much in a fragment: each costs time.
+inline constexpr std::uint64_t most_expanded_bytes = std::uint64_t{512} << 20;
+
+// Whether the radial's status begins a sweep: 0, 3 or 5.
+[[nodiscard]] bool begins_sweep(const Radial& radial);
+// Whether it ends one: 2 or 4.
+[[nodiscard]] bool ends_sweep(const Radial& radial);
+
+// Radials in a record of a live volume.
+inline constexpr std::size_t rows_of_a_record = 120;
+
+class FragmentBuilder {
+  public:
+    // `expected_rows`: radials of a piece, to make room for. The room and the selection must
+    // outlive the builder.
+    FragmentBuilder(ArrayRoom& room, std::size_t expected_rows, const Selection& selection)
+        : room_(room), expected_rows_(expected_rows), selection_(selection) {}
+
+    // False: the room does not suffice.
+    [[nodiscard]] bool add(const RadialMessage& message);
+    [[nodiscard]] bool add_pattern(Vcp vcp);
+    // Counts what a radial expanded to. False: there was too much of it.
+    [[nodiscard]] bool add_expanded(std::uint64_t bytes);
+    void further_header(const VolumeHeader& header) { marks_.header = header; }
+
+    // That the fragment's first radials name; empty where none does.
+    [[nodiscard]] const std::string& station() const { return fragment_.station; }
+    [[nodiscard]] ReportWriter report() { return ReportWriter{fragment_.report}; }
+    [[nodiscard]] DecodeReport& report_data() { return fragment_.report; }
+
+    // Gives up what there is; the builder goes on with an empty fragment, and nothing is taken of
+    // its room.
+    [[nodiscard]] Fragment take();
+
+  private:
+    [[nodiscard]] bool begins_sweep_here(const RadialMessage& message) const;
+    [[nodiscard]] bool begin_piece(const RadialMessage& message);
+    void note_volume_facts(const RadialMessage& message);
+    void reserve_rows(Sweep& sweep) const;
+    [[nodiscard]] bool add_rows(Sweep& sweep, const RadialMessage& message);
+    [[nodiscard]] bool add_moment(Sweep& sweep, const MomentBlock& block);
+
+    ArrayRoom& room_;
+    std::size_t expected_rows_;
+    const Selection& selection_;
+    Fragment fragment_;
+    std::uint64_t errors_at_last_radial_ = 0;
+    // Since the last piece began; a pattern in the midst of a sweep holds for those to come.
+    FragmentMarks marks_;
+};
+
+}  // namespace stormcellar::level2

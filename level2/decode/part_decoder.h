@@ -1,0 +1,57 @@
+// level2/decode/part_decoder.h -- an LDM record, or what stands between two, -> Fragment.
+//
+// A record is decompressed and read in small pieces, so its messages are never held whole. Where
+// its checksum then proves wrong, all of that is thrown away and the record is read again block by
+// block, keeping the blocks that are whole. A block is held whole, and there may be much in it, so
+// all room is asked for first.
+// Thread contract: one thread at a time; a decoder for each thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bunzip/bunzip.h"
+#include "level2/containers/ldm_framer.h"
+#include "level2/decode/array_room.h"
+#include "stormcellar/level2/fragment.h"
+#include "stormcellar/level2/selection.h"
+
+namespace stormcellar::level2 {
+
+class PartDecoder {
+  public:
+    // The selection must outlive the decoder.
+    PartDecoder(std::uint64_t output_limit_bytes, const Selection& selection)
+        : limit_bytes_(output_limit_bytes), selection_(selection) {}
+
+    // The fragment's arrays stay in the room. Never throws for want of memory: the fragment says
+    // so.
+    [[nodiscard]] Fragment decode(const LdmPart& part, ArrayRoom room);
+    [[nodiscard]] Fragment decode(const LdmPart& part) {
+        return decode(part, ArrayRoom{limit_bytes_});
+    }
+
+  private:
+    [[nodiscard]] Fragment decode_kind(const LdmPart& part, ArrayRoom& room);
+    [[nodiscard]] Fragment decode_record(const LdmPart& part, ArrayRoom& room);
+    struct Damage {
+        bool is_cut = false;             // the end is missing
+        std::uint64_t wasted_bytes = 0;  // see BzipBlocks::Block
+    };
+    // None where the record is damaged.
+    [[nodiscard]] std::optional<Fragment> read_record(const LdmPart& part, ArrayRoom& room,
+                                                      Damage& damage);
+    [[nodiscard]] Fragment read_blocks(const LdmPart& part, ArrayRoom& room, const Damage& damage);
+
+    std::uint64_t limit_bytes_;
+    const Selection& selection_;
+    std::vector<std::byte> buffer_;
+    bunzip::Workspace workspace_;
+};
+
+// CPU time of the calling thread.
+[[nodiscard]] double thread_cpu_s();
+
+}  // namespace stormcellar::level2

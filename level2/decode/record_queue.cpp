@@ -1,0 +1,151 @@
+#include "level2/decode/record_queue.h"
+
+#include <algorithm>
+#include <new>
+#include <system_error>
+#include <utility>
+
+namespace stormcellar::level2 {
+
+RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_bytes,
+                         const Selection& selection)
+    : limit_bytes_(output_limit_bytes),
+      selection_(selection),
+      own_decoder_(output_limit_bytes, selection),
+      source_(std::move(source)),
+      slots_(threads > 1 ? 2 * static_cast<std::size_t>(std::min(threads, most_threads)) : 1),
+      share_bytes_(std::min(most_share_bytes, all_shares_bytes / slots_.size())),
+      may_wait_(threads <= most_waiting_threads) {
+    threads = std::min(threads, most_threads);
+    {
+        const std::lock_guard lock{mutex_};
+        fill();
+    }
+    try {
+        workers_.reserve(slots_.size());
+        for (int i = 1; i < threads; ++i)
+            workers_.emplace_back(&RecordQueue::run, this);
+    } catch (const std::system_error&) {
+        // The system has no more threads: those there are do the work.
+    } catch (const std::bad_alloc&) {
+        // The same.
+    }
+}
+
+RecordQueue::~RecordQueue() {
+    {
+        const std::lock_guard lock{mutex_};
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& worker : workers_)
+        worker.join();
+}
+
+void RecordQueue::fill() {
+    while (used_ < slots_.size() && !source_ended_) {
+        std::optional<LdmPart> part = source_();
+        if (!part) {
+            source_ended_ = true;
+            break;
+        }
+        Slot& slot = slots_[(head_ + used_) % slots_.size()];
+        slot.part = std::move(*part);
+        slot.state = State::waiting;
+        slot.large = false;
+        ++used_;
+    }
+}
+
+bool RecordQueue::has_turn(const Slot& slot) const {
+    return turn_bytes_ && &slot == &slots_[head_];
+}
+
+RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
+    for (std::size_t i = 0; i < used_; ++i) {
+        Slot& slot = slots_[(head_ + i) % slots_.size()];
+        if (slot.state != State::waiting) continue;  // who works on it may say that it is large
+        const bool is_head = who == Who::caller && has_turn(slot);
+        if (is_head || !(slot.large || alone_)) return &slot;
+    }
+    return nullptr;
+}
+
+std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
+    std::unique_lock lock{mutex_};
+    changed_.wait(lock, [&] { return stopping_ || has_turn(slot); });
+    return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
+}
+
+// The functions hold two pointers, so that none of them takes memory.
+ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
+    if (has_turn(slot)) return ArrayRoom{*turn_bytes_};
+    if (who == Who::worker && may_wait_) {
+        return ArrayRoom{share_bytes_, [this, &slot] { return wait_for_turn(slot); }};
+    }
+    // The caller never waits, since it is the one who takes the head.
+    return ArrayRoom{share_bytes_, [&slot] {
+                         slot.large = true;
+                         return std::uint64_t{0};
+                     }};
+}
+
+void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
+                       std::unique_lock<std::mutex>& lock) {
+    slot.state = State::working;
+    slot.large = false;
+    ArrayRoom room = room_for(slot, who);
+    lock.unlock();
+    Fragment fragment = decoder.decode(slot.part, std::move(room));
+    if (slot.large) fragment = {};
+    lock.lock();
+    slot.fragment = std::move(fragment);
+    slot.state = slot.large ? State::waiting : State::ready;
+    changed_.notify_all();
+}
+
+void RecordQueue::run() {
+    PartDecoder decoder{limit_bytes_, selection_};
+    std::unique_lock lock{mutex_};
+    while (!stopping_) {
+        if (Slot* slot = first_waiting(Who::worker)) {
+            work(*slot, decoder, Who::worker, lock);
+        } else {
+            changed_.wait(lock);
+        }
+    }
+}
+
+// With the room that there is, and not with that of one decoded ahead.
+void RecordQueue::decode_alone(Slot& head, std::unique_lock<std::mutex>& lock) {
+    changed_.wait(lock, [&] { return head.state != State::working; });
+    head.fragment = {};
+    work(head, own_decoder_, Who::caller, lock);
+}
+
+std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
+    std::unique_lock lock{mutex_};
+    if (used_ == 0) return std::nullopt;
+    turn_bytes_ = limit_bytes;
+    changed_.notify_all();
+    Slot& head = slots_[head_];
+    alone_ = alone_ || limit_bytes < share_bytes_;
+    if (alone_) decode_alone(head, lock);
+    while (head.state != State::ready) {
+        if (Slot* slot = first_waiting(Who::caller)) {
+            work(*slot, own_decoder_, Who::caller, lock);
+        } else {
+            changed_.wait(lock);
+        }
+    }
+    Fragment fragment = std::exchange(head.fragment, {});
+    turn_bytes_.reset();
+    head.state = State::empty;
+    head_ = (head_ + 1) % slots_.size();
+    --used_;
+    fill();
+    changed_.notify_all();
+    return fragment;
+}
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,366 @@
+#include "level2/decode/volume_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "level2/containers/archive_header.h"
+#include "level2/decode/fragment_builder.h"
+#include "level2/decode/sweep_rows.h"
+#include "level2/decode/volume_checks.h"
+#include "stormcellar/level2/live_sweep.h"
+
+namespace stormcellar::level2 {
+namespace {
+
+// Rows to make room for, so that arrays of an ordinary sweep are never moved or too large.
+constexpr std::size_t radials_half_degree = 720;
+constexpr std::size_t radials_one_degree = 368;
+// A volume has some hundreds.
+constexpr std::uint64_t most_records = 100'000;
+
+VcpSource source_of(const Vcp& vcp) {
+    return vcp.message_type == 7 ? VcpSource::message_7 : VcpSource::message_5;
+}
+
+std::size_t expected_radials(float azimuth_spacing_deg) {
+    return azimuth_spacing_deg == 0.5F ? radials_half_degree : radials_one_degree;
+}
+
+std::uint64_t held_by(const Sweep& sweep) {
+    std::uint64_t bytes = bytes_of(sweep);
+    for (const SweepMoment& moment : sweep.moments)
+        bytes += rows::idle_bytes(moment);
+    return bytes;
+}
+
+bool continues(int elevation_number, int message_type, const Sweep& next) {
+    return !begins_sweep(next.radials.front()) && elevation_number == next.elevation_number &&
+           message_type == next.message_type;
+}
+
+}  // namespace
+
+bool continues_sweep(const Fragment::Piece& previous, const Fragment::Piece& piece) {
+    return continues(previous.sweep.elevation_number, previous.sweep.message_type, piece.sweep);
+}
+
+void VolumeBuilder::set_pattern(Vcp vcp) {
+    if (!volume_.vcp_message) {
+        volume_.vcp_message = vcp;
+        volume_.vcp = vcp.pattern_number;
+        volume_.vcp_source = source_of(vcp);
+    }
+    current_vcp_ = std::move(vcp);
+    vcp_is_new_ = true;
+}
+
+bool VolumeBuilder::note_marks(FragmentMarks marks) {
+    for (Vcp& vcp : marks.patterns) {
+        if (!room_.add(bytes_of(vcp))) return false;
+        set_pattern(std::move(vcp));
+    }
+    if (marks.header) pending_header_ = std::move(marks.header);
+    return true;
+}
+
+void VolumeBuilder::note_facts(const Fragment& fragment) {
+    for (const Fragment::Piece& piece : fragment.pieces)
+        (void)note_marks(piece.before);
+    (void)note_marks(fragment.behind);
+    note_volume_facts(fragment);
+}
+
+void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
+    if (report_.message_station.empty()) {
+        report_.message_station = fragment.station;
+    } else if (!fragment.station.empty() && fragment.station != report_.message_station) {
+        report().oddity(Severity::note, "odd_radials",
+                        "radials name another station than the first", report_.message_bytes);
+    }
+    if (!volume_.block) volume_.block = fragment.block;
+    if (!volume_.vcp && fragment.vcp != 0) {
+        volume_.vcp = fragment.vcp;
+        volume_.vcp_source = VcpSource::radial;
+    }
+}
+
+// What is known of the pattern of a volume that begins with this piece. An old message 5 counts
+// only as long as the radials name its pattern.
+DecodeReport::FurtherPattern VolumeBuilder::pattern_of(const Fragment::Piece& piece) {
+    if (current_vcp_ && !vcp_is_new_ && piece.vcp != 0 &&
+        piece.vcp != current_vcp_->pattern_number) {
+        current_vcp_.reset();
+    }
+    DecodeReport::FurtherPattern pattern{volume_.sweeps.size(), current_vcp_, {}, VcpSource::none};
+    if (current_vcp_) {
+        pattern.vcp = current_vcp_->pattern_number;
+        pattern.source = source_of(*current_vcp_);
+    } else if (piece.vcp != 0) {
+        pattern.vcp = piece.vcp;
+        pattern.source = VcpSource::radial;
+    }
+    return pattern;
+}
+
+bool VolumeBuilder::begins_sweep_here(const Fragment::Piece& piece) const {
+    return !previous_ || pending_header_ ||
+           !continues(previous_->elevation_number, previous_->message_type, piece.sweep);
+}
+
+bool VolumeBuilder::begins_volume(const Fragment::Piece& piece) const {
+    if (!previous_) return false;
+    const bool marked = status_of(piece.sweep.radials.front()) == RadialStatus::start_of_volume;
+    if (marked || pending_header_) return true;
+    // A pattern's cuts only count upwards, so a lower number is another pass, even where the
+    // radials that would say so are lost.
+    return piece.sweep.elevation_number < previous_->elevation_number ||
+           (previous_->ended_volume && piece.sweep.elevation_number == previous_->elevation_number);
+}
+
+bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
+    const std::size_t sweep = volume_.sweeps.size();
+    DecodeReport::FurtherPattern pattern = pattern_of(piece);
+    // split_volumes() gives each volume the pattern and the block.
+    const std::uint64_t bytes = sizeof(Volume) + sizeof(pattern) +
+                                sizeof(DecodeReport::FurtherHeader) +
+                                (pattern.message ? bytes_of(*pattern.message) : 0) +
+                                (volume_.block ? volume_.block->rest.size() : 0);
+    if (!room_.add(bytes)) return false;
+    if (pending_header_) {
+        report_.further_headers.push_back(
+            {sweep, *pending_header_, report_.further_volume_starts.size()});
+    }
+    report_.further_volume_starts.push_back(sweep);
+    report_.further_patterns.push_back(std::move(pattern));
+    return true;
+}
+
+Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
+    Sweep& sweep = volume_.sweeps.emplace_back();
+    sweep.elevation_number = from.elevation_number;
+    sweep.message_type = from.message_type;
+    sweep.azimuth_spacing_deg = from.azimuth_spacing_deg;
+    const auto cut = static_cast<std::size_t>(from.elevation_number) - 1;
+    if (from.elevation_number >= 1 && current_vcp_ && cut < current_vcp_->cuts.size()) {
+        sweep.vcp_elevation_deg = current_vcp_->cuts[cut].elevation_deg;
+    }
+    sweep.radials.reserve(expected_radials(from.azimuth_spacing_deg));
+    return sweep;
+}
+
+void VolumeBuilder::tidy_last_sweep() {
+    if (sweep_is_open_) rows::make_whole(volume_.sweeps.back());
+}
+
+void VolumeBuilder::end_sweep() {
+    tidy_last_sweep();
+    sweep_is_open_ = false;
+}
+
+// Counts what the open sweep takes with these radials too.
+bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
+    std::size_t next = sweep.moments.size();
+    for (const SweepMoment& moment : from.moments) {
+        const auto same = [&](const SweepMoment& m) { return rows::same_kind(m, moment); };
+        const auto there = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
+        const std::size_t number = there == sweep.moments.end()
+                                       ? next++
+                                       : static_cast<std::size_t>(there - sweep.moments.begin());
+        const auto gates = *std::max_element(moment.gate_counts.begin(), moment.gate_counts.end());
+        if (!room_.widen(number, gates, rows::bytes_per_code(moment))) return false;
+    }
+    return room_.add_radials(from.radials.size());
+}
+
+void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
+    const std::size_t before = sweep.radials.size();
+    sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());
+    for (const SweepMoment& moment : from.moments) {
+        const auto same = [&](const SweepMoment& m) { return rows::same_kind(m, moment); };
+        auto to = std::find_if(sweep.moments.begin(), sweep.moments.end(), same);
+        if (to == sweep.moments.end()) {
+            const bool first = sweep.find(moment.moment) == nullptr;
+            sweep.moments.push_back(rows::empty_like(moment));
+            to = sweep.moments.end() - 1;
+            if (first) rows::reserve(*to, expected_radials(sweep.azimuth_spacing_deg));
+        }
+        if (moment.gate_stride > to->gate_stride) {
+            rows::set_stride(*to, rows::grown_stride(*to, moment.gate_stride));
+        }
+        rows::pad(*to, before);
+        rows::append(*to, moment);
+    }
+}
+
+bool VolumeBuilder::append_piece(Fragment::Piece piece) {
+    if (!note_marks(std::move(piece.before))) return false;
+    const bool begins = begins_sweep_here(piece);
+    if (begins) {
+        if (begins_volume(piece) && !begin_volume(piece)) return false;
+        pending_header_.reset();
+        vcp_is_new_ = false;
+        end_sweep();
+        if (!room_.begin_sweep()) return false;
+    }
+    Sweep& from = piece.sweep;
+    previous_ = Previous{from.elevation_number, from.message_type, ends_sweep(from.radials.back()),
+                         status_of(from.radials.back()) == RadialStatus::end_of_volume};
+    if (piece.left_out) {
+        if (begins) ++report_.sweeps_left_out;
+        return true;
+    }
+    sweep_is_open_ = true;
+    Sweep& sweep = begins ? begin_sweep(from) : volume_.sweeps.back();
+    if (!make_room_for(sweep, from)) return false;
+    if (begins && 2 * from.radials.size() >= expected_radials(from.azimuth_spacing_deg)) {
+        // Nearly all of the sweep already: its arrays are taken as they are.
+        sweep.radials = std::move(from.radials);
+        sweep.moments = std::move(from.moments);
+    } else {
+        append_rows(sweep, from);
+    }
+    return true;
+}
+
+std::string VolumeBuilder::station(const std::string& fallback) const {
+    if (volume_.header && !volume_.header->icao.empty()) return volume_.header->icao;
+    return report_.message_station.empty() ? fallback : report_.message_station;
+}
+
+Volume VolumeBuilder::facts(const std::string& fallback_station) const {
+    Volume facts;
+    facts.header = volume_.header;
+    facts.station = station(fallback_station);
+    facts.block = volume_.block;
+    facts.vcp_message = volume_.vcp_message;
+    facts.vcp = volume_.vcp;
+    facts.vcp_source = volume_.vcp_source;
+    return facts;
+}
+
+std::uint64_t VolumeBuilder::held_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const Sweep& sweep : volume_.sweeps)
+        bytes += held_by(sweep);
+    return bytes;
+}
+
+std::uint64_t VolumeBuilder::open_sweep_bytes() const {
+    return sweep_is_open_ ? held_by(volume_.sweeps.back()) : 0;
+}
+
+std::size_t VolumeBuilder::closed_sweeps() const {
+    return volume_.sweeps.size() - (sweep_is_open_ ? 1 : 0);
+}
+
+Sweep VolumeBuilder::whole_sweep(std::size_t index) const {
+    Sweep sweep = volume_.sweeps[index];
+    if (sweep_is_open_ && index + 1 == volume_.sweeps.size()) rows::make_whole(sweep);
+    return sweep;
+}
+
+std::span<const std::byte> VolumeBuilder::begin_stream(std::span<const std::byte> bytes) {
+    auto header = read_archive_header(bytes);
+    if (!header) {
+        report().add(Severity::note, "no_volume_header", "no 24-byte volume header");
+        return bytes;
+    }
+    set_header(std::move(*header));
+    return bytes.subspan(archive_header_bytes);
+}
+
+Status VolumeBuilder::too_much_output() const {
+    return fail(ErrorCode::unsupported, "decompresses to more than the limit of {} bytes",
+                limit_bytes_);
+}
+
+Status VolumeBuilder::count_output(std::uint64_t bytes) {
+    if (bytes > limit_bytes_ - output_bytes_) return too_much_output();
+    output_bytes_ += bytes;
+    return {};
+}
+
+Status VolumeBuilder::hold(std::uint64_t bytes) {
+    if (room_.add(bytes)) return {};
+    return fail(ErrorCode::unsupported, "what it holds takes more than the limit of {} bytes",
+                array_limit_bytes_);
+}
+
+// False where the arrays exceed their limit.
+bool VolumeBuilder::append_all(Fragment& fragment) {
+    // What a fragment takes is never more than what the volume takes for it.
+    if (fragment.array_bytes > arrays_left()) return false;
+    for (Fragment::Piece& piece : fragment.pieces) {
+        if (!append_piece(std::move(piece))) return false;
+        piece = {};
+    }
+    return note_marks(std::move(fragment.behind));
+}
+
+// What stands behind a volume's last radial takes nothing of it.
+void VolumeBuilder::count_errors(const Fragment& fragment) {
+    if (fragment.pieces.empty()) {
+        errors_behind_ += fragment.report.errors;
+        return;
+    }
+    errors_within_ += errors_behind_ + fragment.report.errors - fragment.errors_behind;
+    errors_behind_ = fragment.errors_behind;
+}
+
+Status VolumeBuilder::append(Fragment fragment) {
+    switch (fragment.failure) {
+        case Fragment::Failure::none:
+        case Fragment::Failure::too_large_arrays:
+            break;
+        case Fragment::Failure::no_memory:
+            return no_memory();
+        case Fragment::Failure::too_much_output:
+            return too_much_output();
+    }
+    if (Status counted = count_output(fragment.output_bytes); !counted) return counted;
+    if (report_.ldm_records.value_or(0) + fragment.report.ldm_records.value_or(0) > most_records) {
+        return fail(ErrorCode::unsupported, "more than {} LDM records", most_records);
+    }
+    cut_ = cut_ || fragment.cut;
+    note_volume_facts(fragment);
+    count_errors(fragment);
+    if (fragment.failure == Fragment::Failure::too_large_arrays || !append_all(fragment)) {
+        return fail(ErrorCode::unsupported, "its arrays take more than the limit of {} bytes",
+                    array_limit_bytes_);
+    }
+    report().append(std::move(fragment.report));
+    return {};
+}
+
+Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
+    const bool last_is_newest = sweep_is_open_;
+    end_sweep();
+    const auto& counts = report_.message_counts;
+    const bool anything = std::any_of(counts.begin(), counts.end(),
+                                      [](const auto& count) { return count.first != 0; });
+    if (!anything) {
+        return fail(
+            cut_ ? ErrorCode::truncated : ErrorCode::corrupt, "nothing in it is whole: {}",
+            report_.corruption ? report_.corruption->reason : "neither radials nor metadata");
+    }
+    volume_.station = station(fallback_station);
+    if (!report_.message_station.empty() && volume_.station != report_.message_station) {
+        report().add(Severity::note, "station_disagrees",
+                     fmt::format("the radials name {}; the volume is that of its header, {}",
+                                 report_.message_station, volume_.station));
+    }
+    const bool ended = volume_has_ended();
+    const bool all_cuts = report_.sweeps_left_out == 0 && report_.records_skipped == 0;
+    const VolumeFacts facts{
+        previous_.has_value(), ended, all_cuts, last_is_newest, report_.further_volume_starts,
+        report_.rda_status};
+    const bool gaps = check_volume(volume_, facts, report());
+    report_.damaged = incomplete_ || errors_within_ > 0;
+    report_.complete = ended && !gaps && !report_.damaged;
+    report().finish();
+    return Decoded{std::move(volume_), std::move(report_)};
+}
+
+}  // namespace stormcellar::level2

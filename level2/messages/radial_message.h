@@ -1,0 +1,91 @@
+// level2/messages/radial_message.h -- one radial as a message gives it: message 31, or message 1 of
+// old.
+//
+// The codes are views into the message; a RadialMessage lives no longer than the message's bytes.
+// Every length, pointer and count has been checked against the message and against the blocks
+// beside it, every angle is finite.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::level2 {
+
+struct MomentBlock {
+    Moment moment = Moment::ref;
+    std::int32_t first_gate_m = 0;
+    std::int32_t gate_spacing_m = 0;
+    std::uint16_t gates = 0;  // at least 1
+    int word_size_bits = 8;   // 8 or 16
+    float scale = 1;
+    float offset = 0;
+    int control_flags = -1;
+    float snr_threshold_db = 0;
+    float folding_threshold_db = 0;
+    std::span<const std::byte> codes;  // gates * word size, big-endian
+};
+
+struct RadialMessage {
+    static constexpr std::size_t max_moments = 16;
+
+    Radial radial;
+    int message_type = 31;
+    int elevation_number = 0;
+    float azimuth_spacing_deg = 0;
+    std::string_view icao;                    // message 31; as it came
+    std::optional<std::uint16_t> vcp;         // none where the message does not say
+    std::span<const std::byte> volume_block;  // "RVOL" and what follows; empty where absent
+    int unknown_blocks = 0;                   // blocks of a name that is not known, skipped
+
+    // A moment that the radial names and whose gates cannot be read.
+    struct LostMoment {
+        std::string_view reason;
+        std::size_t bytes = 0;
+    };
+    // Both are empty in a radial as the ICD has it.
+    std::vector<LostMoment> lost_moments;
+    std::vector<std::string_view> oddities;  // that cost no gate, each in a few words
+
+    [[nodiscard]] std::span<const MomentBlock> moments() const {
+        return {moment_store.data(), moment_count};
+    }
+    // Its gates cannot be read, of no moment.
+    [[nodiscard]] bool has_lost_all() const { return moment_count == 0 && !lost_moments.empty(); }
+    // False, and nothing done, when there is no room or the moment is there already.
+    bool add(const MomentBlock& block);
+
+    std::array<MomentBlock, max_moments> moment_store;
+    std::size_t moment_count = 0;
+};
+
+// The reason, in a few words, why a message holds no usable radial.
+using RadialResult = tl::expected<RadialMessage, std::string_view>;
+
+// Whether what stands around a message shows where it begins and where it ends. If not, a fault in
+// any of its blocks may mean that bytes are lost inside it.
+enum class Framing : std::uint8_t { unproven, proven };
+
+// `body` is the message after its 28 bytes of header. With unproven framing no moment is lost by
+// itself: the first fault refuses the radial.
+[[nodiscard]] RadialResult read_message_1(std::span<const std::byte> body,
+                                          Framing framing = Framing::unproven);
+[[nodiscard]] RadialResult read_message_31(std::span<const std::byte> body,
+                                           Framing framing = Framing::unproven);
+
+// The volume data block, from its "RVOL" on; none when it is too short.
+[[nodiscard]] std::optional<VolumeBlock> read_volume_block(std::span<const std::byte> block);
+
+// Angles in units of 180/32768 degree, as in message 1 and 5; above 180 they are negative.
+[[nodiscard]] float elevation_from_code(std::uint16_t code);
+[[nodiscard]] float azimuth_from_code(std::uint16_t code);
+
+}  // namespace stormcellar::level2

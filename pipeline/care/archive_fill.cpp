@@ -1,0 +1,300 @@
+#include "pipeline/care/archive_fill.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "base/parallel.h"
+#include "pipeline/drop/chunk_path.h"
+#include "pipeline/drop/file_facts.h"
+#include "pipeline/ingest/ingest.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/catalog/read_cataloged.h"
+#include "stormcellar/grid/grid_window.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+// Uncompressed bricks of the volumes at hand take 0.1 to 0.33; much echo takes more, and a small
+// grid may be all echo.
+constexpr double bytes_a_cell = 0.5;
+constexpr double cells_of_small_grid = 2e6;
+// No frame takes volumes that are farther from it.
+constexpr std::chrono::minutes farthest_frame{30};
+constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
+
+IngestOptions ingest_options(const ArchiveOptions& options) {
+    IngestOptions ingest;
+    ingest.moment = options.moment;
+    ingest.spacing_m = options.spacing_m;
+    ingest.nx = options.nx;
+    ingest.ny = options.ny;
+    ingest.levels_m = options.levels_m;
+    if (options.domain) ingest.domains = {*options.domain};
+    ingest.own_grids = !options.domain;
+    ingest.frames = FramesWhen::asked_for;
+    ingest.decode_threads = ingest.grid_threads = options.threads;
+    return ingest;
+}
+
+// What became of each file, noted by many workers.
+class Ledger {
+  public:
+    Ledger(FillReport& report, const FillProgress& progress)
+        : report_(report), progress_(progress) {}
+
+    void left_out(const std::filesystem::path& path, std::string reason) {
+        const std::scoped_lock lock(mutex_);
+        report_.left_out.push_back({path, std::move(reason)});
+        one_done();
+    }
+    void failed(Error error) {
+        const std::scoped_lock lock(mutex_);
+        if (outcome_) outcome_ = tl::unexpected<Error>(std::move(error));
+    }
+    void made(const std::filesystem::path& path, const IngestOutcome& outcome) {
+        const std::scoped_lock lock(mutex_);
+        ++report_.grids_made;
+        if (!outcome.reason.empty()) report_.notes.push_back({path, outcome.reason});
+        one_done();
+    }
+    [[nodiscard]] bool has_failed() const {
+        const std::scoped_lock lock(mutex_);
+        return !outcome_;
+    }
+    // After all workers.
+    [[nodiscard]] Status outcome() { return std::move(outcome_); }
+
+  private:
+    void one_done() {
+        if (progress_) progress_(++done_);
+    }
+
+    mutable std::mutex mutex_;
+    FillReport& report_;
+    const FillProgress& progress_;
+    std::size_t done_ = 0;
+    Status outcome_;
+};
+
+std::string reason_of(const IngestOutcome& outcome, level2::Moment moment) {
+    switch (outcome.result) {
+        case IngestResult::vanished:
+            return "is gone";
+        case IngestResult::no_moment:
+            return outcome.reason.empty() ? fmt::format("holds no {} that reaches the grid",
+                                                        level2::moment_name(moment))
+                                          : outcome.reason;
+        default:
+            return outcome.reason.empty() ? "cannot be gridded" : outcome.reason;
+    }
+}
+
+// What the files of volumes are known by: a volume that came as one file a chunk by all of them.
+std::string key_of(const std::filesystem::path& path) {
+    const auto chunk = ChunkPath::of(path);
+    return chunk ? chunk->key : path.native();
+}
+
+// Whether files are those that the catalog has of these volumes.
+class CatalogedFiles {
+  public:
+    CatalogedFiles(catalog::Catalog& catalog, const std::vector<ArchiveVolume>& volumes)
+        : catalog_(catalog) {
+        for (const ArchiveVolume& volume : volumes)
+            stations_.emplace(key_of(volume.path), volume.station);
+    }
+    [[nodiscard]] Status check(const std::filesystem::path& path, std::uint64_t size_bytes,
+                               std::uint64_t content_hash) const {
+        const auto station = stations_.find(key_of(path));
+        if (station == stations_.end()) return is_unknown(path);
+        const auto row = catalog_.find_file(station->second, path);
+        if (!row) return pass_on(row);
+        if (!row->has_value()) return is_unknown(path);
+        return catalog::check_cataloged(**row, size_bytes, content_hash);
+    }
+
+  private:
+    static Status is_unknown(const std::filesystem::path& path) {
+        return fail(ErrorCode::corrupt, "{}: has come since, the catalog does not know it",
+                    path.native());
+    }
+
+    catalog::Catalog& catalog_;
+    std::map<std::string, std::string> stations_;
+};
+
+void take_in(Ingestor& ingestor, const ArchiveVolume& volume, const std::filesystem::path& root,
+             level2::Moment moment, Ledger& ledger) {
+    const auto outcome = ingestor.ingest_again(volume.path);
+    if (!outcome) {
+        const auto stamp = stamp_of(volume.path, root);
+        if (!stamp && stamp.error().code == ErrorCode::not_found) {
+            ledger.left_out(volume.path, "is gone");
+        } else {
+            ledger.failed(outcome.error());
+        }
+    } else if (outcome->result == IngestResult::gridded) {
+        ledger.made(volume.path, *outcome);
+    } else {
+        ledger.left_out(volume.path, reason_of(*outcome, moment));
+    }
+}
+
+}  // namespace
+
+ArchiveFill::ArchiveFill(catalog::Catalog& catalog, const cache::Store& store,
+                         std::filesystem::path scratch, ArchiveOptions options)
+    : catalog_(catalog),
+      store_(store),
+      scratch_(std::move(scratch)),
+      options_(std::move(options)) {}
+
+std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
+    return options_.domain ? options_.domain->name + "." + volume.station : volume.station;
+}
+
+bool ArchiveFill::is_of_this_grid(const cache::GridDescription& description) const {
+    const grid::GridSpec& spec = description.spec;
+    if (options_.domain) return grid::window_of(options_.domain->spec, spec).has_value();
+    const auto levels_m =
+        options_.levels_m.empty() ? grid::default_spec(0, 0).levels_m : options_.levels_m;
+    return spec.spacing_m == options_.spacing_m && spec.nx == options_.nx &&
+           spec.ny == options_.ny && spec.levels_m == levels_m;
+}
+
+// A grid of a file that is gone since is as good as ever.
+Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
+    const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
+    if (!path) return pass_on(path);
+    const auto file = cache::GridFile::open(*path);
+    if (!file || !is_of_this_grid(file->description())) return false;
+    const grid::Provenance& made_of = file->description().provenance;
+    if (made_of.source_files != std::vector{volume.path.filename().string()}) return false;
+    const auto root = catalog::root_of(catalog_, volume.path);
+    if (!root) return pass_on(root);
+    const auto stamp = stamp_of(volume.path, *root);
+    if (!stamp) return stamp.error().code == ErrorCode::not_found;
+    return stamp->modified_ns == made_of.source_modified_ns;
+}
+
+Result<std::vector<ArchiveVolume>> ArchiveFill::missing(
+    const std::vector<ArchiveVolume>& volumes) const {
+    std::vector<ArchiveVolume> left;
+    for (const ArchiveVolume& volume : volumes) {
+        const auto there = stands(volume);
+        if (!there) return pass_on(there);
+        if (!*there) left.push_back(volume);
+    }
+    return left;
+}
+
+Result<ArchiveFill::DueFrames> ArchiveFill::due(const std::vector<UtcTime>& instants,
+                                                const std::vector<ArchiveVolume>& volumes) const {
+    DueFrames found;
+    for (const UtcTime instant : instants) {
+        const bool is_near =
+            std::any_of(volumes.begin(), volumes.end(), [&](const ArchiveVolume& volume) {
+                return volume.start - farthest_frame <= instant &&
+                       instant <= volume.end + farthest_frame;
+            });
+        if (!is_near) continue;
+        found.instants.push_back(instant);
+        const auto path = store_.path_of(options_.domain->name, options_.moment, instant);
+        if (!path) return pass_on(path);
+        std::error_code ignored;
+        if (!std::filesystem::exists(*path, ignored)) ++found.missing;
+    }
+    return found;
+}
+
+std::uint64_t ArchiveFill::bytes_of(std::size_t volumes, std::size_t frames) const {
+    double cells = 0, cells_a_file = 0;
+    if (options_.domain) {
+        const grid::GridSpec& spec = options_.domain->spec;
+        const auto all = static_cast<double>(spec.cell_count());
+        // What one site reaches of it.
+        const double side = 2 * grid::site_reach_m;
+        const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
+                               std::min(1.0, side / (spec.ny * spec.cell_height_m()));
+        cells_a_file = all;
+        cells = all * reached * static_cast<double>(volumes) + all * static_cast<double>(frames);
+    } else {
+        const std::size_t levels = options_.levels_m.empty()
+                                       ? grid::default_spec(0, 0).levels_m.size()
+                                       : options_.levels_m.size();
+        cells_a_file = static_cast<double>(options_.nx) * options_.ny * static_cast<double>(levels);
+        cells = cells_a_file * static_cast<double>(volumes);
+    }
+    const auto files = static_cast<double>(volumes + frames);
+    const double echo = files * std::min(cells_a_file, cells_of_small_grid);
+    return static_cast<std::uint64_t>((cells + echo) * bytes_a_cell + files * bytes_a_file);
+}
+
+// The drop directory, where all lie below it.
+Result<std::filesystem::path> ArchiveFill::root_of(
+    const std::vector<ArchiveVolume>& volumes) const {
+    std::filesystem::path root = "/";
+    for (const ArchiveVolume& volume : volumes) {
+        auto of_this = catalog::root_of(catalog_, volume.path);
+        if (!of_this || *of_this == "/") return of_this;
+        root = std::move(*of_this);
+    }
+    return root;
+}
+
+Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillProgress& progress,
+                         const std::atomic<bool>& stop, FillReport& report) {
+    auto catalog = catalog::Catalog::open_for_writing(scratch_);
+    if (!catalog) return pass_on(catalog);
+    const auto root = root_of(missing);
+    if (!root) return pass_on(root);
+    const CatalogedFiles cataloged(catalog_, missing);
+    IngestOptions ingest = ingest_options(options_);
+    ingest.beneath = *root;
+    ingest.check_read = [&](const std::filesystem::path& path, std::uint64_t size_bytes,
+                            std::uint64_t content_hash) {
+        return cataloged.check(path, size_bytes, content_hash);
+    };
+    Ingestor ingestor(*catalog, store_, std::move(ingest));
+    Ledger ledger(report, progress);
+    const int workers = std::clamp(options_.threads, 1, most_workers);
+    for_each_piece(static_cast<int>(missing.size()), workers, [&](int piece) {
+        if (stop || ledger.has_failed()) return;
+        take_in(ingestor, missing[static_cast<std::size_t>(piece)], *root, options_.moment, ledger);
+    });
+    const auto by_path = [](const LeftOut& a, const LeftOut& b) { return a.path < b.path; };
+    std::sort(report.left_out.begin(), report.left_out.end(), by_path);
+    std::sort(report.notes.begin(), report.notes.end(), by_path);
+    return ledger.outcome();
+}
+
+Status ArchiveFill::make_frames(const std::vector<UtcTime>& instants, const FillProgress& progress,
+                                const std::atomic<bool>& stop, FillReport& report) {
+    if (!options_.domain) return {};
+    MosaicKeeper keeper(&store_, {*options_.domain}, FramesWhen::asked_for);
+    std::vector<std::string> problems;
+    std::size_t done = 0;
+    for (const UtcTime instant : instants) {
+        if (stop) return {};
+        const cache::GridName frame{options_.domain->name, options_.moment, instant};
+        const auto standing = keeper.standing_of(frame);
+        if (!standing) return pass_on(standing);
+        if (*standing == FrameStanding::to_make) {
+            const auto made = keeper.make_again(frame, options_.threads, problems);
+            if (!made) return pass_on(made);
+            ++report.frames_made;
+        } else if (*standing == FrameStanding::current) {
+            ++report.frames_found;
+        }
+        if (*standing != FrameStanding::not_due) report.frames.push_back(instant);
+        if (progress) progress(++done);
+    }
+    for (const std::string& problem : problems)
+        report.notes.push_back({{}, problem});
+    return {};
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,53 @@
+// pipeline/care/archive_plan.h -- what is to be made of an archive's raw files, and where it is
+// kept (pipeline/care/archive_fill.h makes it).
+//
+// Thread contract: each call works alone.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipeline/care/archive_fill.h"
+#include "pipeline/options/domain.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
+
+namespace stormcellar::pipeline {
+
+struct ArchivePlan {
+    std::vector<std::string> stations;
+    std::optional<Domain> mosaic;  // none: the station's own grid
+    ArchiveOptions fill;
+    std::filesystem::path cache;
+    std::vector<LeftOut> left_out;  // stations that nobody places
+};
+
+// Where the stations stand, by their files or the station table. A station of which neither says so
+// is added to `left_out` with the reason.
+[[nodiscard]] std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
+                                                       const std::vector<std::string>& stations,
+                                                       std::vector<LeftOut>& left_out);
+
+// A directory below $XDG_CACHE_HOME, else ~/.cache, whose name says by a hash what determines the
+// plan's grids: catalog, stations, grid, moment, rules and the version of this software.
+// Errors: bad_argument where the environment names no such place.
+[[nodiscard]] Result<std::filesystem::path> private_cache(const std::filesystem::path& catalog,
+                                                          level2::Moment moment,
+                                                          const ArchivePlan& plan);
+
+// Grids must not be mixed with files of others, least of all with those of a drop directory. A
+// cache holds directories of domains, and these hold directories of moments. Errors: bad_argument
+// for a directory that holds anything else. One that does not exist is in order.
+[[nodiscard]] Status check_cache_directory(const std::filesystem::path& directory);
+
+// The grids at these times, as far as they are there. Errors: those of Store::list().
+[[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
+                                                                const std::string& domain,
+                                                                level2::Moment moment,
+                                                                const std::set<UtcTime>& times);
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,109 @@
+// pipeline/care/mend_cache.h -- grids that are damaged or missing are made again.
+//
+// A grid that another program cut or altered, or that the disk cannot give, is dropped and made
+// again: a site's own grid and a partial of a mosaic (NAME.ICAO) from the raw file, where that is
+// still there as the catalog has it; a frame of a mosaic from its partials, as far as they stand.
+//
+// Which missing grids are made again: those of the newest volumes (`newest` before the station's
+// latest, stamps of more than 10 minutes in the future not counted) that are newer than the oldest
+// grid which stands in their domain, or any of these when the domain holds none. So what was
+// evicted, oldest first, is never filled in again, and a cache that was wiped is. What could not be
+// made is not tried again while the object lives.
+// Thread contract: as the catalog, the store and the ingestor; one thread.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipeline/ingest/ingest.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
+
+namespace stormcellar::pipeline {
+
+// A volume of which a grid is missing: the site's own, or partials of mosaics.
+struct MissingGrid {
+    std::string station;
+    UtcTime time;
+    std::filesystem::path raw;  // the best file of this volume: a whole one, then the newest
+    std::vector<cache::GridName> names;  // what is missing
+};
+
+enum class GridCondition {
+    sound,
+    made_again,  // was damaged; stands again
+    dropped,     // was damaged, and cannot be made again
+    left_alone,  // cannot be judged: no permission, no descriptors, of a later version
+};
+struct MendedGrid {
+    GridCondition condition = GridCondition::sound;
+    std::string reason;   // what is wrong; begins with the path
+    std::string from;     // made_again: the raw file, or "the partials of KBGM, KOKX"
+    std::string why_not;  // dropped: why it is not made again
+};
+
+enum class MendDepth {
+    header,  // magic, sizes, and the checksum of all but the codes: fast
+    all,     // every byte
+};
+
+class CacheMender {
+  public:
+    // All must outlive it. `moment` is what the ingestor grids.
+    CacheMender(catalog::Catalog& catalog, const cache::Store& store, Ingestor& ingestor,
+                level2::Moment moment);
+
+    // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
+    Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
+
+    // Newest first. Errors: the catalog or the cache cannot be read. A station whose own database
+    // or grids cannot be read is left out; that stands among the catalog's troubles. `step` is
+    // called after each station, for whoever watches that it moves on.
+    Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
+                                             const std::function<void()>& step = {});
+    // Errors: corrupt where the raw file is not the one that was cataloged; those of
+    // Ingestor::ingest_again().
+    Result<IngestOutcome> make(const MissingGrid& grid);
+
+    // Frames of mosaics, newest first; after the partials. Errors: the cache cannot be read.
+    Result<std::vector<cache::GridName>> missing_frames(std::chrono::milliseconds newest);
+    // What they were made from, as MendedGrid has it; none: no partials are near it, or the budgets
+    // do not keep it.
+    Result<std::optional<std::string>> make(const cache::GridName& frame);
+
+  private:
+    // Of one kind of grid that a station's volumes have.
+    struct Series {
+        std::string domain;
+        level2::Moment moment;
+    };
+    struct Standing {
+        Series series;
+        std::set<UtcTime> times;
+        UtcTime from;  // older volumes count as evicted
+    };
+    Result<std::optional<std::filesystem::path>> raw_of(const std::string& station, UtcTime time);
+    Result<IngestOutcome> make_from(const std::filesystem::path& raw, const std::string& station);
+    Result<MendedGrid> mend_from_raw(const cache::StoreEntry& entry, const std::string& station,
+                                     const Error& damage);
+    Result<MendedGrid> mend_frame(const cache::StoreEntry& entry, const Error& damage);
+    [[nodiscard]] std::vector<Series> series_of(const std::string& station) const;
+    Result<std::vector<Standing>> standing_of(const std::string& station, UtcTime oldest);
+    Result<std::vector<MissingGrid>> missing_of(const std::string& station,
+                                                std::chrono::milliseconds newest);
+
+    catalog::Catalog& catalog_;
+    const cache::Store& store_;
+    Ingestor& ingestor_;
+    level2::Moment moment_;
+    std::set<cache::GridName> failed_;  // not tried again
+};
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,74 @@
+#include "pipeline/drop/cataloged_volume.h"
+
+#include <utility>
+
+#include "pipeline/drop/chunk_path.h"
+#include "pipeline/drop/drop_names.h"
+#include "stormcellar/catalog/read_cataloged.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+using catalog::Catalog;
+using catalog::CatalogEntry;
+
+// Puts the bytes of a file behind those that were read before.
+Status append(const Catalog& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
+    auto read = catalog::read_cataloged(catalog, entry);
+    if (!read) return pass_on(read);
+    if (!read->is_compared) {
+        volume.notes.push_back(fmt::format(
+            "{}: was still growing when it was cataloged, so its contents were not compared",
+            entry.path.native()));
+    }
+    if (volume.bytes.empty()) {
+        volume.bytes = std::move(read->bytes);
+    } else {
+        volume.bytes.insert(volume.bytes.end(), read->bytes.begin(), read->bytes.end());
+    }
+    return {};
+}
+
+Result<CatalogedVolume> read_chunks(Catalog& catalog, const CatalogEntry& entry,
+                                    const ChunkPath& first) {
+    const auto root = catalog::root_of(catalog, entry.path);
+    if (!root) return pass_on(root);
+    auto chunks = chunks_beside(first, *root);
+    if (!chunks) return pass_on(chunks);
+    chunks->insert(chunks->begin(), first);
+    CatalogedVolume volume;
+    int due = 1;
+    for (const ChunkPath& chunk : *chunks) {
+        if (chunk.name.number < due) continue;  // a second one of its number
+        const auto row = catalog.find_file(entry.station, chunk.path);
+        if (!row) return pass_on(row);
+        if (!row->has_value()) {
+            volume.notes.push_back(
+                fmt::format("{}: is not in the catalog, and left out", chunk.path.native()));
+            continue;
+        }
+        if (chunk.name.number > due) {
+            volume.notes.push_back(
+                fmt::format("{}: chunks are missing before this one", chunk.path.native()));
+        }
+        due = chunk.name.number + 1;
+        if (Status appended = append(catalog, **row, volume); !appended) return pass_on(appended);
+    }
+    return volume;
+}
+
+}  // namespace
+
+bool is_of_chunks(const CatalogEntry& entry) {
+    return entry.volume.start_time && is_chunk_name(entry.path);
+}
+
+Result<CatalogedVolume> read_cataloged_volume(Catalog& catalog, const CatalogEntry& entry) {
+    const auto chunk = ChunkPath::of(entry.path);
+    if (chunk && is_of_chunks(entry)) return read_chunks(catalog, entry, *chunk);
+    CatalogedVolume volume;
+    if (Status appended = append(catalog, entry, volume); !appended) return pass_on(appended);
+    return volume;
+}
+
+}  // namespace stormcellar::pipeline

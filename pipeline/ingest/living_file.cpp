@@ -1,0 +1,310 @@
+#include "pipeline/ingest/living_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/beneath.h"
+#include "level2/containers/archive_header.h"
+#include "level2/containers/content.h"
+#include "pipeline/options/ingest_options.h"
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/level2/live_chunk.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
+constexpr double same_elevation_deg = 0.2;
+constexpr std::chrono::minutes longest_standing{20};
+constexpr std::uint64_t most_records = 10'000;
+// The largest record known has half a megabyte, and holds five.
+constexpr std::uint64_t most_last_record_bytes = std::uint64_t{2} << 20;
+constexpr std::uint64_t most_last_record_output = std::uint64_t{16} << 20;
+
+class OpenFile {
+  public:
+    OpenFile(const fs::path& path, const fs::path& beneath)
+        : opened_(open_beneath(beneath, path)), descriptor_(opened_ ? *opened_ : -1) {}
+    [[nodiscard]] bool is_open() const { return descriptor_.is_open(); }
+    [[nodiscard]] const Error& failure() const { return opened_.error(); }
+    // None where it is no regular file.
+    [[nodiscard]] std::optional<struct stat> facts() const {
+        struct stat found {};
+        if (::fstat(descriptor_.number(), &found) != 0 || !S_ISREG(found.st_mode))
+            return std::nullopt;
+        return found;
+    }
+    // As many as there are.
+    [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::byte> into) const {
+        std::size_t done = 0;
+        while (done < into.size()) {
+            const ssize_t got = ::pread(descriptor_.number(), into.data() + done,
+                                        into.size() - done, static_cast<off_t>(at + done));
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) break;
+            done += static_cast<std::size_t>(got);
+        }
+        return done;
+    }
+
+  private:
+    Result<int> opened_;
+    Descriptor descriptor_;
+};
+
+std::int32_t control_word(std::span<const std::byte, 4> bytes) {
+    std::uint32_t value = 0;
+    for (const std::byte byte : bytes)
+        value = value << 8U | std::to_integer<std::uint32_t>(byte);
+    return static_cast<std::int32_t>(value);
+}
+
+struct RecordChain {
+    // It ends with the file by its last word, or is none: whoever reads such a file whole finds
+    // more.
+    bool is_whole = false;
+    // Where the last record begins that ends with the file; 0: the file ends within one.
+    std::uint64_t last = 0;
+};
+
+RecordChain chain_of(const OpenFile& file, std::uint64_t size) {
+    std::uint64_t at = level2::archive_header_bytes;
+    for (std::uint64_t record = 0; record < most_records; ++record) {
+        std::array<std::byte, 4> word{};
+        if (at + 4 > size || file.read(at, word) < 4) return {};
+        const std::uint64_t begin = at;
+        const std::int64_t length = control_word(word);
+        at += 4 + static_cast<std::uint64_t>(std::abs(length));
+        if (at > size) return {};
+        if (length == 0 || (length < 0 && at == size)) return {true, 0};
+        if (at == size) return {false, begin};
+    }
+    return {true, 0};
+}
+
+// Whether the record from there to the end of the file holds the last radial of a volume.
+bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) {
+    if (size - begin > most_last_record_bytes) return false;
+    std::vector<std::byte> record(size - begin);
+    if (file.read(begin, record) < record.size()) return false;
+    level2::DecodeOptions options;
+    options.output_limit_bytes = most_last_record_output;
+    const auto read = level2::read_live_chunk(record, options,
+                                              {most_last_record_output, most_last_record_output});
+    return read && read->ended_volume;
+}
+
+}  // namespace
+
+bool KeptVolume::is_lowest(double elevation_deg) const {
+    return std::none_of(sweeps.begin(), sweeps.end(), [&](const auto& entry) {
+        return entry.second.has_moment &&
+               entry.second.elevation_deg < elevation_deg - same_elevation_deg;
+    });
+}
+
+std::optional<LivingFile::Growing> LivingFile::growing(const fs::path& path,
+                                                       const fs::path& beneath) {
+    const OpenFile file(path, beneath);
+    if (!file.is_open()) return std::nullopt;
+    const auto facts = file.facts();
+    if (!facts) return std::nullopt;
+    std::array<std::byte, 64> start{};
+    const std::size_t known = file.read(0, start);
+    const std::span<const std::byte> head = std::span{start}.first(known);
+    const auto header = level2::read_archive_header(head);
+    if (!header) return std::nullopt;
+    Growing growing{header->icao, 0};
+    // Nothing but the header yet: no more than a promise, but of a file that grows.
+    if (known <= level2::archive_header_bytes + 16) return growing;
+    if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
+    const RecordChain chain = chain_of(file, static_cast<std::uint64_t>(facts->st_size));
+    if (chain.is_whole) return std::nullopt;
+    growing.last_record = chain.last;
+    return growing;
+}
+
+bool LivingFile::has_ended(const fs::path& path, const Growing& growing, const fs::path& beneath) {
+    if (growing.last_record == 0) return false;
+    const OpenFile file(path, beneath);
+    const auto facts = file.is_open() ? file.facts() : std::nullopt;
+    return facts &&
+           ends_volume(file, growing.last_record, static_cast<std::uint64_t>(facts->st_size));
+}
+
+LivingFile::LivingFile(fs::path path, const Options& options)
+    : path_(std::move(path)),
+      beneath_(options.beneath),
+      moment_(options.moment),
+      growing_(level2::DecodeOptions{.threads = 1,
+                                     .output_limit_bytes = most_unpacked_bytes,
+                                     .array_limit_bytes = most_array_bytes(options.selection),
+                                     .open_sweep_limit_bytes = options.open_sweep_limit_bytes,
+                                     .selection = options.selection,
+                                     .fallback_station = options.fallback_station}),
+      kept_(std::make_unique<KeptVolume>()) {}
+
+Result<std::unique_ptr<LivingFile>> LivingFile::begin(const fs::path& path,
+                                                      const Options& options) {
+    auto shelf = SweepShelf::make_in(options.scratch);
+    if (!shelf) return pass_on(shelf);
+    std::unique_ptr<LivingFile> file(new LivingFile(path, options));
+    file->kept_->shelf = std::move(*shelf);
+    file->kept_->source_file = path.filename().string();
+    return file;
+}
+
+Status LivingFile::read_to(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
+    Status read = read_on(size_bytes, may_read_on);
+    is_whole_ = is_whole_ && read.has_value();
+    return read;
+}
+
+Status LivingFile::read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
+    const OpenFile file(path_, beneath_);
+    if (!file.is_open()) return tl::unexpected<Error>(file.failure());
+    const auto facts = file.facts();
+    const std::uint64_t inode = facts ? facts->st_ino : 0;
+    if (!facts || (read_bytes_ > 0 && inode != inode_) || size_bytes < read_bytes_) {
+        return fail(ErrorCode::corrupt, "{}: is not the file that it was", path_.native());
+    }
+    inode_ = inode;
+    std::vector<std::byte> buffer(std::min<std::uint64_t>(stretch_bytes, size_bytes - read_bytes_));
+    while (read_bytes_ < size_bytes) {
+        const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), size_bytes - read_bytes_);
+        const std::size_t got = file.read(read_bytes_, std::span{buffer}.first(wanted));
+        if (got == 0) return fail(ErrorCode::io, "{}: became shorter", path_.native());
+        if (Status taken = take(std::span{buffer}.first(got)); !taken) return taken;
+        if (may_read_on && !may_read_on()) {
+            return fail(ErrorCode::over_budget, "{}: holds more than its share of the memory",
+                        path_.native());
+        }
+    }
+    kept_->facts = growing_.facts();
+    return {};
+}
+
+Status LivingFile::take(std::span<const std::byte> bytes) {
+    hash_.append(bytes);
+    read_bytes_ += bytes.size();
+    if (Status taken = growing_.append(bytes); !taken) return taken;
+    if (read_bytes_ > 64 && !growing_.is_of_records()) {
+        return fail(ErrorCode::unsupported, "{}: does not consist of LDM records", path_.native());
+    }
+    return shelve_new_sweeps();
+}
+
+Status LivingFile::shelve_new_sweeps() {
+    for (level2::LiveSweep& live : growing_.take_sweeps()) {
+        const auto place = kept_->shelf->put(live.sweep);
+        if (!place) return pass_on(place);
+        kept_->places.insert_or_assign(live.index, *place);
+        const bool has_moment = live.sweep.find(moment_) != nullptr;
+        kept_->sweeps.insert_or_assign(
+            live.index, KeptVolume::Kept{has_moment, live.sweep.mean_elevation_deg()});
+        std::size_t& radials = radials_of_[live.index];
+        radials_ += live.sweep.radials.size() - radials;
+        radials = live.sweep.radials.size();
+        if (level2::is_plausible(live.sweep.radials.back().time)) {
+            newest_ = std::max(newest_.value_or(UtcTime{}), live.sweep.radials.back().time);
+        }
+        if (has_moment) {
+            news_.any = true;
+            news_.low = news_.low || kept_->is_lowest(live.sweep.mean_elevation_deg());
+        }
+    }
+    for (; dropped_ < growing_.droppable_sweeps(); ++dropped_) {
+        if (!kept_->places.contains(dropped_)) break;
+        growing_.drop_sweep(dropped_);
+    }
+    return {};
+}
+
+Status LivingFile::is_as_followed() const {
+    const OpenFile file(path_, beneath_);
+    if (!file.is_open()) return tl::unexpected<Error>(file.failure());
+    Xxh3Stream hash;
+    std::vector<std::byte> buffer(stretch_bytes);
+    std::uint64_t done = 0;
+    // One byte more than was read shows that it has grown.
+    while (done <= read_bytes_) {
+        const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), read_bytes_ + 1 - done);
+        const std::size_t got = file.read(done, std::span{buffer}.first(wanted));
+        if (got == 0) break;
+        hash.append(std::span{buffer}.first(got));
+        done += got;
+    }
+    if (done != read_bytes_ || hash.value() != hash_.value()) {
+        return fail(ErrorCode::corrupt, "{}: is not the file that it was", path_.native());
+    }
+    return {};
+}
+
+Result<level2::Decoded> LivingFile::finish() {
+    if (Status same = is_as_followed(); !same) return pass_on(same);
+    for (std::size_t index = 0; index < dropped_; ++index) {
+        auto sweep = kept_->shelf->get(kept_->places.at(index));
+        if (!sweep) return pass_on(sweep);
+        growing_.put_back(index, std::move(*sweep));
+    }
+    auto decoded = growing_.finish();
+    if (!decoded) return decoded;
+    kept_->facts = decoded->volume;
+    kept_->facts.sweeps.clear();
+    // The last sweep may have closed only now.
+    for (std::size_t index = dropped_; index < decoded->volume.sweeps.size(); ++index) {
+        const level2::Sweep& sweep = decoded->volume.sweeps[index];
+        const auto place = kept_->shelf->put(sweep);
+        if (!place) break;  // it is missing in the next volume's living grids, and nowhere else
+        kept_->places.insert_or_assign(index, *place);
+        kept_->sweeps.insert_or_assign(
+            index, KeptVolume::Kept{sweep.find(moment_) != nullptr, sweep.mean_elevation_deg()});
+    }
+    return decoded;
+}
+
+Result<level2::Volume> living_volume(const KeptVolume& growing, const KeptVolume* last,
+                                     std::size_t* standing) {
+    level2::Volume volume = growing.facts;
+    const auto add = [&volume](const KeptVolume& from, std::size_t index) -> Status {
+        auto sweep = from.shelf->get(from.places.at(index));
+        if (!sweep) return pass_on(sweep);
+        volume.sweeps.push_back(std::move(*sweep));
+        return {};
+    };
+    const auto has_come_again = [&growing](double elevation_deg) {
+        return std::any_of(growing.sweeps.begin(), growing.sweeps.end(), [&](const auto& entry) {
+            return entry.second.has_moment &&
+                   std::abs(entry.second.elevation_deg - elevation_deg) < same_elevation_deg;
+        });
+    };
+    std::size_t stands = 0;
+    const auto start = growing.facts.start_time();
+    const auto last_start = last == nullptr ? std::nullopt : last->facts.start_time();
+    if (start && last_start && *start > *last_start && *start - *last_start <= longest_standing) {
+        for (const auto& [index, kept] : last->sweeps) {
+            if (!kept.has_moment || has_come_again(kept.elevation_deg)) continue;
+            if (Status added = add(*last, index); !added) return pass_on(added);
+            ++stands;
+        }
+    }
+    for (const auto& [index, kept] : growing.sweeps) {
+        if (!kept.has_moment) continue;
+        if (Status added = add(growing, index); !added) return pass_on(added);
+    }
+    if (standing != nullptr) *standing = stands;
+    return volume;
+}
+
+}  // namespace stormcellar::pipeline

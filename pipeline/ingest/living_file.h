@@ -1,0 +1,131 @@
+// pipeline/ingest/living_file.h -- one file whose volume is still growing, decoded once.
+//
+// What has been appended since the last look is read and decoded; sweeps that have closed are put
+// aside (pipeline/keep/sweep_shelf.h), so that little is held. finish() gives what decoding the
+// whole file gives, of the moments that were selected, bit for bit; it reads the file once more to
+// see that it is still the one that was followed. Only files of LDM records are followed: others
+// are held whole anyway until their end. Errors mean that the file must be taken as a whole, and
+// are final. Inside the pipeline room only. Thread contract: one thread at a time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/checksum.h"
+#include "pipeline/keep/sweep_shelf.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/level2/growing_volume.h"
+
+namespace stormcellar::pipeline {
+
+// The sweeps of a volume, put aside; const once the volume has ended.
+struct KeptVolume {
+    level2::Volume facts;  // without sweeps
+    std::string source_file;
+    std::unique_ptr<SweepShelf> shelf;
+    std::map<std::size_t, SweepShelf::Place> places;  // by index in the volume
+    struct Kept {
+        bool has_moment = false;
+        double elevation_deg = 0;  // mean
+    };
+    std::map<std::size_t, Kept> sweeps;
+
+    // Whether no sweep that has come is lower: the lowest cut and its repetitions.
+    [[nodiscard]] bool is_lowest(double elevation_deg) const;
+};
+
+// Sweeps that no living grid shows yet.
+struct LivingNews {
+    bool any = false, low = false;
+};
+
+class LivingFile {
+  public:
+    struct Options {
+        level2::Selection selection;
+        level2::Moment moment = level2::Moment::ref;  // of living grids
+        std::string fallback_station;
+        std::filesystem::path scratch;
+        std::filesystem::path beneath = {};  // where all files must lie (IngestOptions)
+        std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
+        // Of the sweep that is open, within one stretch that is read; 0: see
+        // stormcellar/level2/decode.h.
+        std::uint64_t open_sweep_limit_bytes = 0;
+    };
+
+    // The start of a file that grows.
+    struct Growing {
+        std::string station;            // of its header; empty where that names none
+        std::uint64_t last_record = 0;  // where that begins, if it ends with the file; else 0
+    };
+    // Whether the file grows: LDM records, of which the last is not there yet. Reads the lengths
+    // of its records. None: it does not, or cannot be read.
+    [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
+                                                        const std::filesystem::path& beneath = {});
+    // Whether the last record of a file that grows holds the last radial of a volume, whatever its
+    // control word says.
+    [[nodiscard]] static bool has_ended(const std::filesystem::path& path, const Growing& growing,
+                                        const std::filesystem::path& beneath = {});
+    static Result<std::unique_ptr<LivingFile>> begin(const std::filesystem::path& path,
+                                                     const Options& options);
+
+    // Reads and decodes up to this size. not_found when the file is gone. `may_read_on` is asked
+    // after each stretch, and ends the reading where it says no: that is over_budget.
+    [[nodiscard]] Status read_to(std::uint64_t size_bytes,
+                                 const std::function<bool()>& may_read_on = {});
+    // No read has failed.
+    [[nodiscard]] bool is_whole() const { return is_whole_; }
+    // Its last radial has come.
+    [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
+    [[nodiscard]] LivingNews news() const { return news_; }
+    void set_shown() { news_ = {}; }
+    // Station, pattern and position, and the sweeps that have closed; radials counts all theirs.
+    [[nodiscard]] const KeptVolume& kept() const { return *kept_; }
+    [[nodiscard]] std::size_t radials() const { return radials_; }
+    [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
+    [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
+    [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
+    // On the shelf, and in memory, about.
+    [[nodiscard]] std::uint64_t shelf_bytes() const { return kept_->shelf->bytes(); }
+    [[nodiscard]] std::uint64_t held_bytes() const { return growing_.held_bytes(); }
+
+    [[nodiscard]] Result<level2::Decoded> finish();
+    // After finish(), for the next volume of the site.
+    [[nodiscard]] std::shared_ptr<const KeptVolume> take_kept() { return std::move(kept_); }
+
+  private:
+    LivingFile(std::filesystem::path path, const Options& options);
+    Status read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on);
+    Status take(std::span<const std::byte> bytes);
+    Status shelve_new_sweeps();
+    Status is_as_followed() const;
+
+    std::filesystem::path path_, beneath_;
+    level2::Moment moment_;
+    level2::GrowingVolume growing_;
+    std::unique_ptr<KeptVolume> kept_;
+    std::size_t dropped_ = 0;  // sweeps below are on the shelf alone
+    Xxh3Stream hash_;
+    std::uint64_t inode_ = 0, read_bytes_ = 0;
+    std::size_t radials_ = 0;
+    std::map<std::size_t, std::size_t> radials_of_;
+    std::optional<UtcTime> newest_;
+    LivingNews news_;
+    bool is_whole_ = true;
+};
+
+// The sweeps of a volume that is still growing, and before them those of the site's last volume
+// whose elevation has not come again: within 0.2 degrees. None of these when it is more than 20
+// minutes older. Only sweeps with the moment.
+[[nodiscard]] Result<level2::Volume> living_volume(const KeptVolume& growing,
+                                                   const KeptVolume* last,
+                                                   std::size_t* standing = nullptr);
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,124 @@
+#include "pipeline/ingest/living_files.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stormcellar::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Beyond it all are forgotten, and may be followed once more.
+constexpr std::size_t most_not_again = 4096;
+constexpr std::chrono::minutes farthest_ahead{10};  // of a clock that is fast
+
+}  // namespace
+
+std::shared_ptr<LivingFile> LivingFiles::find(const std::filesystem::path& path) {
+    const std::scoped_lock lock(mutex_);
+    return files_.find(path);
+}
+
+std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path,
+                                               const std::string& fallback_station,
+                                               const std::string& station) {
+    {
+        const std::scoped_lock lock(mutex_);
+        const bool has_place =
+            !not_again_.contains(path) && files_.has_place(station, Clock::now());
+        note_given_up();
+        if (!has_place) return nullptr;
+    }
+    LivingFile::Options options = options_;
+    options.fallback_station = fallback_station;
+    auto begun = LivingFile::begin(path, options);
+    if (!begun) return nullptr;
+    std::shared_ptr<LivingFile> file = std::move(*begun);
+    const std::scoped_lock lock(mutex_);
+    files_.add(path, file, station, Clock::now());
+    return file;
+}
+
+bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file,
+                       const std::string& station) {
+    const std::scoped_lock lock(mutex_);
+    const bool stands = files_.grew(
+        path, &file, station, {file.held_bytes(), file.shelf_bytes(), !file.kept().places.empty()},
+        Clock::now());
+    note_given_up();
+    drop_last_beyond_limits();
+    return stands;
+}
+
+void LivingFiles::note_given_up() {
+    for (const std::filesystem::path& path : files_.take_given_up())
+        note_given_up(path);
+}
+
+void LivingFiles::note_given_up(const std::filesystem::path& path) {
+    if (not_again_.size() >= most_not_again) not_again_.clear();
+    not_again_.insert(path);
+    ++given_up_;
+}
+
+void LivingFiles::give_up(const std::filesystem::path& path) {
+    const std::scoped_lock lock(mutex_);
+    if (!files_.find(path)) return;
+    files_.erase(path);
+    note_given_up(path);
+}
+
+void LivingFiles::drop_last_beyond_limits() {
+    std::uint64_t shelf = files_.shelf_bytes();
+    for (const auto& [station, volume] : last_)
+        shelf += volume->shelf->bytes();
+    // As many sites as there are files: names come from outside.
+    while (!last_.empty() && (last_.size() > limits_.count || shelf > limits_.shelf_bytes)) {
+        const auto oldest =
+            std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
+                return a.second->facts.start_time() < b.second->facts.start_time();
+            });
+        shelf -= oldest->second->shelf->bytes();
+        last_.erase(oldest);
+    }
+}
+
+std::uint64_t LivingFiles::take_given_up() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(given_up_, 0);
+}
+
+void LivingFiles::forget(const std::filesystem::path& path) {
+    const std::scoped_lock lock(mutex_);
+    files_.erase(path);
+    not_again_.erase(path);
+}
+
+void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {
+    if (!volume || volume->facts.station.empty()) return;
+    // Nothing would take the place of what claims to be of the future.
+    if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
+    const std::scoped_lock lock(mutex_);
+    auto& last = last_[volume->facts.station];
+    if (last && last->facts.start_time() > volume->facts.start_time()) return;
+    last = std::move(volume);
+    drop_last_beyond_limits();
+}
+
+std::shared_ptr<const KeptVolume> LivingFiles::last_of(const std::string& station) const {
+    const std::scoped_lock lock(mutex_);
+    const auto at = last_.find(station);
+    return at == last_.end() ? nullptr : at->second;
+}
+
+std::size_t LivingFiles::count() const {
+    const std::scoped_lock lock(mutex_);
+    return files_.count();
+}
+
+std::uint64_t LivingFiles::held_bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return files_.held_bytes();
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,160 @@
+#include "pipeline/keep/site_grids.h"
+
+#include <chrono>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "grid/judge/audit.h"
+#include "grid/plan/position_error.h"
+#include "pipeline/keep/keep_rule.h"
+#include "stormcellar/cache/budget.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+tl::unexpected<Error> of_gridding(Error error) {
+    if (is_shortage(error.code) || error.code == ErrorCode::io)
+        return tl::unexpected<Error>(std::move(error));
+    return tl::unexpected<Error>(caused_by(Cause::data, std::move(error)));
+}
+
+void note_not_kept(const std::string& station, IngestOutcome& outcome) {
+    ++outcome.not_kept;
+    outcome.reason = cache::is_known_group(station)
+                         ? "older than what the cache keeps"
+                         : "the cache has no more room for stations that nobody knows";
+}
+
+tl::unexpected<Error> of_storing(Error error) {
+    if (!error.known_cause && error.cause() == Cause::data) error.known_cause = Cause::system;
+    return tl::unexpected<Error>(std::move(error));
+}
+
+void note_no_room(IngestOutcome& outcome, const Error& why) {
+    ++outcome.not_kept;
+    outcome.no_room = true;
+    outcome.reason = "not gridded: " + why.message;
+}
+
+bool SiteGrids::has_place(const level2::Volume& volume, IngestOutcome& outcome) {
+    if (level2::antenna_position(volume) && !volume.station.empty()) return true;
+    outcome.result = IngestResult::no_position;
+    outcome.reason = "neither the file nor the station table says where the radar stands";
+    return false;
+}
+
+Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, const GridSource& source,
+                                        int threads) {
+    const auto antenna = level2::antenna_position(volume);
+    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    spec.spacing_m = options_.spacing_m;
+    spec.nx = options_.nx;
+    spec.ny = options_.ny;
+    if (!options_.levels_m.empty()) spec.levels_m = options_.levels_m;
+    const auto geometry = geometries_.get(site, spec);
+    if (!geometry) return of_gridding(geometry.error());
+    Made made;
+    made.gridder.moment = options_.moment;
+    made.gridder.threads = threads;
+    auto gridded = grid::make_grid(volume, site, **geometry, made.gridder);
+    if (!gridded) return of_gridding(gridded.error());
+    made.grid = std::move(*gridded);
+    grid::Provenance& provenance = made.grid.provenance;
+    provenance.predicted_error =
+        grid::unplanned_error(volume, site, spec, (*geometry)->frame_kind(), made.gridder);
+    provenance.source_files = {source.file};
+    provenance.source_modified_ns = source.modified_ns;
+    provenance.partial = source.partial;
+    provenance.radar_troubles = source.radar_troubles;
+    if (antenna->disagreement) provenance.notes.push_back(*antenna->disagreement);
+    provenance.notes.insert(provenance.notes.end(), source.notes.begin(), source.notes.end());
+    return made;
+}
+
+// A grid that cannot be audited is as good as others: nothing is known of it then.
+Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume, bool is_living,
+                                   IngestOutcome& outcome) {
+    grid::Grid& grid = made.grid;
+    const std::string& domain = grid.sites.front().icao;
+    auto path = store_.path_of(domain, grid.moment, grid.time);
+    if (!path) return of_gridding(path.error());
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(options_.moment),
+                                              made.gridder.threads);
+    if (!is_living) {
+        const auto audited = grid::audit(bricks.view(), volume, grid.sites.front(), made.gridder);
+        if (audited) grid.provenance.audit = audited->rows;
+    }
+    const std::scoped_lock lock(commits_.at(fs::hash_value(*path) % commits_.size()));
+    if (auto reason = reason_to_keep(*path, cache::describe(grid))) {
+        outcome.reason = std::move(*reason);
+        return path;
+    }
+    return store_.commit(
+        domain, cache::describe(grid), bricks.view(),
+        is_living ? cache::Durability::until_a_crash : cache::Durability::power_cut);
+}
+
+Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
+                       IngestOutcome& outcome) {
+    if (!has_place(volume, outcome)) return {};
+    if (!store_.would_keep(volume.station, options_.moment,
+                           volume.start_time().value_or(UtcTime{}))) {
+        note_not_kept(volume.station, outcome);
+        return {};
+    }
+    const auto start = Clock::now();
+    auto made = make(volume, source, threads);
+    if (!made) return pass_on(made);
+    outcome.grid_s += seconds_since(start);
+    outcome.partial = outcome.partial || source.partial;
+
+    const auto commit_start = Clock::now();
+    auto path = commit(*made, volume, false, outcome);
+    outcome.commit_s += seconds_since(commit_start);
+    if (!path && path.error().code == ErrorCode::over_budget) {
+        note_no_room(outcome, path.error());
+        return {};
+    }
+    if (!path) return of_storing(path.error());
+    if (path->empty()) {
+        note_not_kept(volume.station, outcome);
+    } else {
+        remove_other_times(store_, volume.station, options_.moment, volume, source.file);
+        keep_to_an_hours_volumes(store_, volume.station, options_.moment,
+                                 volume.start_time().value_or(UtcTime{}));
+        outcome.grids.push_back(std::move(*path));
+    }
+    return {};
+}
+
+Status SiteGrids::keep_living(const level2::Volume& volume, const GridSource& source, int threads,
+                              IngestOutcome& outcome) {
+    const bool has_place = level2::antenna_position(volume) && !volume.station.empty();
+    if (!has_place || !store_.would_keep(volume.station, options_.moment,
+                                         volume.start_time().value_or(UtcTime{}))) {
+        return {};
+    }
+    const auto start = Clock::now();
+    auto made = make(volume, source, threads);
+    if (!made) return pass_on(made);
+    outcome.grid_s += seconds_since(start);
+    const auto commit_start = Clock::now();
+    auto path = commit(*made, volume, true, outcome);
+    outcome.commit_s += seconds_since(commit_start);
+    // The whole volume says so when it has come.
+    if (!path && path.error().code == ErrorCode::over_budget) return {};
+    if (!path) return of_storing(path.error());
+    if (!path->empty()) outcome.living.push_back(std::move(*path));
+    return {};
+}
+
+}  // namespace stormcellar::pipeline

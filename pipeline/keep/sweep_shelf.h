@@ -1,0 +1,41 @@
+// pipeline/keep/sweep_shelf.h -- sweeps that are put aside until they are wanted again.
+//
+// They lie, packed with LZ4, in a file without a name, which goes with the process however that
+// ends: what 160 volumes hold while they grow is more than a service should take in memory, and
+// the page cache gives it up when memory is short. A sweep comes back bit for bit.
+// Thread contract: put() by one thread at a time; get() by many, also beside put().
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "stormcellar/base/descriptor.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::pipeline {
+
+class SweepShelf {
+  public:
+    struct Place {
+        std::uint64_t offset = 0, packed_bytes = 0, bytes = 0;
+    };
+
+    // The directory is one on a local file system with some room. Errors: io, no_space, permission.
+    static Result<std::unique_ptr<SweepShelf>> make_in(const std::filesystem::path& directory);
+
+    [[nodiscard]] Result<Place> put(const level2::Sweep& sweep);
+    [[nodiscard]] Result<level2::Sweep> get(const Place& place) const;
+    // On disk.
+    [[nodiscard]] std::uint64_t bytes() const { return end_; }
+
+  private:
+    explicit SweepShelf(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
+
+    Descriptor descriptor_;
+    std::uint64_t end_ = 0;
+};
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,49 @@
+#include "pipeline/mosaic/instant_cache.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stormcellar::pipeline {
+namespace {
+
+// Bricks that are absent take no memory.
+std::size_t bytes_of(const grid::BrickGrid& made) {
+    const grid::BrickView view = made.view();
+    const auto stored = std::count_if(
+        view.bricks.begin(), view.bricks.end(),
+        [](const grid::BrickEntry& one) { return one.kind == grid::BrickKind::stored; });
+    return static_cast<std::size_t>(stored) * grid::brick_cells *
+               static_cast<std::size_t>(view.quantization.code_bytes) +
+           view.bricks.size_bytes() + view.states.size();
+}
+
+}  // namespace
+
+std::shared_ptr<const grid::BrickGrid> InstantCache::find(const Key& key) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = by_key_.find(key);
+    if (found == by_key_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->grid;
+}
+
+void InstantCache::keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made) {
+    const std::size_t bytes = bytes_of(*made);
+    const std::scoped_lock lock(mutex_);
+    if (bytes > most_bytes_ || by_key_.contains(key)) return;
+    entries_.push_front({key, std::move(made), bytes});
+    by_key_[key] = entries_.begin();
+    bytes_ += bytes;
+    while (bytes_ > most_bytes_) {
+        bytes_ -= entries_.back().bytes;
+        by_key_.erase(entries_.back().key);
+        entries_.pop_back();
+    }
+}
+
+std::size_t InstantCache::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace stormcellar::pipeline

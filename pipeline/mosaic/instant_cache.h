@@ -1,0 +1,55 @@
+// pipeline/mosaic/instant_cache.h -- sites' grids for instants that were made before, in memory.
+//
+// A frame is made again for each volume of any of its sites, and making a site's grid for the
+// instant costs more than all merging. The grids of the sites whose volumes stayed the same are had
+// from here. The least recently used go first, within a budget of bytes.
+// Thread contract: may be used by many threads; a grid that two threads want at once may be made
+// twice, and one of the two is kept.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/grid/brick_grid.h"
+
+namespace stormcellar::pipeline {
+
+class InstantCache {
+  public:
+    // All that the cells depend on (pipeline/mosaic/frame_parts.h).
+    struct Key {
+        std::uint64_t before = 0, after = 0;  // fingerprints of the two partials
+        std::uint64_t recipe = 0;
+        UtcTime instant;
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
+        auto operator<=>(const Key&) const = default;
+    };
+
+    explicit InstantCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+    // Null where it is not there.
+    [[nodiscard]] std::shared_ptr<const grid::BrickGrid> find(const Key& key);
+    void keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made);
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    struct Entry {
+        Key key;
+        std::shared_ptr<const grid::BrickGrid> grid;
+        std::size_t bytes = 0;
+    };
+
+    std::size_t most_bytes_;
+    mutable std::mutex mutex_;  // guards what follows
+    std::size_t bytes_ = 0;
+    std::list<Entry> entries_;  // most recently used first
+    std::map<Key, std::list<Entry>::iterator> by_key_;
+};
+
+}  // namespace stormcellar::pipeline

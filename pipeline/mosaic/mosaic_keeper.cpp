@@ -1,0 +1,221 @@
+#include "pipeline/mosaic/mosaic_keeper.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "grid/plan/effects.h"
+#include "pipeline/keep/keep_rule.h"
+#include "pipeline/keep/site_grids.h"
+#include "pipeline/mosaic/open_partials.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+// Windows of a large domain take some 15 MiB each.
+constexpr std::size_t kept_geometries = 16;
+// A site's grid of a domain of 1000 km at 1 km takes 3 to 10 MiB.
+constexpr std::size_t kept_instants_bytes = std::size_t{192} << 20U;
+
+bool has_moment(const level2::Volume& volume, level2::Moment moment) {
+    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
+                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
+}
+
+std::string site_domain(const std::string& domain, const std::string& icao) {
+    return domain + "." + icao;
+}
+
+UtcTime middle_of(const cache::GridDescription& description) {
+    return description.start_time + (description.end_time - description.start_time) / 2;
+}
+
+PartialOptions partial_options(const Domain& domain, level2::Moment moment,
+                               const grid::SitePosition& site, int threads) {
+    const accuracy::Chain chain = grid::effects_of(moment);
+    const accuracy::Choice rungs =
+        grid::default_choice(chain, domain.spec, grid::beam_width_of(site.icao));
+    PartialOptions options;
+    options.gridder.moment = moment;
+    options.gridder.threads = threads;
+    options.gridder.method = grid::scene_choice(chain, rungs).method;
+    options.quantization = grid::default_quantization(moment);
+    return options;
+}
+
+// From the site's volume before to the one after, as far as volumes count and there are any.
+struct Span {
+    UtcTime from, to;
+};
+Span span_changed_by(const cache::GridDescription& changed,
+                     const std::vector<PartialView>& partials) {
+    const UtcTime middle = middle_of(changed);
+    Span span{middle - greatest_frame_gap, middle + greatest_frame_gap};
+    UtcTime oldest = middle, newest = middle;
+    for (const PartialView& partial : partials) {
+        oldest = std::min(oldest, partial.middle());
+        newest = std::max(newest, partial.middle());
+        if (partial.site().icao != changed.sites.front().icao) continue;
+        if (partial.middle() < middle) span.from = std::max(span.from, partial.middle());
+        if (partial.middle() > middle) span.to = std::min(span.to, partial.middle());
+    }
+    span.from = std::max(span.from, oldest);
+    span.to = std::min(span.to, newest);
+    return span;
+}
+
+// Whether another try may succeed: the system refused something. Else the volume or the budgets
+// make no grid of it.
+bool may_pass(const Error& error) {
+    return error.cause() != Cause::data && error.code != ErrorCode::over_budget &&
+           error.code != ErrorCode::bad_argument && error.code != ErrorCode::not_found;
+}
+
+bool is_damage(const Error& error) {
+    return error.code == ErrorCode::corrupt || error.code == ErrorCode::truncated ||
+           error.code == ErrorCode::io;
+}
+
+}  // namespace
+
+FrameOptions frame_options(const Domain& domain, level2::Moment moment, int threads) {
+    FrameOptions options;
+    options.overlap.moment = moment;
+    options.overlap.overlap = domain.overlap.value_or(grid::default_overlap(moment));
+    options.overlap.length_m = domain.overlap_length_m;
+    options.time = domain.time;
+    options.threads = threads;
+    return options;
+}
+
+std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::seconds interval) {
+    const auto day = std::chrono::floor<std::chrono::days>(from);
+    std::vector<UtcTime> instants;
+    const auto since = from - UtcTime{day};
+    const auto steps = (since + interval - std::chrono::milliseconds{1}) / interval;
+    for (UtcTime at = UtcTime{day} + steps * interval; at <= to; at += interval) {
+        instants.push_back(at);
+        // Frames are counted from midnight, whatever the interval.
+        const auto next_day = std::chrono::floor<std::chrono::days>(at) + std::chrono::days{1};
+        if (at + interval > UtcTime{next_day}) at = UtcTime{next_day} - interval;
+    }
+    return instants;
+}
+
+MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domains,
+                           FramesWhen frames)
+    : store_(store),
+      domains_(std::move(domains)),
+      frames_when_(frames),
+      geometries_(kept_geometries),
+      instants_(kept_instants_bytes) {}
+
+// What goes wrong with one domain keeps nothing from the others.
+Result<Kept> MosaicKeeper::take_in(const VolumeSource& source, int threads) {
+    Kept kept;
+    Status all;
+    if (is_idle()) return kept;
+    for (const Domain& domain : domains_) {
+        if (!domain.takes(source.site.icao)) continue;
+        for (const level2::Moment moment : domain.moments) {
+            if (!has_moment(source.volume, moment)) continue;
+            const Status done = keep(domain, moment, source, threads, kept);
+            if (done) continue;
+            if (may_pass(done.error())) {
+                all = done;
+            } else {
+                kept.problems.push_back(fmt::format("{}: {}", domain.name, done.error().message));
+            }
+        }
+    }
+    if (!all) return pass_on(all);
+    return kept;
+}
+
+std::mutex& MosaicKeeper::frames_of(const std::string& domain, level2::Moment moment) {
+    const std::scoped_lock lock(mutex_);
+    return frames_[{domain, moment}];
+}
+
+Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
+                          int threads, Kept& kept) {
+    auto made = make_partial(source.volume, source.site, domain.spec,
+                             partial_options(domain, moment, source.site, threads), geometries_);
+    if (!made) return of_gridding(made.error());
+    if (!*made) return {};
+    cache::GridDescription& description = (*made)->description;
+    description.provenance.source_files = {source.file};
+    description.provenance.source_modified_ns = source.modified_ns;
+    description.provenance.partial = source.partial;
+    description.provenance.radar_troubles = source.radar_troubles;
+    description.provenance.notes.insert(description.provenance.notes.begin(), source.notes.begin(),
+                                        source.notes.end());
+    const std::scoped_lock lock(frames_of(domain.name, moment));
+    const std::string name = site_domain(domain.name, source.site.icao);
+    const auto path = store_->path_of(name, moment, description.time);
+    if (!path) return of_gridding(path.error());
+    if (reason_to_keep(*path, description)) return {};
+    const auto committed = store_->commit(name, description, (*made)->bricks.view());
+    if (!committed) return of_storing(committed.error());
+    if (committed->empty()) return {};  // older than what the budgets keep
+    remove_other_times(*store_, name, moment, source.volume, source.file);
+    kept.partials.push_back(*committed);
+    if (frames_when_ == FramesWhen::asked_for) return {};
+    return refresh(domain, moment, description, threads, kept);
+}
+
+Status MosaicKeeper::refresh(const Domain& domain, level2::Moment moment,
+                             const cache::GridDescription& changed, int threads, Kept& kept) {
+    const UtcTime middle = middle_of(changed);
+    auto partials = OpenPartials::open(*store_, domain, moment, middle - greatest_frame_gap,
+                                       middle + greatest_frame_gap, kept.problems);
+    if (!partials) return pass_on(partials);
+    const Span span = span_changed_by(changed, partials->views());
+    for (const UtcTime instant : instants_between(span.from, span.to, domain.interval)) {
+        const auto made = make({domain, moment, instant, threads}, *partials, kept.problems);
+        if (!made) return pass_on(made);
+        if (made->path.empty()) continue;
+        kept.frames.push_back(made->path);
+        if (made->merged) ++kept.updated;
+    }
+    return {};
+}
+
+// A partial that turns out to be damaged is left out: it is mended by others.
+Result<MosaicFrame> MosaicKeeper::frame_of_sound(const FrameJob& job, OpenPartials& partials,
+                                                 const PreviousFrame* previous,
+                                                 std::vector<std::string>& problems) {
+    const FrameOptions options = frame_options(job.domain, job.moment, job.threads);
+    while (true) {
+        auto frame = make_frame(job.domain.spec, partials.views(), job.instant, options,
+                                geometries_, {previous, &instants_});
+        if (frame || !is_damage(frame.error()) || !partials.drop_damaged(problems)) return frame;
+    }
+}
+
+Result<FrameMade> MosaicKeeper::make(const FrameJob& job, OpenPartials& partials,
+                                     std::vector<std::string>& problems) {
+    const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
+    if (!path) return pass_on(path);
+    const auto stands = cache::GridFile::open(*path);
+    // What is damaged is not copied from: its bricks would have new checksums.
+    const bool sound = stands && stands->verify();
+    const PreviousFrame previous =
+        sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};
+    auto frame = frame_of_sound(job, partials, sound ? &previous : nullptr, problems);
+    if (!frame) return pass_on(frame);
+    if (Status whole = partials.check_whole(); !whole) return pass_on(whole);
+    if (sound) {
+        if (Status whole = stands->check_whole(); !whole) return pass_on(whole);
+    }
+    grid::Provenance& provenance = frame->description.provenance;
+    provenance.revision = 1 + (stands ? stands->description().provenance.revision : 0);
+    auto committed =
+        store_->commit(job.domain.name, frame->description, frame->mosaic.cells.view());
+    if (!committed) return pass_on(committed);
+    return FrameMade{std::move(*committed), provenance.stations, std::move(frame->merged)};
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,58 @@
+// pipeline/mosaic/site_watch.h -- compares the overlapping sites of the mosaics in the cache, now
+// and then.
+//
+// Of the newest frame of a domain that is complete (not provisional) each pair of sites that may
+// overlap is compared, by the partials that the frame is made of
+// (pipeline/mosaic/pair_comparison.h), at most once in an hour of the frames' time. A replay of old
+// data after newer ones compares nothing. Thread contract: one thread.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/mosaic/pair_comparison.h"
+#include "pipeline/options/domain.h"
+#include "stormcellar/cache/store.h"
+
+namespace stormcellar::pipeline {
+
+struct PairReport {
+    std::string domain;
+    UtcTime instant;  // of the frame
+    grid::SiteComparison found;
+    std::vector<std::string> faults;  // named ones: grid::faults()
+};
+
+class SiteWatch {
+  public:
+    static constexpr std::chrono::milliseconds period = std::chrono::hours{1};
+
+    // The store must outlive it.
+    SiteWatch(const cache::Store& store, std::vector<Domain> domains);
+
+    // Compares the next pair that is due; none: nothing is. A pair of which a partial is gone or
+    // damaged, or that cannot be compared, waits for its next turn.
+    // Errors: the cache cannot be read.
+    Result<std::optional<PairReport>> compare_next();
+
+  private:
+    using Pair = std::pair<std::string, std::string>;
+    struct CompleteFrame {
+        const Domain* domain = nullptr;
+        cache::GridDescription description;
+    };
+    [[nodiscard]] Result<std::optional<CompleteFrame>> newest_complete(const Domain& domain) const;
+    std::optional<Pair> take_due(const CompleteFrame& frame);
+    [[nodiscard]] std::optional<PairReport> compare(const CompleteFrame& frame,
+                                                    const Pair& pair) const;
+
+    const cache::Store& store_;
+    std::vector<Domain> domains_;  // those that have reflectivity
+    // By domain and pair: the instant of the frame that it was compared by.
+    std::map<std::pair<std::string, Pair>, UtcTime> compared_;
+};
+
+}  // namespace stormcellar::pipeline

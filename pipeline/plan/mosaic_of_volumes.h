@@ -1,0 +1,57 @@
+// pipeline/plan/mosaic_of_volumes.h -- decoded volumes of several sites, or of several times, made
+// into one grid for one instant: plainly, or as the accuracy planner chooses.
+//
+// Thread contract: each call works alone; it starts up to `frame.threads` threads of its own.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/mosaic/mosaic_scene.h"
+#include "stormcellar/accuracy/budget.h"
+#include "stormcellar/accuracy/chain.h"
+#include "stormcellar/accuracy/plan.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/grid/grid.h"
+
+namespace stormcellar::pipeline {
+
+struct MosaicRequest {
+    grid::GridSpec domain;
+    accuracy::Chain chain;                   // of mosaic_effects_of(), with the settings asked for
+    FrameOptions frame;                      // what the chain decides is set by its choice
+    PartialOptions partial;                  // likewise
+    std::optional<UtcTime> instant;          // none: instant_of_newest()
+    bool is_planned = false;                 // each effect's size is predicted for these volumes
+    std::optional<accuracy::Budget> budget;  // needs a plan
+};
+
+struct MosaicOfVolumes {
+    grid::Grid grid;                     // empty where the plan does not meet its budget
+    std::optional<accuracy::Plan> plan;  // where one was asked for
+    double plan_s = 0, grid_s = 0, merge_s = 0;
+};
+
+// The provenance's notes name each volume that was left out because its middle is more than
+// `greatest_gap` from the instant. Errors: those of make_partials(), make_frame() and
+// plan_mosaic().
+[[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
+                                                  const MosaicRequest& request);
+
+// One for each volume, gridded as the chain's settings say, and by default where they say nothing.
+// Errors: those of make_partials().
+[[nodiscard]] Result<std::vector<MadePartial>> grid_volumes(const std::vector<SceneVolume>& volumes,
+                                                            const MosaicRequest& request,
+                                                            GeometryCache& geometries);
+
+// What the accuracy planner measures on. The volumes must outlive it. Errors: those of
+// MosaicScene::make().
+[[nodiscard]] Result<MosaicScene> scene_of(const std::vector<SceneVolume>& volumes,
+                                           const MosaicRequest& request);
+
+// How many geometries of sites one call keeps.
+inline constexpr std::size_t mosaic_geometries = 4;
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,167 @@
+#include "render/frame/probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/floating_point.h"
+#include "render/frame/picture_layout.h"
+#include "render/map/map_lines.h"
+#include "render/products/ground.h"
+#include "render/products/product.h"
+#include "render/products/section.h"
+#include "stormcellar/grid/projection.h"
+
+namespace stormcellar::render {
+namespace {
+
+using grid::CellStatus;
+
+void note_heights(const grid::BrickView& view, int ix, int iy, Probe& probe) {
+    ColumnCells cells;
+    read_column(view, ix, iy, cells);
+    for (std::size_t i = 0; i < cells.status.size(); ++i) {
+        if (cells.status[i] == CellStatus::not_seen) continue;
+        if (!probe.lowest_seen_m) probe.lowest_seen_m = view.spec->levels_m[i];
+        probe.highest_seen_m = view.spec->levels_m[i];
+    }
+}
+
+// The lowest cell that holds the column's largest value.
+std::optional<double> height_of_maximum(const grid::BrickView& view, int ix, int iy) {
+    ColumnCells cells;
+    read_column(view, ix, iy, cells);
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < cells.status.size(); ++i) {
+        if (cells.status[i] != CellStatus::value) continue;
+        if (!best || cells.values[i] > cells.values[*best]) best = i;
+    }
+    return best ? std::optional{view.spec->levels_m[*best]} : std::nullopt;
+}
+
+Result<Probe> probe_column(const grid::BrickView& view, const Scene& scene, std::size_t column,
+                           grid::GeoPoint place, int threads) {
+    Scene map = scene;
+    // A volume's ground shows the column under the pixel.
+    if (scene.product == Product::volume) map.product = Product::composite;
+    const auto field = map_field(view, map, summarize_columns(view, threads), threads);
+    if (!field) return pass_on(field);
+    Probe probe;
+    probe.place = place;
+    probe.status = field->status[column];
+    probe.value = field->values[column];
+    probe.at_least = !field->at_least.empty() && field->at_least[column] != 0;
+    probe.unit = unit_shown(map);
+    const auto nx = static_cast<std::size_t>(view.spec->nx);
+    const auto ix = static_cast<int>(column % nx);
+    const auto iy = static_cast<int>(column / nx);
+    if (map.product == Product::cappi) probe.height_m = scene.cappi_height_m;
+    if (map.product == Product::composite) probe.height_m = height_of_maximum(view, ix, iy);
+    note_heights(view, ix, iy, probe);
+    return probe;
+}
+
+Result<Probe> probe_section(const grid::BrickView& view, const Scene& scene,
+                            const LabelLayout& layout, int x, int y, int threads) {
+    const SectionPlace at = section_place(layout.width, layout.height, layout.scale, scene.labels);
+    if (!at.has(x, y)) {
+        return fail(ErrorCode::bad_argument,
+                    "pixel {},{} lies beside the section, which goes from {},{} to {},{}",
+                    x + layout.left, y + layout.top, at.left + layout.left, at.top + layout.top,
+                    at.left + layout.left + at.width - 1, at.top + layout.top + at.height - 1);
+    }
+    const Section section =
+        cut_section(view, scene.moment, *scene.section, at.width, at.height, threads);
+    const int column = x - at.left;
+    const int row = at.height - 1 - (y - at.top);
+    if (section.in_grid[static_cast<std::size_t>(column)] == 0) {
+        return fail(ErrorCode::bad_argument, "the section lies outside the grid there");
+    }
+    Probe probe;
+    const std::size_t place = section.field.index(column, row);
+    probe.status = section.field.status[place];
+    probe.value = section.field.values[place];
+    probe.unit = unit_shown(scene);
+    probe.height_m = std::lerp(section.bottom_m, section.top_m, (row + 0.5) / at.height);
+    probe.distance_m = section.length_m * (column + 0.5) / at.width;
+    const grid::SiteFrame start(scene.section->from.latitude_deg,
+                                scene.section->from.longitude_deg);
+    probe.place = start.to_geo({start.to_polar(scene.section->to).azimuth_deg, *probe.distance_m});
+    const auto nearest = grid::GridProjection(*view.spec).to_column(probe.place);
+    note_heights(view, std::clamp(static_cast<int>(std::lround(nearest.x)), 0, view.spec->nx - 1),
+                 std::clamp(static_cast<int>(std::lround(nearest.y)), 0, view.spec->ny - 1), probe);
+    return probe;
+}
+
+}  // namespace
+
+Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
+                          int x, int y, int threads) {
+    if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
+    const auto layout = layout_of(view, facts, scene);
+    if (!layout) return pass_on(layout);
+    const int in_x = x - layout->left;
+    const int in_y = y - layout->top;
+    if (in_x < 0 || in_y < 0 || in_x >= layout->width || in_y >= layout->height) {
+        return fail(ErrorCode::bad_argument,
+                    "pixel {},{} lies outside the picture, which goes from {},{} to {},{}", x, y,
+                    layout->left, layout->top, layout->left + layout->width - 1,
+                    layout->top + layout->height - 1);
+    }
+    if (scene.product == Product::section) {
+        return probe_section(view, scene, *layout, in_x, in_y, threads);
+    }
+    const grid::GridSpec& spec = *view.spec;
+    const ViewGeometry geometry = picture_geometry(spec, scene, layout->width, layout->height);
+    const auto ground = geometry.ground({in_x + 0.5, in_y + 0.5});
+    const std::ptrdiff_t column = ground ? column_at(spec, *ground) : -1;
+    if (column < 0) {
+        return fail(ErrorCode::bad_argument, "there is no ground of the grid at pixel {},{}", x, y);
+    }
+    const grid::GeoPoint place = grid::GridProjection(spec).to_geo(
+        {ground->x_m / spec.cell_width_m() + 0.5 * (spec.nx - 1),
+         ground->y_m / spec.cell_height_m() + 0.5 * (spec.ny - 1)});
+    return probe_column(view, scene, static_cast<std::size_t>(column), place, threads);
+}
+
+Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
+                          grid::GeoPoint place, int threads) {
+    if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
+    if (scene.product == Product::section) {
+        return fail(ErrorCode::bad_argument, "a section is probed at a pixel, not at a place");
+    }
+    const grid::GridSpec& spec = *view.spec;
+    const auto known =
+        is_within(place.latitude_deg, -90.0, 90.0) && is_within(place.longitude_deg, -180.0, 360.0);
+    if (!known) {
+        return fail(ErrorCode::bad_argument, "{},{} is no latitude and longitude",
+                    place.latitude_deg, place.longitude_deg);
+    }
+    // West is negative, as everywhere else.
+    if (place.longitude_deg > 180) place.longitude_deg -= 360;
+    const auto at = grid::GridProjection(spec).to_column(place);
+    const double ix = std::floor(at.x + 0.5);
+    const double iy = std::floor(at.y + 0.5);
+    if (!is_within(ix, 0.0, spec.nx - 1.0) || !is_within(iy, 0.0, spec.ny - 1.0)) {
+        return fail(ErrorCode::bad_argument, "{} lies outside the grid", place_text(place));
+    }
+    const std::size_t column = static_cast<std::size_t>(iy) * static_cast<std::size_t>(spec.nx) +
+                               static_cast<std::size_t>(ix);
+    return probe_column(view, scene, column, place, threads);
+}
+
+std::string probe_text(const Probe& probe) {
+    switch (probe.status) {
+        case CellStatus::not_seen:
+            return "not seen";
+        case CellStatus::no_echo:
+            return "no echo";
+        case CellStatus::range_folded:
+            return "range folded";
+        case CellStatus::value:
+            break;
+    }
+    return fmt::format("{}{:.6g}{}{}", probe.at_least ? "at least " : "", probe.value,
+                       probe.unit.empty() ? "" : " ", probe.unit);
+}
+
+}  // namespace stormcellar::render

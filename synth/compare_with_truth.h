@@ -1,0 +1,32 @@
+// synth/compare_with_truth.h -- how far grids are from the truth of a simulated scene.
+//
+// That is sampling error: what the radar did not see, and what the storm did meanwhile. The truth
+// is taken at each cell's center, in the middle of the volume's time; cells count that hold a value
+// where the truth has echo above the weakest shown (-20 dBZ).
+// Thread contract: one thread; it starts as many threads as the scene has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/plan/scene.h"
+#include "stormcellar/accuracy/error_statistics.h"
+#include "stormcellar/base/result.h"
+#include "synth/scene.h"
+
+namespace stormcellar::synth {
+
+struct TruthRow {
+    std::string chain;
+    accuracy::ErrorSummary error;
+    double mean = 0;           // of the signed errors
+    double echo_missed = 0;    // share of cells seen whose truth is above 5 dBZ and that hold none
+    double echo_invented = 0;  // share of cells above 5 dBZ whose truth is below -5 dBZ
+};
+
+// One row for each chain of the ladder whose beam is that of the simulation. Errors: those of
+// gridding.
+[[nodiscard]] Result<std::vector<TruthRow>> compare_with_truth(grid::GridScene& scene,
+                                                               const Scene& truth,
+                                                               std::size_t columns);
+}  // namespace stormcellar::synth
