@@ -1,8 +1,8 @@
 // grid/beam/arc_table.h -- a function of the arc, tabulated every 500 m and linear in between.
 //
-// Accuracy: half the function's second derivative times 250 m squared
-// (tests/grid/sweep_mixture_test.cpp); what that comes to is said where a table is used. Threads:
-// immutable.
+// Threads   Immutable.
+// Accuracy  The error is half the second derivative of the function times 250 m squared
+//           (tests/grid/sweep_mixture_test.cpp). The users of a table say what that amounts to.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace stormcellar::grid {
 
-// Where along the tables an arc lies.
+// The place of an arc in the tables.
 struct ArcPlace {
     std::size_t index = 0;
     float fraction = 0;
@@ -21,7 +21,7 @@ class ArcTable {
     static constexpr double step_m = 500;
 
     ArcTable() = default;
-    // `at` gives the value for an arc in metres.
+    // at(arc) returns the value for an arc in meters.
     template <class Function>
     ArcTable(std::size_t size, Function at) {
         values_.reserve(size);
@@ -32,9 +32,10 @@ class ArcTable {
         const float here = values_[place.index];
         return here + place.fraction * (values_[place.index + 1] - here);
     }
-    // At arc index * step_m.
+    // Returns the value at the arc index * step_m.
     [[nodiscard]] float operator[](std::size_t index) const { return values_[index]; }
-    // The arc must be at least 0; the place lies within a table whose size exceeds index + 1.
+    // Returns the place of an arc, which must be at least 0. The table must have more than index +
+    // 1 entries.
     [[nodiscard]] static ArcPlace place_of(float arc_m) {
         const float along = arc_m / static_cast<float>(step_m);
         const auto index = static_cast<std::size_t>(along);

@@ -35,8 +35,8 @@ EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
     return {radius_m_ * std::atan2(along_m, antenna_m_ + up_m), altitude_m_ + above_antenna_m};
 }
 
-// Seen from the antenna the point lies (a + h) sin t along and (a + h) cos t - a up, t being the
-// angle at the centre; the latter is h - 2 (a + h) sin^2(t / 2).
+// Seen from the antenna the point lies (a + h) sin t along and (a + h) cos t - a up, where t is the
+// angle at the center. The latter equals h - 2 (a + h) sin^2(t / 2).
 AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     const double angle = point.arc_m / radius_m_;
     const double above_antenna_m = point.height_m - altitude_m_;
@@ -47,8 +47,8 @@ AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     return {std::hypot(along_m, up_m), std::atan2(up_m, along_m) / radians_per_degree};
 }
 
-// Law of sines in the triangle of centre, antenna and point:
-// range = a sin t / cos(e + t), height above the antenna = 2 a sin(e + t/2) sin(t/2) / cos(e + t).
+// The law of sines in the triangle of center, antenna and point gives range = a sin t / cos(e + t),
+// and the height above the antenna = 2 a sin(e + t/2) sin(t/2) / cos(e + t).
 BeamGeometry::BeamPoint BeamGeometry::over(double arc_m, double elevation_deg) const noexcept {
     const double elevation = elevation_deg * radians_per_degree;
     const double angle = arc_m / radius_m_;

@@ -30,7 +30,7 @@ EarthPoint BeamPath::at(double range_m) const noexcept {
 }
 
 BeamGeometry::BeamPoint BeamPath::over(double arc_m) const noexcept {
-    // Tables of arc are made of this: the usual beam is asked for first.
+    // The tables of arc call this often, so the usual beam is tested first.
     if (kind_ == BeamKind::four_thirds) return four_thirds_.over(arc_m, elevation_deg_);
     if (kind_ == BeamKind::traced) return ray_->over(arc_m);
     if (!(cosine_ > 0)) return {nan, nan};
@@ -113,8 +113,9 @@ AntennaPoint BeamModel::inverse(EarthPoint point) const {
     return traced_inverse(point);
 }
 
-// The 4/3 earth's inverse says how far to move the gate for what the traced one is off. The step
-// shrinks when it did not help: near ducts the two models respond differently.
+// Iterates to the gate whose traced beam meets the point. The 4/3 earth's inverse says how far to
+// move the gate for the remaining error. The step shrinks if it did not help, because the two
+// models respond differently near ducts.
 AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
     if (!std::isfinite(point.arc_m) || !std::isfinite(point.height_m)) return {nan, nan};
     const AntennaPoint target = four_thirds_.inverse(point);
@@ -140,7 +141,7 @@ AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
         } else if (std::isfinite(least_m)) {
             share /= 2;
         } else {
-            best.elevation_deg += raise_deg;  // the traced beam met the ground before
+            best.elevation_deg += raise_deg;  // the traced beam met the ground before the point
         }
     }
     if (!(least_m <= close_enough_m)) return {nan, nan};
@@ -151,13 +152,14 @@ namespace {
 
 constexpr double step_m = 500;
 
-// Of a place that is there: a comparison with NaN would trap where traps are on.
+// Returns true for a place within the limits. The order matters: a comparison with NaN would trap
+// where traps are enabled.
 bool within(const BeamLimits& limits, double arc_m, double range_m, double height_m) {
     return !std::isnan(height_m) && arc_m <= limits.arc_m && range_m <= limits.range_m &&
            height_m >= limits.floor_m && height_m <= limits.ceiling_m;
 }
 
-// How far two models are apart at one arc or range.
+// The difference of two models at one arc or one range.
 struct Sample {
     bool counts = false;  // one of the places is within the limits
     BeamDifference difference;
@@ -172,8 +174,8 @@ void raise(BeamDifference& greatest, const BeamDifference& by, double if_missing
     greatest.gate_m = greater(greatest.gate_m, by.gate_m);
 }
 
-// Of samples every step up to the limit and one beyond it. One step around those that count is
-// taken too, so that the ends of what counts lie between samples.
+// Raises `greatest` by samples at every step up to the limit and one step beyond. A sample next to
+// one that counts is taken too, so that the ends of the part that counts lie between samples.
 template <class SampleAt>
 void raise_along(BeamDifference& greatest, double limit_m, SampleAt sample_at) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

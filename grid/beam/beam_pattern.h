@@ -1,14 +1,16 @@
-// grid/beam/beam_pattern.h -- how much a gate counts for a point off its beam's axis.
+// grid/beam/beam_pattern.h -- how much a gate counts for a point off the axis of its beam.
 //
-// The one-way power pattern of the antenna, taken as a Gaussian of the half-power width: at half a
-// width off the axis it is 1/2. It is cut off at `reach`, lowered by what it is there so that it
-// ends at zero, and 1 on the axis:
+// The weight is the one-way power pattern of the antenna, taken as a Gaussian of the half-power
+// width: half a width off the axis it is 1/2. It is cut off at `reach`. So that it ends at zero
+// there and is still 1 on the axis, it is lowered and scaled:
 //   weight(x) = (G(x) - G(reach)) / (1 - G(reach)),   G(x) = exp(-4 ln 2 (x / width)^2)
-// width = reach = the larger of the beam width and the distance between neighbouring radials or
-// sweeps, so that there are always two that count, and one alone on its own axis where they are
-// no nearer to each other than the beam is wide.
-// Source: the main lobe as a Gaussian, as Probert-Jones (1962) takes it. Accuracy: 1e-6
-// (tests/grid/sweep_mixture_test.cpp).
+// Here width = reach = the larger of the beam width and the distance between neighboring radials or
+// sweeps. So there are always two that count; on the axis of one, that one alone counts, unless the
+// others are nearer than the width of the beam.
+//
+// Source    Probert-Jones (1962), who takes the main lobe as a Gaussian.
+// Accuracy  1e-6 (tests/grid/sweep_mixture_test.cpp).
+// Threads   A pure function.
 #pragma once
 
 #include <cmath>

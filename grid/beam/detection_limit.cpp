@@ -9,7 +9,7 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double nearest_range_m = 100;
-// Beyond these a field is damaged, not a calibration.
+// A number beyond these is a damaged field, not a calibration.
 constexpr float weakest_calibration_dbz = -80;
 constexpr float strongest_calibration_dbz = 0;
 constexpr int largest_attenuation_thousandths = 100;
@@ -36,7 +36,7 @@ DetectionLimit detection_limit(const level2::Radial& radial, const level2::Sweep
             limit.at_1km_dbz += static_cast<double>(moment.snr_threshold_db);
         }
     }
-    // Sent as a negative number.
+    // The attenuation is sent as a negative number.
     const int thousandths = -radial.attenuation_db_per_km_thousandths.value_or(0);
     if (thousandths > 0 && thousandths <= largest_attenuation_thousandths) {
         limit.attenuation_db_per_km = thousandths / 1000.0;

@@ -1,12 +1,15 @@
-// grid/beam/detection_limit.h -- the weakest reflectivity that a radar shows at a range.
+// grid/beam/detection_limit.h -- the weakest reflectivity that a radar can show at a range.
 //
-// It is what "no echo" stands for where a cell mixes it with echo (DESIGN section 5).
+// "No echo" stands for this value where a cell mixes it with echo (docs/geometry.md).
 //   limit_dbz = dbz0 + 20 log10(range / 1 km) + attenuation * range + snr_threshold
-// dbz0 (calibration: reflectivity at 1 km of echo as strong as the noise), attenuation and
-// threshold are those of message 31. Source: ICD 2620002 tables XVII-B, E, F and H. Where the
-// message has no calibration, a stated curve stands in for dbz0 + snr_threshold: -41.5 dBZ for
-// WSR-88D (-7.5 dBZ at 50 km, the specified sensitivity) and -46 dBZ for TDWR (as the data show).
-// Accuracy: the weakest echo of real volumes lies within 3.5 dB of it (docs/geometry.md).
+// Message 31 has dbz0 (the calibration: the reflectivity at 1 km of an echo as strong as the
+// noise), the attenuation and the threshold. If the message has no calibration, a fixed curve
+// replaces dbz0 + snr_threshold: -41.5 dBZ for WSR-88D (-7.5 dBZ at 50 km, the specified
+// sensitivity) and -46 dBZ for TDWR (as the data show).
+//
+// Threads   Plain values and pure functions.
+// Accuracy  The weakest echo of real volumes lies within 3.5 dB of the limit (docs/geometry.md).
+// Source    ICD 2620002 tables XVII-B, E, F and H.
 #pragma once
 
 #include "stormcellar/level2/volume.h"
@@ -24,7 +27,7 @@ struct DetectionLimit {
     [[nodiscard]] double at(double range_m) const;
 };
 
-// What one radial of a sweep can see.
+// Returns the detection limit of one radial of a sweep.
 [[nodiscard]] DetectionLimit detection_limit(const level2::Radial& radial,
                                              const level2::SweepMoment& moment, bool is_tdwr);
 

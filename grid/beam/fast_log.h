@@ -1,9 +1,9 @@
-// grid/beam/fast_log.h -- a logarithm and an exponential that compilers run in vectors.
+// grid/beam/fast_log.h -- a logarithm and an exponential that compilers can vectorize.
 //
-// Accuracy (enforced by tests/grid/fast_log_test.cpp): fast_log2 4e-7 + 1e-7 |log2 x| over all
-// normal
-//          floats, of doubles as std::log2; fast_exp2 3e-7 of itself from -126 to 127.
-// Threads: a pure function; the same bits on every machine.
+// Accuracy  Enforced by tests/grid/fast_log_test.cpp. fast_log2: 4e-7 + 1e-7 |log2 x| over all
+//           normal floats; for doubles it is std::log2. fast_exp2: 3e-7 of its value, from -126 to
+//           127.
+// Threads   Pure functions, with the same bits on every machine.
 #pragma once
 
 #include <bit>
@@ -12,8 +12,8 @@
 
 namespace stormcellar::grid {
 
-// Of a positive, normal x. With x = m 2^e and m in [2/3, 4/3): log2 m = 2 atanh(s) / ln 2,
-// s = (m - 1) / (m + 1), |s| <= 1/5, whose series ends behind s^9.
+// Returns log2 x for a positive, normal x. With x = m 2^e and m in [2/3, 4/3), log2 m = 2 atanh(s)
+// / ln 2, where s = (m - 1) / (m + 1) and |s| <= 1/5. The series of atanh ends after s^9.
 [[nodiscard]] inline float fast_log2(float x) noexcept {
     constexpr std::uint32_t two_thirds = 0x3F2AAAAB;
     const auto bits = std::bit_cast<std::uint32_t>(x);
@@ -29,7 +29,8 @@ namespace stormcellar::grid {
     return std::log2(x);
 }
 
-// Of x within -126 to 127. With x = n + t, |t| <= 1/2: 2^t by the series of exp(t ln 2).
+// Returns 2^x for x within -126 to 127. With x = n + t and |t| <= 1/2, 2^t is the series of exp(t
+// ln 2).
 [[nodiscard]] inline float fast_exp2(float x) noexcept {
     constexpr float no_fraction = 0x1.8p23F;
     const float whole = x + no_fraction - no_fraction;

@@ -1,9 +1,12 @@
-// grid/beam/gate_places.h -- where the centres of a sweep's gates lie.
+// grid/beam/gate_places.h -- where the centers of a sweep's gates lie.
 //
-// For each gate a parabola through the places that it has at the sweep's elevation and half a beam
-// below and above it: within 0.02 m of the beam model for radials up to half a beam off, ranges to
-// 470 km, elevations of -5 to 60 degrees, 4/3 earth (enforced by tests/grid/gate_places_test.cpp).
-// Threads: immutable.
+// Each gate has a parabola through its places at the sweep's elevation and half a beam below and
+// above.
+//
+// Accuracy  0.02 m of the beam model, for radials up to half a beam off, ranges to 470 km,
+//           elevations of -5 to 60 degrees and the 4/3 earth (enforced by
+//           tests/grid/gate_places_test.cpp).
+// Threads   Immutable.
 #pragma once
 
 #include <array>
@@ -21,12 +24,13 @@ class GatePlaces {
     GatePlaces(const level2::SweepMoment& moment, const BeamModel& beam, double elevation_deg,
                double half_beam_deg);
 
-    // Of a radial so much higher than the sweep; gates from 0 to the moment's stride. None where
-    // the beam does not go.
+    // Returns the place of a gate of a radial that is higher than the sweep by `offset_deg`. The
+    // gate must be from 0 to below the moment's stride. Returns none where the beam does not go.
     [[nodiscard]] std::optional<EarthPoint> at(std::int32_t gate, double offset_deg) const;
 
   private:
-    // middle + halves * (linear + halves * square), halves being half beams off.
+    // middle + halves * (linear + halves * square), where halves counts half beams off the
+    // elevation.
     struct Place {
         EarthPoint middle, linear, square;
     };

@@ -10,7 +10,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// What is wrong with a level, given the one below it; empty when nothing is.
+// Returns what is wrong with a level, given the level below it; empty if nothing is wrong.
 std::string complaint(const RefractivityLevel& level, const RefractivityLevel* below) {
     using Profile = RefractivityProfile;
     if (!is_within(level.height_m, Profile::least_height_m, Profile::greatest_height_m)) {

@@ -40,7 +40,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// What stands before the next separator, which is taken away with it.
+// Returns the text before the next separator, and removes both from `rest`.
 std::string_view take(std::string_view& rest, char separator) {
     const auto end = rest.find(separator);
     const std::string_view piece = rest.substr(0, end);
@@ -53,7 +53,7 @@ double refractivity_of_vapour(double pressure_hpa, double temperature_c, double 
     return 77.6 * pressure_hpa / kelvin + 3.73e5 * vapour_hpa / (kelvin * kelvin);
 }
 
-// The lines of one file, read from top to bottom.
+// Reads the lines of one file from top to bottom.
 class Reader {
   public:
     Reader(std::string_view text, const std::string& name) : rest_(text), name_(name) {
@@ -65,7 +65,7 @@ class Reader {
   private:
     using Row = std::array<double, Column::count>;
 
-    // The next line that says something; none at the end.
+    // Returns the next line that is not empty or a comment; none at the end.
     std::optional<std::string_view> next_line();
     Status read_header();
     Result<Row> read_row(std::string_view line) const;
@@ -84,7 +84,8 @@ class Reader {
     const std::string& name_;
     std::size_t line_number_ = 0;
     std::size_t column_count_ = 0;
-    std::array<std::optional<std::size_t>, Column::count> place_;  // of each column in a line
+    // the place of each column in a line
+    std::array<std::optional<std::size_t>, Column::count> place_;
     std::optional<Row> below_;
 };
 
@@ -151,7 +152,7 @@ Result<Reader::Row> Reader::read_row(std::string_view line) const {
     return row;
 }
 
-// What hangs on two numbers.
+// Checks the conditions that relate two numbers.
 Status Reader::check(const Row& row) const {
     if (below_ && !(row[height] > (*below_)[height])) {
         return wrong("column height_m: {} does not rise above {}", row[height], (*below_)[height]);

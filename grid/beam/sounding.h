@@ -1,21 +1,24 @@
-// grid/beam/sounding.h -- a refractivity profile from a sounding, a text file with a line a level.
+// grid/beam/sounding.h -- reads a refractivity profile from a sounding, a text file with one line
+// for each level.
 //
-// Format (docs/geometry.md shows one)
-//   UTF-8 (with or without a byte order mark) or ASCII of at most 1 MiB; lines end with LF or CR
-//   LF; empty lines and what follows a # are skipped. The first line left names the columns, the
-//   others hold as many numbers; commas between them, blanks and tabs around them are skipped.
-//   Columns stand in any order; those of other names are skipped. Needed are
-//     height_m             above mean sea level, strictly rising, the first at most 9,000 m
-//   and either
-//     refractivity         N-units, above 0 and at most 1000
-//   or all of
-//     pressure_hpa         above 0 and at most 1100, never rising
-//     temperature_c        -120 to 60
-//     dew_point_c          -150 to 40, not above the temperature; with respect to water
-//     or relative_humidity_percent   0 to 100, with respect to water
-// Source  N = 77.6 p / T + 3.73e5 e / T^2 and the saturation pressure over water: ITU-R P.453-7
-//         eqs 2-6 (within 0.5 % up to 100 GHz).
-// Errors  bad_argument, naming file, line and column; not_found, io ... from reading the file.
+// Format    UTF-8 (with or without a byte order mark) or ASCII of at most 1 MiB. Lines end with LF
+//           or CR LF. Empty lines, and anything after a #, are skipped. The first remaining line
+//           names the columns; the others hold as many numbers, separated by commas, with any
+//           blanks and tabs around them. Columns may be in any order; those with other names are
+//           skipped. docs/geometry.md shows an example. The file needs
+//             height_m             above mean sea level, strictly rising, the first at most 9,000 m
+//           and either
+//             refractivity         N-units, above 0 and at most 1000
+//           or all of
+//             pressure_hpa         above 0 and at most 1100, never rising
+//             temperature_c        -120 to 60
+//             dew_point_c          -150 to 40, not above the temperature; with respect to water
+//             or relative_humidity_percent   0 to 100, with respect to water
+// Source    N = 77.6 p / T + 3.73e5 e / T^2, and the saturation pressure over water: ITU-R P.453-7
+//           eqs 2-6 (within 0.5 % up to 100 GHz).
+// Threads   Pure functions; read_sounding() reads a file.
+// Errors    bad_argument, naming file, line and column; not_found, io and others from reading the
+//           file.
 #pragma once
 
 #include <filesystem>
@@ -27,14 +30,14 @@
 
 namespace stormcellar::grid {
 
-// Of air at a pressure, a temperature and a dew point.
+// Returns the refractivity of air at a pressure, a temperature and a dew point.
 [[nodiscard]] double refractivity(double pressure_hpa, double temperature_c, double dew_point_c);
-// Of vapour over water, in hPa.
+// Returns the saturation pressure of vapor over water, in hPa.
 [[nodiscard]] double saturation_pressure_hpa(double temperature_c);
 
-// The profile's name is "sounding NAME", without the directory.
+// Reads a file. The name of the profile is "sounding NAME", where NAME has no directory.
 [[nodiscard]] Result<RefractivityProfile> read_sounding(const std::filesystem::path& file);
-// `name` stands for the file in messages and in the profile's name.
+// Parses a text. `name` stands for the file in messages and in the name of the profile.
 [[nodiscard]] Result<RefractivityProfile> parse_sounding(std::string_view text,
                                                          const std::string& name);
 

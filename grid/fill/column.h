@@ -1,9 +1,12 @@
-// grid/fill/column.h -- the cells of one column from one sample of each sweep.
+// grid/fill/column.h -- fills the cells of one column from one sample of each sweep.
 //
-// Between the beams of adjacent sweeps cells are blended, linear in height, or take the nearer beam
-// (Interpolation::nearest). Outside (below the lowest, above the highest, between sweeps with a
-// lost cut between them) a cell takes the sample of the nearer beam when it lies within its edges,
-// else it is not seen. What mixed samples make is the rule of grid/sweep/mixture.h.
+// Between the beams of adjacent sweeps a cell is blended from both, linear in height, or takes the
+// nearer beam (Interpolation::nearest). Anywhere else (below the lowest beam, above the highest,
+// and between sweeps with a lost cut between them) a cell takes the sample of the nearer beam if it
+// lies within the edges of that beam; if not, it is not seen. The rule of grid/sweep/mixture.h says
+// what a blend of two samples is.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include <span>
@@ -15,7 +18,7 @@
 namespace stormcellar::grid {
 
 // What one sweep gives to a column. Heights rise, or stay equal, from each sweep to the next. The
-// edges matter for the first and the last beam and beside a lost cut; elsewhere they are not read.
+// edges are read only for the first and the last beam and beside a lost cut.
 struct BeamSample {
     Sample sample;
     float height_m = 0;
@@ -24,13 +27,13 @@ struct BeamSample {
     bool adjacent_to_next = true;
 };
 
-// Fills a column, at least one beam; `status` and `values` have one place a level, and every status
-// is not_seen yet. Only cells that hold a value get one written.
+// Fills a column from at least one beam. `status` and `values` have one place for each level, and
+// every status must be not_seen before. Only a cell that holds a value gets its value written.
 void fill_column(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                  ChosenInterpolation interpolation, std::span<CellStatus> status,
                  std::span<float> values);
-// The same where it is known for all columns whether the nearer beam is taken and whether the
-// moment wraps: what is not asked costs nothing.
+// The same, for callers that know for all columns whether the nearer beam is taken and whether the
+// moment wraps. The loops then hold no test of what is off.
 template <bool nearest, bool circular>
 void fill_column_as(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                     std::span<CellStatus> status, std::span<float> values);

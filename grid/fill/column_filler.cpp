@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t tiles_a_piece = 16;
 
-// Never inlined: what is off shall not crowd what is on.
+// This is never inlined, so that a step that is off by default does not make the usual loop larger.
 [[gnu::noinline]] void to_db(const FillWork& work, std::span<const TileColumn> columns) {
     for (const TileColumn& column : columns) {
         const std::span status = status_of(work, column);
@@ -24,7 +24,9 @@ constexpr std::size_t tiles_a_piece = 16;
     }
 }
 
-// Fills tiles one after another, in arrays that are made once.
+// Fills one tile after another, in arrays that are allocated once. Each tile takes three steps:
+// find its columns within the range of the radar, plan which sweeps must be sampled, and fill the
+// columns.
 template <class Columns>
 class TileFiller {
   public:
@@ -75,7 +77,8 @@ Fill sampled_fill(bool circular) {
                     : fill_tiles<SampledColumns<radial_elevations, nearest, false>>;
 }
 
-// Everything that is alike for all tiles is asked here, once.
+// Chooses the code for the method. Whatever is the same for all tiles is tested here once, and not
+// in the loops.
 Fill fill_by(const Method& method, Blending blending) {
     const bool nearest = method.interpolation == Interpolation::nearest;
     const bool sampled = nearest || method.interpolation == Interpolation::linear;
@@ -87,14 +90,14 @@ Fill fill_by(const Method& method, Blending blending) {
     return nearest ? sampled_fill<false, true>(circular) : sampled_fill<false, false>(circular);
 }
 
-// The most sweeps above a sweep that count for a cell beside it.
+// Returns the largest number of sweeps above a sweep that count for a cell beside it.
 int sweeps_by_pattern(const SweepStack& stack) {
     const std::vector<float>& elevations_deg = stack.elevations_deg;
     int most = 1;
     for (std::size_t low = 0; low < elevations_deg.size(); ++low) {
         int within = 1;
         for (std::size_t high = low + 1; high < elevations_deg.size(); ++high) {
-            // Radials may be measured up to half a beam off, either way.
+            // Radials may be measured up to half a beam too high or too low.
             if (elevations_deg[high] - elevations_deg[low] < 2 * stack.beam_width_deg) ++within;
         }
         most = std::max(most, within);
@@ -102,6 +105,8 @@ int sweeps_by_pattern(const SweepStack& stack) {
     return most;
 }
 
+// Returns how far the samples of a column reach, which tells the plan how far around a tile it must
+// look. With one gate for each sweep they do not reach beyond the column.
 SampleReach reach_of(const SweepStack& stack, const Method& method) {
     const bool one_gate = method.interpolation == Interpolation::nearest ||
                           method.interpolation == Interpolation::linear;

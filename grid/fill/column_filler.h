@@ -1,6 +1,7 @@
-// grid/fill/column_filler.h -- fills the cells of a grid tile by tile from prepared sweeps.
+// grid/fill/column_filler.h -- fills the cells of a grid from prepared sweeps, tile by tile.
 //
-// Threads: tiles may be filled by different threads; the result has the same bits for any number.
+// Threads   Pure; fill_grid() uses `threads` threads of its own. The result has the same bits for
+//           any number of threads.
 #pragma once
 
 #include <span>
@@ -13,9 +14,9 @@
 
 namespace stormcellar::grid {
 
-// Writes status and values of every cell of the tiles that a sweep sees; the others stay as they
-// are. The tiles are those of the geometry, or others within it. `grid` must have the geometry's
-// spec and arrays of its size, every status of the tiles' cells not_seen.
+// Writes status and value of every cell of the tiles that a sweep sees; the other cells stay as
+// they are. The tiles are those of the geometry, or others within it. `grid` must have the spec of
+// the geometry, arrays of its size, and not_seen in every cell of the tiles.
 void fill_grid(const SweepStack& stack, const ColumnGeometry& geometry, std::span<const Tile> tiles,
                const Method& method, int threads, Grid& grid);
 

@@ -16,17 +16,17 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// What is known of one sweep beside its gates.
+// What is known about one sweep beside its gates.
 struct SweepFacts {
-    std::vector<std::optional<double>> ages_s;  // by position
+    std::vector<std::optional<double>> ages_s;  // by position of the radial
     // Where the gates of each kind are; empty unless distances are asked for.
     std::vector<std::pair<const level2::SweepMoment*, GatePlaces>> places;
 };
 
-// The centre of a sweep's nearest gate as a column sees it.
+// The center of the nearest gate of a sweep, relative to a column.
 struct NearGate {
     double height_m = 0;
-    double across_map_m = 0;  // in the plane about the site
+    double across_map_m = 0;  // distance in the plane about the site
 };
 
 // One sweep over one column.
@@ -38,7 +38,7 @@ struct SeenBeam {
     std::optional<NearGate> gate;
 };
 
-// Which sweeps make up a height; none: it is not seen.
+// The sweeps that make up a height, and their weights. No sweep: the height is not seen.
 struct Share {
     const SeenBeam* beam = nullptr;
     float weight = 0;
@@ -53,7 +53,8 @@ struct Shares {
     }
 };
 
-// `above` is the first beam above the level, or the end.
+// Returns the same sweeps and weights as grid/fill/column.h uses. Heights rise; `above` is the
+// first beam above the level, or the end.
 Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level_m, bool nearest) {
     const SeenBeam* const low = above > 0 ? &beams[above - 1] : nullptr;
     const SeenBeam* const high = above < beams.size() ? &beams[above] : nullptr;
@@ -70,6 +71,8 @@ Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level
     return shares;
 }
 
+// Collects what does not depend on the column: the ages of the radials and, if distances are asked
+// for, the places of the gates.
 std::vector<SweepFacts> facts_of(const DetailWork& work, std::optional<UtcTime> frame_time) {
     std::vector<SweepFacts> facts(work.chosen.size());
     const DetailSet asked = work.options.details;
@@ -100,7 +103,7 @@ bool takes_one_gate(const Method& method) {
     return one && method.cell == CellExtent::point;
 }
 
-// Columns of one row at a time.
+// Fills the details of columns, one row at a time.
 class DetailColumns {
   public:
     DetailColumns(const DetailWork& work, const std::vector<SweepFacts>& facts, Grid& grid)
@@ -146,7 +149,7 @@ class DetailColumns {
         grid_.details.put(detail, cell, static_cast<float>(value));
     }
 
-    // What each sweep's nearest radial and gate are.
+    // Finds the nearest radial and the nearest gate of each sweep.
     void look(const ColumnPlace& column) {
         beams_.clear();
         const ArcPlace place = ArcTable::place_of(column.arc_m);
@@ -189,7 +192,8 @@ class DetailColumns {
             const float azimuth_deg = radials.radials[sweep.radial_index(position)].azimuth_deg;
             const double turn = static_cast<double>(azimuth_deg - column.azimuth_deg) * degree;
             const auto arc_m = static_cast<double>(column.arc_m);
-            // The law of cosines, so that nothing cancels.
+            // The across distance follows from the law of cosines, in a form in which nothing
+            // cancels.
             const double across_m =
                 2 * std::sqrt(arc_m * std::max(0.0, center->arc_m)) * std::sin(turn / 2);
             return NearGate{center->height_m, std::hypot(arc_m - center->arc_m, across_m)};
@@ -197,6 +201,8 @@ class DetailColumns {
         return std::nullopt;
     }
 
+    // Writes age, height offset and distance of a cell: the mean age by weight, and the nearest
+    // beam and gate.
     void describe(std::size_t cell, float level_m, const Shares& shares) {
         double age_s = 0;
         bool dated = true;
@@ -221,7 +227,7 @@ class DetailColumns {
         if (asked_.has(Detail::distance) && distance_m) put(Detail::distance, cell, *distance_m);
     }
 
-    // The mixtures of gates of which a method with several makes the column.
+    // Makes the mixtures of gates from which a method with several gates makes the column.
     void mix(const ColumnPlace& column, int ix, int iy) {
         mixtures_.clear();
         const bool area = method_.cell == CellExtent::area;
@@ -240,7 +246,7 @@ class DetailColumns {
         if (!mixtures_.empty()) mixed_.start(mixtures_);
     }
 
-    // Level after level, as they rise.
+    // Returns the share of a level that is seen. Levels must be asked in rising order.
     [[nodiscard]] double seen_share(std::size_t level) {
         const std::size_t count = heights_m_.size() / levels_m_.size();
         float unseen = 0;

@@ -1,9 +1,11 @@
-// grid/fill/detail_filler.h -- fills in what is asked beside the values of a grid
+// grid/fill/detail_filler.h -- fills in the details of the cells of a grid
 // (stormcellar/grid/cell_details.h).
 //
-// A pass of its own over a grid whose cells are filled, so that a grid without details pays
-// nothing. Threads: rows may be filled by different threads; the result has the same bits for any
-// number.
+// This is a pass of its own over a grid whose cells are filled, so a grid without details pays
+// nothing.
+//
+// Threads   Pure; it uses `options.threads` threads of its own. The result has the same bits for
+//           any number of threads.
 #pragma once
 
 #include <vector>
@@ -16,14 +18,14 @@ namespace stormcellar::grid {
 
 struct DetailWork {
     const level2::Volume& volume;
-    const std::vector<ChosenSweep>& chosen;  // as in the stack
+    const std::vector<ChosenSweep>& chosen;  // the same as in the stack
     const SweepStack& stack;
     BeamModel beam;
     const ColumnGeometry& geometry;
     const GridderOptions& options;
 };
 
-// Makes grid.details, of options.details; the grid's status must be filled.
+// Makes grid.details with the set options.details. The status of the grid must be filled.
 void fill_details(const DetailWork& work, Grid& grid);
 
 }  // namespace stormcellar::grid

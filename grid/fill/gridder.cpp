@@ -41,7 +41,7 @@ void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>
     grid.end_time = last.value_or(grid.time);
 }
 
-// How many sweeps of an elevation were equally fit, and which of them was taken.
+// Returns a note that says how many sweeps of an elevation were equally good, and which was taken.
 std::string note_of_repeats(const ChosenSweep& sweep, std::optional<UtcTime> nearest_to) {
     const std::string rule =
         nearest_to ? fmt::format("the nearest to {}", format_utc(*nearest_to)) : "the newest";
@@ -115,7 +115,7 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
     return {};
 }
 
-// None: the newest is taken.
+// Returns the time to which sweeps should be near, or none if the newest are taken.
 std::optional<UtcTime> time_to_be_near(const level2::Volume& volume,
                                        const GridderOptions& options) {
     if (options.repeats == GridderOptions::Repeats::newest) return std::nullopt;

@@ -23,7 +23,7 @@ Mixture unseen() {
     return mixture;
 }
 
-// Beams [first, end) have no lost cut between them.
+// The beams [first, end), which have no lost cut between them.
 struct Run {
     std::size_t first, end;
 };
@@ -69,6 +69,8 @@ void MixedColumn::start(std::span<const BeamMixture> beams) {
         steepest_m_per_deg_ = std::max(steepest_m_per_deg_, rise_of(beam));
 }
 
+// The heights are asked in rising order, so the beam above the next height is found in a step or
+// two.
 void MixedColumn::find(float height_m) {
     while (above_ > 0 && beams_[above_ - 1].height_m > height_m)
         --above_;
@@ -76,12 +78,14 @@ void MixedColumn::find(float height_m) {
         ++above_;
 }
 
-// `nearest` is the beam whose sample would count alone.
+// Mixes all beams in reach of a height by the antenna's pattern. `nearest` is the beam that would
+// count alone.
 Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width_deg) {
     const auto weight_of = [&](const BeamMixture& beam) {
         return beam_pattern((height_m - beam.height_m) / rise_of(beam), width_deg);
     };
     const float reach_m = reach_m_of(width_deg);
+    // Only beams of the same run count, and of these only those in reach.
     Run run = run_around(beams_, nearest);
     while (run.first < nearest && beams_[run.first].height_m < height_m - reach_m)
         ++run.first;
@@ -94,7 +98,9 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
         total += weights_.back();
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
-    // Where neighbours are far apart and rise differently, the nearest may be out of reach.
+    // The first beam that is added must weigh most on the circle of a moment that wraps, which is
+    // usually the nearest. If neighbors are far apart and rise differently, the nearest may be out
+    // of reach; then the first beam with a weight takes its place.
     std::size_t first = nearest;
     if (!(weights_[nearest - run.first] > 0)) {
         const auto heavy =
@@ -110,7 +116,7 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
     return mixture;
 }
 
-// The two beams around the height always count.
+// Returns a width of the pattern with which the two beams around the height always count.
 float MixedColumn::width_between_deg() const {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -118,7 +124,8 @@ float MixedColumn::width_between_deg() const {
     return std::max(beam_width_deg_, (high.height_m - low.height_m) / mean_rise);
 }
 
-// All beams that may count between two are no echo alone.
+// Returns true if all beams that may count around a height see no echo alone. Then the cell is no
+// echo too, and need not be mixed.
 bool MixedColumn::is_quiet_around(float height_m) const {
     const bool by_pattern = interpolation_ == Interpolation::beam_weighted;
     const float reach_m = by_pattern ? reach_m_of(width_between_deg()) : 0;
@@ -133,6 +140,8 @@ bool MixedColumn::is_quiet_around(float height_m) const {
     return true;
 }
 
+// Makes the mixture between two adjacent beams. The beam with the larger weight is added first,
+// because a moment that wraps takes its circle from the first.
 Mixture MixedColumn::between(float height_m) {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -152,6 +161,7 @@ Mixture MixedColumn::between(float height_m) {
     return mixture;
 }
 
+// Makes the mixture of a height that is not between adjacent beams: the nearer beam that covers it.
 Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;
@@ -168,7 +178,8 @@ Mixture MixedColumn::at(float height_m) {
     return is_between_adjacent() ? between(height_m) : outside(height_m);
 }
 
-// No beam passes between two heights, and no edge of one reaches between them; find(lowest_m).
+// Returns true if no beam and no edge of a beam lies between the two heights; call find(lowest_m)
+// first.
 bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
     if (is_between_adjacent()) return false;
     const bool clear_below = above_ == 0 || lowest_m > beams_[above_ - 1].upper_edge_m;
@@ -177,8 +188,8 @@ bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
     return clear_below && clear_above;
 }
 
-// Between two beams shares are linear in height, so the mean of several heights is what their
-// middle has.
+// Returns the mean over the heights of a cell with an extent. Between two beams the shares are
+// linear in height, so the mean over several heights equals the mixture in their middle.
 CellResult MixedColumn::mean_at(std::span<const float> heights_m) {
     const float lowest_m = heights_m.front();
     const float highest_m = heights_m.back();

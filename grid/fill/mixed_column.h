@@ -1,15 +1,18 @@
-// grid/fill/mixed_column.h -- the cells of one column from a mixture of gates of each sweep.
+// grid/fill/mixed_column.h -- makes the cells of one column from a mixture of gates of each sweep.
 //
-// The general form of grid/fill/column.h, for interpolations that take several gates of a sweep and
-// for cells with an extent. At a height, sweeps count by the interpolation:
-//   nearest, linear, eight_point   the two adjacent sweeps around it, linear in height (or the
-//                                  nearer alone)
-//   beam_weighted                  every sweep on the same side of lost cuts by the antenna's
-//                                  pattern (grid/beam/beam_pattern.h), the angle off its axis being
-//                                  the difference in height over the beam's rise by degree
-// Outside of them (below the lowest, above the highest, beside a lost cut) the nearer sweep counts
-// within its edges, else it is not seen. A cell with an extent is the mean over four heights in
-// the middle of the quarters of its level, which reaches half way to its neighbours.
+// This is the general form of grid/fill/column.h, for interpolations that take several gates of a
+// sweep and for cells with an extent. The interpolation says how much each sweep counts at a
+// height:
+//   nearest, linear, eight_point  The two adjacent sweeps around the height, linear in height (or
+//                                 the nearer one alone).
+//   beam_weighted                 Every sweep on the same side of lost cuts, by the antenna's
+//                                 pattern (grid/beam/beam_pattern.h). The angle off the axis is the
+//                                 difference in height divided by the beam's rise for each degree.
+// Elsewhere (below the lowest beam, above the highest, beside a lost cut) the nearer sweep counts
+// within its edges; beyond them the height is not seen. A cell with an extent is the mean over four
+// heights, in the middles of the quarters of its level. A level reaches half way to its neighbors.
+//
+// Threads   A MixedColumn may be used by one thread at a time.
 #pragma once
 
 #include <span>
@@ -21,31 +24,31 @@
 
 namespace stormcellar::grid {
 
-// Heights at which a column is taken, for each level in turn; one or four a level.
+// Returns the heights at which a column is evaluated, level by level: one or four for each level.
 [[nodiscard]] std::vector<float> heights_of_levels(std::span<const float> levels_m,
                                                    CellExtent cell);
 
-// One column after another; each height is found from the last one, so take them as they rise.
-// Threads: one object a thread.
+// Evaluates one column after another. Each height is searched from the last one, so ask in rising
+// order.
 class MixedColumn {
   public:
     MixedColumn(Interpolation interpolation, float beam_width_deg, Blending blending)
         : interpolation_(interpolation), beam_width_deg_(beam_width_deg), blending_(blending) {}
 
-    // At least one; they must outlive the column.
+    // Starts a column with at least one beam. The beams must outlive the column.
     void start(std::span<const BeamMixture> beams);
-    // What the beams make up at a height.
+    // Returns the mixture of the beams at a height.
     [[nodiscard]] Mixture at(float height_m);
-    // The same as a cell.
+    // Returns the same as a cell.
     [[nodiscard]] CellResult cell_at(float height_m);
-    // The mean of several heights that rise by even steps, as a cell.
+    // Returns the mean over several heights, which rise by even steps, as a cell.
     [[nodiscard]] CellResult mean_at(std::span<const float> heights_m);
 
   private:
     [[nodiscard]] bool is_between_adjacent() const {
         return above_ > 0 && above_ < beams_.size() && beams_[above_ - 1].adjacent_to_next;
     }
-    // No beam counts that is farther off than this, whatever is rounded.
+    // Returns a distance beyond which no beam counts, with a margin for rounding.
     [[nodiscard]] float reach_m_of(float width_deg) const {
         return 1.001F * width_deg * steepest_m_per_deg_;
     }
@@ -61,8 +64,8 @@ class MixedColumn {
     float beam_width_deg_;
     Blending blending_;
     std::span<const BeamMixture> beams_;
-    float steepest_m_per_deg_ = 0;  // of any beam's rise
-    std::size_t above_ = 0;         // the first beam above the height; beams_.size(): none
+    float steepest_m_per_deg_ = 0;  // over the rises of all beams
+    std::size_t above_ = 0;         // the first beam above the height; beams_.size() if none
     std::vector<float> weights_;
 };
 

@@ -1,7 +1,7 @@
-// grid/fill/mixed_columns.h -- fills the columns of a tile from several gates a sweep, or cells
-// with an extent (grid/fill/mixed_column.h, grid/sweep/sweep_mixture.h).
+// grid/fill/mixed_columns.h -- fills the columns of a tile from several gates of each sweep, or as
+// cells with an extent (grid/fill/mixed_column.h, grid/sweep/sweep_mixture.h).
 //
-// Threads: one object a thread.
+// Threads   One object for each thread.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ class MixedColumns {
         : work_(work),
           mixed_(work.method.interpolation, work.stack.beam_width_deg, work.blending) {}
 
-    // How far the samples of a tile's columns reach.
+    // Returns how far the samples of a tile's columns reach.
     [[nodiscard]] SampleReach reach_over(const Tile& tile) const;
     void fill(std::span<const PlannedSweep> plan, std::span<const TileColumn> columns);
 

@@ -1,8 +1,8 @@
-// grid/fill/tile_columns.h -- what the fillers of tiles share: the columns of a tile, and their
+// grid/fill/tile_columns.h -- what the fillers of tiles share: the columns of a tile and their
 // beams.
 //
-// Threads: plain values; `FillWork` is read by all and its grid written by each tile in its own
-// cells.
+// Threads   Plain values. All threads read one `FillWork`; each tile writes its own cells of the
+//           grid.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +15,21 @@
 
 namespace stormcellar::grid {
 
-// One for all tiles.
+// The work for all tiles together.
 struct FillWork {
     const SweepStack& stack;
     const ColumnGeometry& geometry;
     const Method& method;
     Blending blending;
     LevelTable levels;
-    std::vector<float> heights_m;  // mixed columns are taken there, one or four a level
+    // heights at which mixed columns are evaluated, one or four for each level
+    std::vector<float> heights_m;
     SampleReach reach;
     float table_end;
     Grid& grid;
 };
 
-// A column of a tile, in the place of the tables.
+// A column of a tile, with its place in the tables.
 struct TileColumn {
     int ix = 0;
     int iy = 0;
@@ -44,8 +45,9 @@ inline std::span<float> values_of(const FillWork& work, const TileColumn& column
     return std::span(work.grid.values).subspan(column.first_cell, work.levels.size());
 }
 
-// Beams whose radials were measured higher or lower than their sweeps may change places. A lost cut
-// stays where it is: between the places, not the beams.
+// Sorts beams by height. Beams may change places if their radials were measured higher or lower
+// than their sweeps. A lost cut stays where it is: it belongs to the place in the order, not to the
+// beam.
 template <class Beam>
 void put_in_order(std::span<Beam> beams) {
     const auto lower = [](const Beam& a, const Beam& b) { return a.height_m < b.height_m; };

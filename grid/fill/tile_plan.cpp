@@ -5,7 +5,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Sweeps around number `at`, `reach` to each side.
+// The sweeps around one sweep, `reach` to each side.
 struct Around {
     std::size_t first, last;
 };
@@ -23,6 +23,9 @@ void TilePlan::make(std::span<const PolarSweep> sweeps, const std::vector<bool>&
     for (const PolarSweep& sweep : sweeps)
         uniform_.push_back(sweep.uniform_status(wider));
 
+    // A sweep is dropped if it and all sweeps around it are uniform and equal, without a lost cut
+    // between them. It is kept but not sampled if no sweep around it is sampled: then it counts as
+    // a state, without a detection limit that a value could mix with.
     planned_.clear();
     const std::size_t count = sweeps.size();
     for (std::size_t at = 0; at < count; ++at) {

@@ -1,10 +1,11 @@
-// grid/fill/tile_plan.h -- which sweeps have to be sampled over a tile, and which need not even be
-// looked at.
+// grid/fill/tile_plan.h -- which sweeps must be sampled over a tile, and which can be skipped.
 //
-// A sweep that is no echo, or not seen, all over a tile needs no sampling. Where the sweeps around
-// it are too, it changes no cell: what lies between two like states is that state.
-// Threads: one plan a thread. Exact: a grid has the same bits as if every sweep were sampled in
-// every column.
+// A sweep that is no echo, or not seen, all over a tile needs no sampling. If the sweeps around it
+// are the same, it changes no cell at all, because everything between two equal states is that
+// state.
+//
+// Threads   One plan for each thread.
+// Accuracy  Exact: a grid has the same bits as if every sweep were sampled in every column.
 #pragma once
 
 #include <span>
@@ -15,10 +16,10 @@
 namespace stormcellar::grid {
 
 struct PlannedSweep {
-    std::size_t index = 0;                     // into the sweeps
-    bool sampled = true;                       // else it is `status` all over the tile
-    CellStatus status = CellStatus::not_seen;  // where it is not sampled
-    bool adjacent_to_next = true;              // of those planned
+    std::size_t index = 0;                     // index of the sweep
+    bool sampled = true;                       // if false, the sweep has `status` all over the tile
+    CellStatus status = CellStatus::not_seen;  // if it is not sampled
+    bool adjacent_to_next = true;              // to the next sweep of the plan
 };
 
 // How far the samples of a column reach, and how many sweeps up and down make up a cell.
@@ -26,15 +27,15 @@ struct SampleReach {
     float azimuth_deg = 0;
     float arc_m = 0;
     int sweeps = 1;
-    bool in_order = true;  // sweeps are as high as their numbers say at every azimuth
+    bool in_order = true;  // at every azimuth, sweeps are as high as their order says
 };
 
 class TilePlan {
   public:
-    // `adjacent_to_next` has one entry a sweep; at least one sweep.
+    // `adjacent_to_next` has one entry for each sweep. There is at least one sweep.
     void make(std::span<const PolarSweep> sweeps, const std::vector<bool>& adjacent_to_next,
               const PolarBounds& bounds, const SampleReach& reach);
-    // Rising, at least one.
+    // Returns at least one sweep, in rising order.
     [[nodiscard]] std::span<const PlannedSweep> sweeps() const { return planned_; }
 
   private:

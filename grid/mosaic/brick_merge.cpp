@@ -13,10 +13,12 @@ constexpr double db_per_log2 = 3.0102999566398120;  // 10 log10(2)
 constexpr double nearest_range_m2 = 100.0 * 100.0;  // as in grid/beam/detection_limit.h
 constexpr std::size_t state_block_bytes = brick_cells / 4;
 
-// The last bricks of a grid often hold few levels.
+// The last bricks of a grid often hold only a few levels; for these the loops are shorter.
 constexpr int few = 4;
 
-// What there is in the sixteen codes of a column. No echo and folded are their codes.
+// The states that occur in the sixteen codes of a column, as bits. Since the codes of no echo (1)
+// and range folded (2) are bits themselves, one "or" over the column finds the states without a
+// branch.
 constexpr unsigned has_no_echo = 1;
 constexpr unsigned has_folded = 2;
 constexpr unsigned has_value = 4;
@@ -28,7 +30,8 @@ unsigned states_in(const Code* codes) {
     return states;
 }
 
-// Sixteen cells that hold one state.
+// A column whose sixteen cells are all in one state. A uniform brick has no codes in memory, so all
+// its columns point to one of these.
 template <class Code>
 constexpr std::array<std::array<Code, brick_edge>, 3> columns_of_states = [] {
     std::array<std::array<Code, brick_edge>, 3> columns{};
@@ -81,6 +84,9 @@ BrickMerger<Code>::BrickMerger(const MosaicOptions& options, const Quantization&
     }
 }
 
+// Finds the codes of each layer, whatever the kind of its brick: stored codes are used where they
+// lie, packed states are unpacked, and a uniform brick gets one constant column. After this, all
+// rules can treat all layers alike.
 template <class Code>
 void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExtent& extent) {
     codes_.resize(layers.size());
@@ -101,19 +107,22 @@ void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExte
             codes_[i] = {columns_of_states<Code>[state].data(), 0};
         }
     }
-    // Columns and cells beyond the extent are written by none.
+    // No rule writes the columns and cells beyond the extent, so they are cleared here.
     if (extent.cells() == static_cast<int>(brick_cells)) return;
     merged_.codes.fill(0);
     merged_.counts.fill(0);
     merged_.weights.fill(0);
 }
 
+// Prepares the detection limits. In decibels the limit rises by 20 log10(range), so its Z is
+// proportional to the square of the range. That square is arc^2 + (height - altitude)^2. Both terms
+// can be computed separately: the heights once for each brick, here, and the arcs for each column.
 template <class Code>
 void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
                                     std::span<const double> levels_m) {
     limits_.resize(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        // Z at 1 km, so per m^2.
+        // Z at 1 km; the factor 1e-6 makes it Z per m^2.
         limits_[i].scale =
             static_cast<Real>(std::pow(10.0, layers[i].limit.at_1km_dbz / 10) * 1e-6);
         for (std::size_t z = 0; z < levels_m.size(); ++z) {
@@ -123,6 +132,8 @@ void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
     }
 }
 
+// Finds the layers that see anything in this column. Most layers do not, because a site sees little
+// of the domain, and the cost of a column should depend on the others alone.
 template <class Code>
 void BrickMerger<Code>::find_active(std::size_t column) {
     active_.clear();
@@ -136,6 +147,8 @@ void BrickMerger<Code>::find_active(std::size_t column) {
     }
 }
 
+// Merges a column by the weighted mean. Three frequent cases need no sums: no layer sees anything,
+// one layer alone does, or all layers together see nothing but no echo.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size_t column,
@@ -161,8 +174,12 @@ void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size
     finish_mean(sums, to, height);
 }
 
-// Codes are widened first: bytes might be any object's, so that loops that write sums while they
-// read bytes do not run in vectors.
+// Adds one layer to the sums of a column. Each state has a loop of its own, which is left out if
+// the state does not occur. Inside a loop every cell is treated alike: a cell of another state adds
+// 0, so that the loop needs no branches.
+//
+// The codes are copied to wider integers first. The compiler must assume that bytes alias any
+// object, so it would not vectorize a loop that writes sums while it reads bytes.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::size_t column,
@@ -171,6 +188,8 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     for (std::size_t z = 0; z < size; ++z)
         codes[z] = active.codes[z];
     const auto weight = static_cast<Real>(layer.columns->weights[column]);
+    // No echo adds its weight. In a mean it also counts as a value, the detection limit, but this
+    // matters only if some layer has a value in this column.
     if ((active.states & has_no_echo) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.no_echo[z] += codes[z] == 1 ? weight : 0;
@@ -181,11 +200,14 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
                 sums.sum[z] += codes[z] == 1 ? weight * limits[z] : 0;
         }
     }
+    // Range folded adds its weight and nothing else.
     if ((active.states & has_folded) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.folded[z] += codes[z] == 2 ? weight : 0;
     }
     if ((active.states & has_value) == 0) return;
+    // Values add their weight, and weight times value. Averaging in Z takes Z from a table;
+    // averaging in dB uses the codes themselves, because values are linear in them.
     std::array<Real, size> values;
     for (std::size_t z = 0; z < size; ++z)
         values[z] =
@@ -197,7 +219,9 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     }
 }
 
-// In Z, or as codes.
+// Computes the detection limits of a layer in a column: as Z if the mean is in Z, else as codes. A
+// code is linear in dBZ and dBZ is linear in log2(Z), so log2(Z) gives the code with one
+// multiplication.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::find_limits(const BrickLayer& layer, const Limit& limit, std::size_t column,
@@ -214,6 +238,7 @@ void BrickMerger<Code>::find_limits(const BrickLayer& layer, const Limit& limit,
     limits = found;
 }
 
+// Decides the state of each cell by its three weights, and turns the sums of values into a code.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height) {
@@ -231,15 +256,16 @@ void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height
             Real code = sums.sum[z] / (with_limits_ ? value + no_echo : value);
             if (in_z_) code = code_base_ + code_per_log2_ * fast_log2(code);
             if (code < Real{first_value_code} - Real{0.5}) ++clamped_;
-            // Not below 3, so cutting the fraction off rounds down.
+            // The code is not below 3, so cutting off the fraction rounds it down.
             to[z] =
                 static_cast<Code>(std::clamp<Real>(code, first_value_code, largest) + Real{0.5});
         }
     }
 }
 
-// Values above no echo above range folded above not seen: the states of codes 1 and 2 change
-// places, so that the largest code is what is wanted.
+// Merges a column by the maximum. A value ranks above no echo, no echo above range folded, and
+// range folded above not seen. If the codes 1 and 2 change places, the larger code ranks higher, so
+// that one maximum over all codes decides; afterward they change back.
 template <class Code>
 void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
     alignas(64) std::array<Code, brick_edge> most{};
@@ -256,10 +282,13 @@ void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
         to[z] = ranked(most[static_cast<std::size_t>(z)]);
 }
 
+// Merges a column by the nearest site that sees each cell: from the nearest layer to the farthest,
+// each layer fills the cells that are still empty, until none is.
 template <class Code>
 void BrickMerger<Code>::merge_nearest(std::span<const BrickLayer> layers, std::size_t column,
                                       int height) {
-    // From the order of the column before it takes few steps.
+    // The layers are sorted by distance, by insertion into the order of the column before.
+    // Neighboring columns have almost the same order, so this takes few steps.
     const auto nearer = [&](std::size_t a, std::size_t b) {
         const float arc_a = layers[a].columns->squared_arcs_m2[column];
         const float arc_b = layers[b].columns->squared_arcs_m2[column];
@@ -311,6 +340,8 @@ const MergedBrick<Code>& BrickMerger<Code>::merge(std::span<const BrickLayer> la
     return merged_;
 }
 
+// Counts the sites that see each cell and adds up their weights, then stores both as codes. A sum
+// is limited before it is rounded, so that it fits into its code.
 template <class Code>
 const MergedBrick<Code>& BrickMerger<Code>::count(std::span<const BrickLayer> layers,
                                                   const BrickExtent& extent) {

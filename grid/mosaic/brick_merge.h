@@ -1,7 +1,11 @@
 // grid/mosaic/brick_merge.h -- merges one brick of several sites, by the rules of
 // stormcellar/grid/mosaic.h.
 //
-// Threads: a BrickMerger belongs to one thread.
+// The merger goes through the brick column by column. A column is 16 codes that lie one after the
+// other, so every step is a loop over 16 numbers that the compiler turns into vector instructions.
+// The weights of a site depend on the column alone.
+//
+// Threads   A BrickMerger may be used by one thread at a time.
 #pragma once
 
 #include <array>
@@ -16,30 +20,30 @@
 
 namespace stormcellar::grid {
 
-// What a rule weighs a site by in the columns of one brick.
+// How much each site counts in the columns of one brick, and how far it is.
 struct LayerColumns {
     ColumnValues weights{};
     ColumnValues squared_arcs_m2{};
 };
 
-// A site's brick at the place that is merged.
+// The brick of one site at the place that is merged.
 struct BrickLayer {
     const BrickView* view = nullptr;
-    std::size_t brick = 0;  // in that view
+    std::size_t brick = 0;  // number of the brick in that view
     const LayerColumns* columns = nullptr;
     DetectionLimit limit;
     double site_altitude_m = 0;
 };
 
-// The codes of a layer, 16 up each column.
+// The codes of a layer; each column has 16 of them.
 template <class Code>
 struct LayerCodes {
     const Code* first = nullptr;
-    std::size_t stride = brick_edge;  // 0: every column alike
+    std::size_t stride = brick_edge;  // 0: all columns are alike
     [[nodiscard]] const Code* column(std::size_t at) const { return first + at * stride; }
 };
 
-// What the cells of a brick come to.
+// The cells of the merged brick.
 template <class Code>
 struct MergedBrick {
     alignas(64) std::array<Code, brick_cells> codes{};
@@ -50,41 +54,42 @@ struct MergedBrick {
 inline constexpr Quantization count_quantization{1, 1, 1};
 inline constexpr Quantization weight_quantization{2, 0, 1.0F / 1024};
 
-// Code is std::uint8_t or std::uint16_t, as the views have it.
+// Code is std::uint8_t or std::uint16_t, like the codes of the views.
 template <class Code>
 class BrickMerger {
   public:
     BrickMerger(const MosaicOptions& options, const Quantization& quantization);
 
-    // The layers in the order in which they are summed, none of which may be uniformly not seen;
-    // `levels_m` are those of the brick. The result is valid until the next call.
+    // Merges the layers, which are summed in the given order. No layer may be uniformly not seen.
+    // `levels_m` are the levels of the brick. The result is valid until the next call.
     const MergedBrick<Code>& merge(std::span<const BrickLayer> layers, const BrickExtent& extent,
                                    std::span<const double> levels_m);
-    // Counts and weights alone.
+    // Computes the counts and the weights alone.
     const MergedBrick<Code>& count(std::span<const BrickLayer> layers, const BrickExtent& extent);
 
-    // Means that were below the least code, so far.
+    // Returns how many means were below the least code so far.
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_; }
 
   private:
-    // Sums of 1-byte codes are exact enough in floats, of 2-byte ones in doubles.
+    // Sums are exact enough in floats for 1-byte codes, and in doubles for 2-byte codes.
     using Real = std::conditional_t<sizeof(Code) == 1, float, double>;
-    using Word = std::conditional_t<sizeof(Code) == 1, std::int32_t, std::int64_t>;  // as long
+    // an integer of the same size
+    using Word = std::conditional_t<sizeof(Code) == 1, std::int32_t, std::int64_t>;
 
-    // What a layer's "no echo" stands for: scale * (arc^2 + (height - altitude)^2) is Z at its
+    // What "no echo" of a layer stands for: scale * (arc^2 + (height - altitude)^2) is the Z of its
     // detection limit.
     struct Limit {
         Real scale = 0;
         std::array<Real, brick_edge> squared_heights_m2{};
     };
 
-    // Of the lowest cells of a column.
+    // The sums of the lowest `size` cells of a column.
     template <std::size_t size>
     struct Sums {
-        std::array<Real, size> value{}, no_echo{}, folded{};  // weights
-        std::array<Real, size> sum{};                         // of weight times value
+        std::array<Real, size> value{}, no_echo{}, folded{};  // sums of weights
+        std::array<Real, size> sum{};                         // sum of weight times value
     };
-    // A layer that sees something of a column.
+    // A layer that sees something in a column.
     struct Active {
         std::size_t layer;
         unsigned states;
@@ -110,14 +115,14 @@ class BrickMerger {
     const MosaicOptions options_;
     const Quantization quantization_;
     bool in_z_, with_limits_;
-    Real code_per_log2_, code_base_;  // from log2 of Z to a code
-    std::vector<Real> linear_;        // of a code: Z, or the code itself
+    Real code_per_log2_, code_base_;  // convert log2 of Z to a code
+    std::vector<Real> linear_;        // by code: Z; empty if codes are averaged
     std::vector<LayerCodes<Code>> codes_;
     std::vector<Limit> limits_;
     std::vector<std::vector<Code>> unpacked_;
     std::vector<std::size_t> order_;  // nearest first
-    std::vector<Active> active_;      // of the column at hand
-    unsigned states_ = 0;             // of all that are active
+    std::vector<Active> active_;      // the active layers of the current column
+    unsigned states_ = 0;             // the states of all active layers together
     MergedBrick<Code> merged_;
     std::uint64_t clamped_ = 0;
 };

@@ -21,7 +21,8 @@ Vector place_of(const ColumnGeometry& geometry, int ix, int iy) {
     return {arc_m * std::sin(azimuth), arc_m * std::cos(azimuth)};
 }
 
-// From one column to the next; across the whole spec's edge, from the last one.
+// Returns the step from one column to the next; at the edge of the spec, the step from the column
+// before.
 Vector step(const ColumnGeometry& geometry, int ix, int iy, int dx, int dy) {
     const GridSpec& spec = geometry.spec();
     const int from_x = std::max(0, ix - dx);
@@ -48,13 +49,14 @@ Footprint footprint_of(const ColumnGeometry& geometry, int ix, int iy) {
     const ColumnPlace& at = geometry.row(iy)[static_cast<std::size_t>(ix)];
     const double sine = std::sin(static_cast<double>(at.azimuth_deg) * degree);
     const double cosine = std::cos(static_cast<double>(at.azimuth_deg) * degree);
-    // The inverse of the matrix whose columns are x and y, in east and north ...
+    // The coordinates u and v follow from the inverse of the matrix whose columns are x and y, in
+    // east and north ...
     const double area_m2 = x.east_m * y.north_m - x.north_m * y.east_m;
     const double u_east = y.north_m / area_m2;
     const double u_north = -y.east_m / area_m2;
     const double v_east = -x.north_m / area_m2;
     const double v_north = x.east_m / area_m2;
-    // ... and turned: along is (sine, cosine), across (cosine, -sine).
+    // ... which is turned here: along is (sine, cosine), across is (cosine, -sine).
     Footprint footprint;
     footprint.azimuth_deg = at.azimuth_deg;
     footprint.arc_m = at.arc_m;

@@ -1,12 +1,16 @@
 // grid/sweep/azimuth_table.h -- which radials of a sweep see an azimuth.
 //
-// The nearest one, or the two on either side of it, or all within a reach. Where neighbouring
-// radials are more than one and a half spacings apart there is a gap: each then reaches half a
-// spacing into it, the rest is seen by none, and no pair or neighbourhood reaches across. Of
-// radials at the same azimuth the later one (in the order given) counts. Any order, any number,
-// wrap included.
-// Exact: a lookup is a table of quarter degrees and a step or two along sorted boundaries.
-// Threads: immutable.
+// The table finds the nearest radial, the two on either side of an azimuth, or all within a reach.
+// Where neighboring radials are more than one and a half spacings apart, there is a gap. Each of
+// the two then reaches half a spacing into the gap, and no radial sees the rest of it; no pair and
+// no neighborhood reaches across. Of radials at the same azimuth the later one, in the given order,
+// counts. Radials may come in any order and any number, and wrap around north.
+//
+// A lookup is exact: a table of quarter degrees gives the sector, within a step or two along sorted
+// boundaries.
+//
+// Units     Degrees, clockwise from north.
+// Threads   Immutable.
 #pragma once
 
 #include <algorithm>
@@ -23,14 +27,14 @@ class AzimuthTable {
   public:
     static constexpr int none = -1;
 
-    // Azimuths in [0, 360), one a radial; a spacing above 0.
+    // Azimuths are in [0, 360), one for each radial; the spacing is above 0.
     AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg);
 
-    // The position in the list given, or none. The azimuth must be in [0, 360).
+    // Returns the position in the given list, or none. The azimuth must be in [0, 360).
     [[nodiscard]] int find(float azimuth_deg) const { return radials_[sector_at(azimuth_deg)]; }
 
-    // The nearest radial and the one on the other side of the azimuth, `other_weight` in [0, 1/2]
-    // being the latter's share if values are linear in between; none across a gap.
+    // The nearest radial and the one on the other side of the azimuth. `other_weight`, in [0, 1/2],
+    // is the share of the other if values are linear in between. `other` is none across a gap.
     struct Bracket {
         int nearest = none;
         int other = none;
@@ -38,21 +42,23 @@ class AzimuthTable {
     };
     [[nodiscard]] Bracket bracket(float azimuth_deg) const;
 
-    // The radials within `reach_deg` of an azimuth that some radial sees, none of them across a
-    // gap: visit(position, offset_deg), the offset positive clockwise. Nothing where none sees it.
+    // Calls visit(position, offset_deg) for each radial within `reach_deg` of an azimuth, without
+    // going across a gap. The offset is positive clockwise. If no radial sees the azimuth, none is
+    // visited.
     template <class Visit>
     void visit(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // The same, but gaps do not matter, and all radials when the reach is 180.
+    // The same, but across gaps too. With a reach of 180 all radials are visited.
     template <class Visit>
     void visit_all(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // The share of the azimuths from `from_deg`, clockwise over `width_deg` of at most 360, that
-    // some radial sees.
+    // Returns the share of the azimuths that some radial sees, from `from_deg` clockwise over
+    // `width_deg`, which is at most 360.
     [[nodiscard]] double seen_share(double from_deg, double width_deg) const;
 
-    // Every radial that sees some azimuth from `from_deg` to `to_deg` (from <= to < from + 360,
-    // from in [0, 360)): visit(position), which may be none. Stops when visit returns false.
+    // Calls visit(position) for every radial that sees some azimuth from `from_deg` to `to_deg`
+    // (from <= to < from + 360, from in [0, 360)). The position may be none. Stops when visit
+    // returns false.
     template <class Visit>
     void visit_between(float from_deg, float to_deg, Visit visit) const;
 
@@ -75,7 +81,7 @@ class AzimuthTable {
             ++at;
         return at;
     }
-    // From one azimuth to another, within +-180.
+    // Returns the turn from one azimuth to another, within +-180 degrees.
     [[nodiscard]] static float turn_deg(float from_deg, float to_deg) {
         const float turn = to_deg - from_deg;
         return turn > 180 ? turn - 360 : turn < -180 ? turn + 360 : turn;
@@ -87,8 +93,8 @@ class AzimuthTable {
     float spacing_deg_;
     bool has_gaps_ = false;
     std::vector<Entry> entries_;  // by azimuth
-    // Sectors side by side from 0 to 360 degrees: where each ends, who sees it, and which entry
-    // that is.
+    // The sectors from 0 to 360 degrees: where each ends, which radial sees it, and the entry of
+    // that radial.
     std::vector<float> ends_deg_;
     std::vector<int> radials_;
     std::vector<int> sector_entries_;

@@ -1,7 +1,9 @@
 // grid/sweep/busy_blocks.h -- where along the radials of a sweep there is anything but no echo.
 //
-// A bit for each block of 32 gates of each radial. Exact: a quiet stretch holds code 0 alone.
-// Threads: immutable after the last mark().
+// There is a bit for each block of 32 gates of each radial. It is exact: a quiet stretch holds code
+// 0 alone.
+//
+// Threads   Immutable after the last mark().
 #pragma once
 
 #include <cstddef>
@@ -14,13 +16,13 @@ namespace stormcellar::grid {
 class BusyBlocks {
   public:
     BusyBlocks() = default;
-    // `rows` radials of at most `gates` gates.
+    // Makes room for `rows` radials of at most `gates` gates.
     BusyBlocks(std::size_t rows, std::size_t gates);
 
-    // The codes of a radial; those it lacks up to `gates` count as quiet.
+    // Marks the blocks of a radial. Gates that it lacks, up to `gates`, count as quiet.
     void mark(std::size_t row, std::span<const std::uint8_t> codes);
 
-    // Blocks of all gates from one to another, both included and within `gates`.
+    // The blocks that hold the gates from one to another, both included and within `gates`.
     struct Stretch {
         std::size_t first = 0, last = 0;
     };

@@ -17,7 +17,9 @@ Blending blending_of(level2::Moment moment) {
     }
 }
 
-// What is there already weighs more, or came first.
+// Adds a value by its difference from the reference, the shorter way round. The reference is the
+// first value, because the caller adds the one that weighs most first. A value on another circle is
+// left out.
 void Mixture::add_on_circle(float value, float half_period, float weight) {
     const bool is_first = sum_weight_ == 0 && !(half_period_ > 0);
     if (is_first) {

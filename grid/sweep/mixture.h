@@ -1,14 +1,18 @@
-// grid/sweep/mixture.h -- what gates hold, and what a cell holds that several of them make up: the
+// grid/sweep/mixture.h -- what a gate holds, and what a cell holds that mixes several gates: the
 // status rule.
 //
-// DESIGN section 5: a cell has weights v (valued), n (no echo), f (folded) and u (not seen). u over
-// one half: not seen; else f the largest: range folded; else v < n: no echo; else a value, into
-// which no echo enters at its gate's detection limit for reflectivity and never for other moments.
-// Folded and not seen never enter a value: the weights of the rest are scaled to 1.
-// Moments that wrap (VEL on +-Nyquist, PHI on 360 degrees) are averaged on their circle: every
-// value by the shorter way round from the one that weighs most. Values whose circles differ, or
-// whose circle is not known, are not averaged: the one that weighs most stands.
-// Threads: plain values.
+// The rule (docs/geometry.md): the gates give a cell the weights v (valued), n (no echo), f (range
+// folded) and u (not seen). If u is over one half, the cell is not seen; else if f is the largest,
+// it is range folded; else if v < n, it is no echo; else it has a value. Range folded and not seen
+// never enter a value; the other weights are scaled to 1. For reflectivity, no echo enters a value
+// with the detection limit of its gate; for other moments it does not.
+//
+// Moments that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle: every
+// value counts by its difference from the value that weighs most, the shorter way round. Values
+// whose circles differ, or whose circle is not known, cannot be averaged; then the value that
+// weighs most is the result.
+//
+// Threads   Plain values.
 #pragma once
 
 #include <cmath>
@@ -34,9 +38,9 @@ enum class Blending {
 // One gate.
 struct Sample {
     CellStatus status = CellStatus::not_seen;
-    float value = 0;  // where the status is value
-    float limit = 0;  // where the status is no_echo: what the gate could have seen, as `value`
-    float half_period = 0;  // of moments that wrap; 0: not known
+    float value = 0;        // if the status is value
+    float limit = 0;        // if the status is no_echo: the detection limit, in the unit of `value`
+    float half_period = 0;  // for moments that wrap; 0: not known
 };
 
 struct CellResult {
@@ -44,21 +48,22 @@ struct CellResult {
     float value = 0;
 };
 
-// Onto [-half_period, half_period).
+// Returns the value within [-half_period, half_period).
 [[nodiscard]] inline float wrap(float value, float half_period) {
     const float period = 2 * half_period;
     return value - period * std::floor((value + half_period) / period);
 }
 
-// Of two samples, `weight_b` in [0, 1] being the second one's share.
+// Blends two samples; `weight_b`, in [0, 1], is the share of the second.
 [[nodiscard]] CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending);
-// The same where is_circular(blending) is known.
+// The same, for callers that know is_circular(blending).
 template <bool circular>
 [[nodiscard]] CellResult blend_as(const Sample& a, const Sample& b, float weight_b,
                                   Blending blending);
 
-// The weights of any number of samples. Where the moment wraps, add the one first that weighs most,
-// or say whose circle and which value all others are taken from.
+// Adds up the weights of any number of samples. If the moment wraps, the sample that weighs most
+// must be added first, or refer_to() must name the circle and the value from which all differences
+// are taken.
 class Mixture {
   public:
     void refer_to(const Sample& sample) {
@@ -69,13 +74,13 @@ class Mixture {
         is_circular(blending) ? add_as<true>(sample, weight, blending)
                               : add_as<false>(sample, weight, blending);
     }
-    // The same where is_circular(blending) is known.
+    // The same, for callers that know is_circular(blending).
     template <bool circular>
     void add_as(const Sample& sample, float weight, Blending blending);
-    // As if so many samples of a status were added, each with weight 1, whose values (or, of no
-    // echo, limits) add up to `sum`. Not for moments that wrap.
+    // Adds `count` samples of one status, each with weight 1, whose values add up to `sum`; for no
+    // echo, their limits add up to it. This is not for moments that wrap.
     void add_counted(CellStatus status, int count, float sum, Blending blending);
-    // As if all of its samples were added, each with `weight` times its own.
+    // Adds all samples of another mixture, each with `weight` times its own weight.
     void add(const Mixture& other, float weight, Blending blending);
     void add_unseen(float weight) { unseen_ += weight; }
 
@@ -86,7 +91,7 @@ class Mixture {
     [[nodiscard]] CellResult result_as(Blending blending) const;
     [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + unseen_; }
     [[nodiscard]] float unseen() const { return unseen_; }
-    // Nothing but no echo is in it, or nothing but not seen.
+    // These return true if the mixture holds nothing but no echo, or nothing but not seen.
     [[nodiscard]] bool is_all_quiet() const { return valued_ + folded_ + unseen_ == 0; }
     [[nodiscard]] bool is_all_unseen() const { return valued_ + quiet_ + folded_ == 0; }
 
@@ -94,9 +99,9 @@ class Mixture {
     void add_on_circle(float value, float half_period, float weight);
 
     float valued_ = 0, quiet_ = 0, folded_ = 0, unseen_ = 0;
-    float sum_ = 0;          // of weight times value, limits included; circular: of differences
-    float sum_weight_ = 0;   // of what is in sum_
-    float reference_ = 0;    // circular: differences are from here
+    float sum_ = 0;  // of weight times value, limits included; circular: of weight times difference
+    float sum_weight_ = 0;   // the weight of what is in sum_
+    float reference_ = 0;    // circular: differences are taken from this value
     float half_period_ = 0;  // circular
 };
 

@@ -9,14 +9,15 @@
 namespace stormcellar::grid {
 namespace {
 
-// Stand in for a beam that never passes over an arc: no gate, and above everything, so far that
-// nothing between it and the arc before comes down to a height that could be meant.
+// These stand for a beam that never passes over an arc: it has no gate, and it is above everything,
+// so far that the line from the arc before does not pass any height that could be meant.
 constexpr double no_gate = -1e9;
 constexpr float above_everything_m = 1e30F;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// An edge that should lie at most (at least) as high as the beam's center.
+// An edge is lost if it is on the wrong side of the beam's center. NaN: it never passes over the
+// arc.
 bool is_lost_lower(double edge_m, double center_m) {
     return std::isnan(edge_m) || edge_m > center_m;
 }
@@ -32,6 +33,7 @@ ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std
             }};
 }
 
+// CFP uses the codes 0 to 7 as flags, all other moments 0 and 1.
 std::uint16_t first_valid_code(level2::Moment moment) {
     return moment == level2::Moment::cfp ? 8 : 2;
 }
@@ -40,7 +42,7 @@ constexpr float full_phase_half_deg = 180;
 
 float in_unit(float value, Averaging averaging) {
     if (averaging == Averaging::in_db) return value;
-    // Nobody measured more, and floats end at 385 dBZ.
+    // Nobody has measured more, and floats end at 385 dBZ.
     return std::pow(10.0F, std::clamp(value, -300.0F, 300.0F) / 10);
 }
 
@@ -52,7 +54,7 @@ std::vector<float> value_table(const level2::SweepMoment& moment, Averaging aver
     return values;
 }
 
-// Gates of a radial that are really there, whatever the counts say.
+// Returns the gates of a radial that really exist, whatever the damaged counts say.
 std::int32_t gates_of(const level2::SweepMoment& moment, std::size_t radial) {
     if (radial >= moment.gate_counts.size() || moment.gate_spacing_m <= 0) return 0;
     const std::size_t held =
@@ -108,6 +110,8 @@ PolarSweep::PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen, co
     mark_blocks();
 }
 
+// Fills the table of the beam: for each step along the arc the heights of its center and of its
+// edges. Only this loop asks the beam model; sampling interpolates in the table.
 void PolarSweep::make_beam_table(double elevation_deg, const BeamModel& beam,
                                  const PolarSweepOptions& options) {
     const BeamPath center = beam.path(elevation_deg);
@@ -128,6 +132,8 @@ void PolarSweep::make_beam_table(double elevation_deg, const BeamModel& beam,
         double upper_m = upper.over(arc_m).height_m;
         const bool no_lower = is_lost_lower(lower_m, height_m);
         const bool no_upper = is_lost_upper(upper_m, height_m);
+        // A missing edge is mirrored from the other edge. If both are missing, half the beam width
+        // at this range stands for each.
         if (no_upper) {
             const double free_m = range_m * options.half_beam_deg * degree;
             upper_m = height_m + (no_lower ? free_m : height_m - lower_m);
@@ -155,7 +161,9 @@ void PolarSweep::add_kind(const level2::SweepMoment& moment, const BeamPath& pat
     kinds_.push_back(std::move(kind));
 }
 
-// Of the radials' attenuation, which all share as a rule.
+// Tabulates, for each gate, what its range adds to the detection limit. The attenuation is that of
+// the radial that comes first; as a rule all radials share it, and detection_limit_of() corrects
+// those that do not.
 void PolarSweep::add_losses(float attenuation_db_per_m, Kind& kind) const {
     const DetectionLimit at_zero_dbz{0, 0};
     kind.attenuation_db_per_m = attenuation_db_per_m;
@@ -165,6 +173,8 @@ void PolarSweep::add_losses(float attenuation_db_per_m, Kind& kind) const {
         const float attenuation_db = attenuation_db_per_m * static_cast<float>(range_m);
         kind.losses.push_back({static_cast<float>(at_zero_dbz.at(range_m)), attenuation_db});
     }
+    // The mean over a cell with an extent adds up the limits of long runs of gates. With running
+    // sums each run costs one subtraction (add_gates()).
     if (averaging_ == Averaging::in_db && cell_ == CellExtent::area) {
         double sum = 0;
         kind.loss_sums.push_back(sum);
@@ -178,6 +188,8 @@ void PolarSweep::add_losses(float attenuation_db_per_m, Kind& kind) const {
         loss = {in_unit(loss.spreading, averaging_), in_unit(loss.attenuation, averaging_)};
 }
 
+// Prepares one row for each radial that is used: where its codes are, and what its limits and its
+// circle are. A radial belongs to the first kind in which it has gates.
 void PolarSweep::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
                           const PolarSweepOptions& options) {
     for (const std::uint32_t radial : chosen.radials) {
@@ -209,6 +221,9 @@ void PolarSweep::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
     }
 }
 
+// Marks the blocks of gates that hold anything other than code 0, so that uniform_status() can tell
+// at once that a tile sees nothing but no echo. This is done only for the usual coding: one kind of
+// radials, 8-bit codes, and code 0 for no echo.
 void PolarSweep::mark_blocks() {
     if (rows_.empty()) return;
     const auto [fewest, most] =
@@ -226,6 +241,8 @@ void PolarSweep::mark_blocks() {
     }
 }
 
+// Decides for a whole tile: first by the gates at its nearest and its farthest arc, then by the
+// blocks between them in every radial that passes the tile.
 std::optional<CellStatus> PolarSweep::uniform_status(const PolarBounds& bounds) const {
     if (busy_.is_empty()) return std::nullopt;
     const Kind& kind = kinds_[0];
@@ -300,8 +317,8 @@ Sample PolarSweep::gate(int position, std::int32_t gate) const {
     return gate_of(row, kinds_[row.kind], gate);
 }
 
-// Most stretches hold no echo: their limits add up to a difference of two sums. The same codes give
-// the same bits in 8 bits and in 16.
+// Adds a run of gates with weight 1. The same codes give the same bits in 8 bits and in 16, because
+// the two branches below differ only in how a code is read and turned into a value.
 void PolarSweep::add_gates(int position, std::int32_t first, std::int32_t end,
                            Mixture& mixture) const {
     if (first >= end) return;
@@ -333,6 +350,8 @@ void PolarSweep::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
                                  std::int32_t end, const CodeAt& code_at, const ValueOf& value_of,
                                  Mixture& mixture) const {
     const bool has_limits = blending_ == Blending::with_detection_limit;
+    // Most runs hold nothing but code 0, no echo. One "or" over the run finds out, and the running
+    // sums of the kind give the sum of its detection limits.
     unsigned any = 0;
     for (std::int32_t gate = first; gate < end; ++gate)
         any |= code_at(gate);
@@ -346,6 +365,7 @@ void PolarSweep::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
         mixture.add_counted(CellStatus::no_echo, end - first, static_cast<float>(sum), blending_);
         return;
     }
+    // Otherwise the gates are counted by state, and values and limits are added up.
     int valued = 0, quiet = 0;
     float values = 0, limits = 0;
     for (std::int32_t gate = first; gate < end; ++gate) {
@@ -374,7 +394,7 @@ void PolarSweep::add_along_radial(int position, ArcPlace place, float weight,
     if (!within) return mixture.add_unseen(weight);
     const Kind& kind = kinds_[row.kind];
     const auto nearest = static_cast<std::int32_t>(at.number_and_half);
-    // From -1/2 to 1/2: how far the place lies beyond the centre of the nearest gate.
+    // How far the place lies beyond the center of the nearest gate, from -1/2 to 1/2 of a gate.
     const float beyond = at.number_and_half - static_cast<float>(nearest) - 0.5F;
     const std::int32_t other = beyond < 0 ? nearest - 1 : nearest + 1;
     const bool alone = other < at.first || other >= at.end;

@@ -1,19 +1,24 @@
-// grid/sweep/polar_sweep.h -- one sweep of a moment, made ready to be sampled at many columns.
+// grid/sweep/polar_sweep.h -- one sweep of a moment, prepared for being sampled at many columns.
 //
-// What depends on the arc alone (the gate's number, the beam's height) stands in tables of arc, 500
-// m apart, and is linear between: off by less than 0.15 m in range and height within 500 km, of the
-// 4/3 earth and of rays through the reference atmosphere, elevations of -5 to 60 degrees (enforced
-// by tests/grid/polar_sweep_test.cpp, as what follows; kinked profiles:
-// stormcellar/grid/beam_model.h). The beam of a radial that was measured higher or lower than its
-// sweep lies where the parabola through the beam's center and edges has it: within 0.25 m of the
-// 4/3 earth up to half a beam off, its edges within 1 m (elevations -5 to 60 degrees, beams of 0.95
-// degrees within 470 km and below 21 km); the gate stays that of the sweep's elevation. An edge of
-// the beam is lost where it never passes over an arc, or passes on the other side of the beam's
-// center: ducts do that, and the ground. A lost edge stands as far off the center as the other one
-// does, or where both are lost as half the beam is wide at its range: so the rise by degree is that
-// of the half that is there. Nothing is seen between the center and a lost edge. Values are in the
-// moment's unit, or in mm^6/m^3 (Averaging::in_z, reflectivity alone). Refers to the volume, which
-// must outlive it. Immutable; use it from many threads.
+// What depends on the arc alone (the number of the gate, the height of the beam) is in tables with
+// a step of 500 m along the arc, and linear in between.
+//
+// A radial that was measured higher or lower than its sweep has its beam on the parabola through
+// the beam's center and edges; its gates are those of the sweep's elevation. An edge of the beam is
+// lost if it never passes over an arc, or if it passes on the other side of the beam's center;
+// ducts and the ground do that. A missing edge is mirrored from the other edge; if both are
+// missing, half the beam width at the range of the center replaces them. So the rise for each
+// degree is that of the half that exists. Nothing is seen between the center and a lost edge.
+//
+// Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
+//           only).
+// Threads   Immutable; many threads may use one object. It refers to the volume, which must outlive
+//           it.
+// Accuracy  Enforced by tests/grid/polar_sweep_test.cpp for elevations of -5 to 60 degrees. tables
+//           0.15 m in range and height within 500 km, for the 4/3 earth and for rays through
+//                    the reference atmosphere (kinked profiles: stormcellar/grid/beam_model.h)
+//           radials  up to half a beam off: the center within 0.25 m of the 4/3 earth, the edges
+//                    within 1 m, for beams of 0.95 degrees within 470 km and below 21 km
 #pragma once
 
 #include <array>
@@ -43,7 +48,7 @@ struct PolarSweepOptions {
     ChosenExtent cell = {};
 };
 
-// A beam whose center never passes over an arc is said to be higher than this there.
+// Where the center of a beam never passes over an arc, the beam counts as higher than this.
 inline constexpr float highest_beam_m = 1e8F;
 
 class PolarSweep {
@@ -51,14 +56,15 @@ class PolarSweep {
     PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen, const BeamModel& beam,
                const PolarSweepOptions& options);
 
-    // Heights of the beam's centre and of its edges, half a beam width off. Lost edges too.
+    // The heights of the beam's center and of its edges, half a beam width off, lost edges
+    // included.
     struct BeamHeights {
         float center_m = 0, lower_m = 0, upper_m = 0;
     };
-    // What the tables have at an arc.
+    // What the tables hold for an arc.
     struct BeamAtArc {
         BeamHeights heights;
-        float gate_and_half = 0;  // GatePlace::number_and_half, of the first kind of radials
+        float gate_and_half = 0;  // GatePlace::number_and_half for the first kind of radials
     };
     [[nodiscard]] BeamAtArc beam_at(ArcPlace place) const {
         const Lanes& here = beam_[place.index];
@@ -69,7 +75,7 @@ class PolarSweep {
         return {{at[0], at[1], at[2]}, at[3]};
     }
     [[nodiscard]] BeamHeights heights(ArcPlace place) const { return beam_at(place).heights; }
-    // Of a beam so much higher than the sweep's elevation.
+    // The same for a beam that is higher than the sweep's elevation by `offset_deg`.
     [[nodiscard]] BeamHeights heights(ArcPlace place, float offset_deg) const {
         return offset(heights(place), offset_deg);
     }
@@ -91,7 +97,7 @@ class PolarSweep {
     [[nodiscard]] float rise_m_per_deg(const BeamHeights& heights) const {
         return (heights.upper_m - heights.lower_m) / 2 * halves_per_deg_;
     }
-    // What is seen of a beam: lost edges are drawn in to the center.
+    // Returns the part of the beam that is seen: lost edges are moved to the center.
     [[nodiscard]] BeamHeights without_lost_edges(ArcPlace place, BeamHeights heights) const {
         if (lost_edges_.empty()) return heights;
         const unsigned lost = lost_edges_[place.index] | lost_edges_[place.index + 1];
@@ -99,81 +105,85 @@ class PolarSweep {
         if ((lost & lost_upper) != 0) heights.upper_m = heights.center_m;
         return heights;
     }
-    // The nearest radial; AzimuthTable::none where there is none. Positions count the radials used.
+    // Returns the position of the nearest radial among the radials used, or AzimuthTable::none.
     [[nodiscard]] int radial_at(float azimuth_deg) const { return azimuths_.find(azimuth_deg); }
-    // The nearest gate of the radial at that position.
+    // Returns the nearest gate of the radial at that position.
     [[nodiscard]] Sample sample(int position, ArcPlace place) const {
         return sample(position, place, beam_at(place));
     }
     [[nodiscard]] Sample sample(float azimuth_deg, ArcPlace place) const {
         return sample(radial_at(azimuth_deg), place);
     }
-    // The same from beam_at(place).
+    // The same, for callers that have beam_at(place) already.
     [[nodiscard]] Sample sample(int position, ArcPlace place, const BeamAtArc& beam) const;
-    // Linear in range between two gates of that radial. Half a gate beyond the first and last gate
-    // that gate alone counts.
+    // Adds two gates of that radial, linear in range. Half a gate beyond the first and the last
+    // gate, that gate alone counts.
     void add_along_radial(int position, ArcPlace place, float weight, Mixture& mixture) const;
-    // The radial's number for the gate: whole numbers and a half at gate centres.
+    // The gate of a radial as a number, which is a whole number and a half at the centers of gates.
     struct GatePlace {
         float number_and_half = 0;  // its floor is the nearest gate
-        std::int32_t first = 0;     // gates that are not at negative range
+        std::int32_t first = 0;     // the first gate that is not at negative range
         std::int32_t end = 0;
     };
     [[nodiscard]] GatePlace gate_place(int position, ArcPlace place) const;
-    // How many gates a metre of arc passes over; the radials of one kind share it (0 where the
-    // beam passes over no farther). Of the first kind, if there are several.
+    // Returns how many gates the beam passes for each meter of arc; 0 where the beam does not pass
+    // any farther. All radials of one kind share it. If there are several kinds, the result is that
+    // of the first.
     [[nodiscard]] float gates_per_m_of_arc(ArcPlace place) const;
-    // A gate of GatePlace's range.
+    // Returns a gate within the range of GatePlace.
     [[nodiscard]] Sample gate(int position, std::int32_t gate) const;
-    // All gates from `first` to before `end`, in that range, each with weight 1; none where `end`
-    // is not behind `first`.
+    // Adds all gates from `first` to before `end`, each with weight 1. The gates must be within
+    // that range. Adds none if `end` is not above `first`.
     void add_gates(int position, std::int32_t first, std::int32_t end, Mixture& mixture) const;
 
-    // How much higher the radial was measured than the sweep's elevation.
+    // Returns how much higher the radial was measured than the sweep's elevation.
     [[nodiscard]] float elevation_offset_deg(int position) const {
         return rows_[static_cast<std::size_t>(position)].elevation_offset_deg;
     }
     [[nodiscard]] const AzimuthTable& azimuths() const { return azimuths_; }
     [[nodiscard]] Blending blending() const { return blending_; }
     [[nodiscard]] std::size_t radial_count() const { return rows_.size(); }
-    // Into Sweep::radials.
+    // Returns the index in Sweep::radials.
     [[nodiscard]] std::uint32_t radial_index(int position) const {
         return rows_[static_cast<std::size_t>(position)].radial;
     }
 
-    // The gates of the radial; null where it has none of the moment.
+    // Returns the gates of the radial; null if it has none of the moment.
     [[nodiscard]] const level2::SweepMoment* moment_of(int position) const {
         const Row& row = rows_[static_cast<std::size_t>(position)];
         return row.gate_count > 0 ? kinds_[row.kind].moment : nullptr;
     }
 
-    // What every sample within the bounds is, when that is no echo for all or not seen for all;
-    // also of mixtures, which take in one gate and one radial more. None: they may differ.
+    // Returns the status that every sample within the bounds has, if they are all no echo or all
+    // not seen. This also holds for mixtures, which take in one more gate and one more radial.
+    // Returns none if the samples may differ.
     [[nodiscard]] std::optional<CellStatus> uniform_status(const PolarBounds& bounds) const;
 
   private:
-    // A BeamAtArc in the order of its members, which the compiler turns into one vector.
+    // A BeamAtArc in the order of its members. The compiler turns it into one vector.
     using Lanes = std::array<float, 4>;
     static constexpr std::uint8_t lost_lower = 1, lost_upper = 2;
     // The radials of a sweep that share gate geometry and coding.
     struct Kind {
         const level2::SweepMoment* moment = nullptr;
-        ArcTable gate;                // gate number plus one half: its floor is the nearest
+        ArcTable gate;  // gate number plus one half, so that its floor is the nearest gate
         std::int32_t first_gate = 0;  // the first that is not at negative range
         std::uint16_t first_valid_code = 2;
         std::vector<float> values;  // by code, for 8-bit codes
-        // By gate, for moments with a detection limit: what the range adds to it, or multiplies it
-        // by.
+        // By gate, for moments with a detection limit: what the range adds to the limit in dB, or
+        // the factor by which it multiplies the limit in Z.
         struct Loss {
             float spreading;    // 20 log10 of the range in km, or its power
-            float attenuation;  // of radials whose attenuation_db_per_m is the kind's
+            float attenuation;  // for radials whose attenuation_db_per_m is that of the kind
         };
         std::vector<Loss> losses;
-        std::vector<double> loss_sums;  // of both, of all gates before; only for cells of an extent
+        // sums of both over all earlier gates; only for cells with an extent
+        std::vector<double> loss_sums;
         float attenuation_db_per_m = 0;
     };
     struct Row {
-        const std::uint8_t* codes8 = nullptr;  // of this radial, where codes have 8 bits
+        // the codes of this radial if they have 8 bits, else null
+        const std::uint8_t* codes8 = nullptr;
         std::uint32_t kind = 0;
         std::uint32_t radial = 0;
         std::int32_t gate_count = 0;
@@ -181,7 +191,8 @@ class PolarSweep {
         float attenuation_db_per_m = 0;
         float half_period = 0;
         float elevation_offset_deg = 0;
-        bool has_simple_limit = false;  // detection limits are in dB and the kind's losses hold
+        // detection limits are in dB, and the losses of the kind apply
+        bool has_simple_limit = false;
     };
 
     void add_kind(const level2::SweepMoment& moment, const BeamPath& path, std::size_t table_size);
@@ -195,7 +206,7 @@ class PolarSweep {
     [[nodiscard]] Sample wide_gate_of(const Row& row, const Kind& kind, std::int32_t gate) const;
     [[nodiscard]] Sample without_value(const Row& row, const Kind& kind, std::int32_t gate,
                                        std::uint16_t code) const;
-    // Gates that are a value, no echo or range folded, with simple limits where they have some.
+    // These gates are values, no echo or range folded, and have simple limits if they have limits.
     template <class CodeAt, class ValueOf>
     void add_plain_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
                          const CodeAt& code_at, const ValueOf& value_of, Mixture& mixture) const;
@@ -205,13 +216,13 @@ class PolarSweep {
     Blending blending_;
     ChosenAveraging averaging_;
     ChosenExtent cell_;
-    float halves_per_deg_;                  // half beam widths a degree
-    std::vector<Lanes> beam_;               // by arc, as an ArcTable
-    std::vector<std::uint8_t> lost_edges_;  // by arc; empty where no edge is lost
+    float halves_per_deg_;                  // half beam widths in a degree
+    std::vector<Lanes> beam_;               // by arc, like an ArcTable
+    std::vector<std::uint8_t> lost_edges_;  // by arc; empty if no edge is lost
     std::vector<Kind> kinds_;
     std::vector<Row> rows_;
     AzimuthTable azimuths_;  // positions in rows_
-    BusyBlocks busy_;        // only of 8-bit codes of one kind, where 0 is no echo
+    BusyBlocks busy_;        // only for 8-bit codes of one kind whose code 0 is no echo
     std::int32_t fewest_gates_ = 0, most_gates_ = 0;  // of any row
 };
 
@@ -240,7 +251,7 @@ inline Sample PolarSweep::sample(int position, ArcPlace place, const BeamAtArc& 
     return gate_of(row, kind, static_cast<std::int32_t>(gate_and_half));
 }
 
-// The greatest arc that any used gate of the sweep lies at.
+// Returns the greatest arc of any used gate of the sweep.
 [[nodiscard]] double greatest_arc_m(const level2::Sweep& sweep, const ChosenSweep& chosen,
                                     level2::Moment moment, const BeamModel& beam);
 

@@ -9,20 +9,21 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double same_elevation_deg = 0.2;
-// Of the fullest sweep's azimuths, of the farthest's range, of the longest unambiguous range.
+// A sweep is good enough with this share of the fullest sweep's azimuths, of the farthest range,
+// and of the longest unambiguous range.
 constexpr double full_enough = 0.9;
 constexpr double widest_spacing_deg = 2;
 constexpr double believable_vcp_error_deg = 0.5;
 constexpr float lowest_elevation_deg = -10;
 constexpr float highest_elevation_deg = 89;
-constexpr float largest_value = 1e5F;  // of any moment, in its unit
+constexpr float largest_value = 1e5F;  // for any moment, in its unit
 
 struct Candidate {
     ChosenSweep sweep;
     double angle_deg = 0;  // fixed angle where it is known
     double covered_deg = 0;
-    double reach_m = 0;
-    double unambiguous_m = 0;  // 0: not known, or it does not matter for the moment
+    double reach_m = 0;        // the fixed angle if it is known
+    double unambiguous_m = 0;  // 0: not known, or without meaning for the moment
 };
 
 struct Pattern {
@@ -43,7 +44,7 @@ const std::vector<Pattern>& early_patterns() {
     return patterns;
 }
 
-// A damaged scale makes values that nobody measured, infinite ones among them.
+// A damaged scale gives values that nobody measured, even infinite ones.
 bool has_believable_values(const level2::SweepMoment& kind) {
     const std::uint16_t largest = kind.word_size_bits == 8 ? 255 : 65535;
     const MaskedTraps masked;
@@ -77,8 +78,9 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
     return reach_m;
 }
 
-// Echo from beyond it is lost, or sorted out by what a surveillance sweep saw; velocity, for which
-// it is short by nature, is not chosen by it.
+// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost, or
+// a surveillance sweep sorts it out. It is short by nature for velocity, so it does not count
+// there.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {
     if (moment == level2::Moment::vel || moment == level2::Moment::sw) return 0;
@@ -150,7 +152,7 @@ std::optional<Candidate> candidate_of(const level2::Volume& volume, std::size_t 
     return candidate;
 }
 
-// Leaves those that come near the largest of them in one respect.
+// Keeps the candidates that come near the largest of them in one respect.
 void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respect) {
     double largest = 0;
     for (const Candidate* candidate : group)
@@ -160,7 +162,7 @@ void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respec
     });
 }
 
-// Whether `later`, which stands later in the file, is to be taken instead.
+// Returns true if `later`, which comes later in the file, is the better one of the two.
 bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
                std::optional<UtcTime> nearest_to) {
     if (!nearest_to) return true;
@@ -170,7 +172,7 @@ bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
            std::chrono::abs(*other.median_time - *nearest_to);
 }
 
-// The one to take of sweeps at the same elevation, which are in file order.
+// Returns the best of the sweeps at one elevation, which are in file order.
 Candidate take_best(std::span<Candidate> group, std::optional<UtcTime> nearest_to) {
     std::vector<Candidate*> fit;
     for (Candidate& candidate : group)
@@ -234,7 +236,7 @@ std::vector<ChosenSweep> choose_sweeps(const level2::Volume& volume, level2::Mom
             candidates.push_back(std::move(*candidate));
         }
     }
-    // Stable: candidates of one angle stay in file order.
+    // The sort is stable, so that candidates with the same angle stay in file order.
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const auto& a, const auto& b) { return a.angle_deg < b.angle_deg; });
 

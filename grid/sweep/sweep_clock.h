@@ -1,15 +1,17 @@
-// grid/sweep/sweep_clock.h -- when each place of a grid was looked at.
+// grid/sweep/sweep_clock.h -- when the radar looked at each place of a grid.
 //
-// A volume takes minutes: its sweeps follow each other, and each turns once. What is kept of them
-// in a grid is one line a sweep, from which the time of any cell can be had again. Model     the
-// antenna turns clockwise at one speed; a cell is of the two sweeps whose beams (4/3
-//           earth) pass next below and above it, by their weights linear in height, and outside of
-//           them of the nearest one.
-// Accuracy  at the 95th percentile of cells (a sweep of more than a turn sees some azimuths twice)
-//           the larger of 2 s and 6 % of the longest time from one sweep to the next, of the mean
-//           time of the cell's gates (Detail::age): radials lie higher or lower than their sweep's
-//           median. For real volumes; enforced by tests/grid/sweep_clock_test.cpp.
-// Threads   immutable.
+// A volume takes minutes: its sweeps follow each other, and each turns once. A grid keeps a
+// SweepTime for each sweep, and from these the clock computes the time of any cell.
+//
+// Model     The antenna turns clockwise at constant speed. A cell is made of the two sweeps whose
+//           beams (4/3 earth) pass next below and above it, with weights linear in height; above
+//           and below all beams, of the nearest sweep.
+// Accuracy  For real volumes, at the 95th percentile of cells: the larger of 2 s and 6 % of the
+//           longest time from one sweep to the next, compared with the mean time of the cell's
+//           gates (Detail::age). Radials lie higher or lower than the median of their sweep, and a
+//           sweep of more than a turn sees some azimuths twice. Enforced by
+//           tests/grid/sweep_clock_test.cpp.
+// Threads   Immutable.
 #pragma once
 
 #include <span>
@@ -23,22 +25,23 @@
 
 namespace stormcellar::grid {
 
-// No antenna turns faster: such a speed is taken for not known.
+// No antenna turns faster. A higher speed counts as not known.
 inline constexpr double fastest_turn_deg_per_s = 360;
 
-// One for each of the sweeps that are dated, in their order.
+// Returns one SweepTime for each sweep that has times, in order.
 [[nodiscard]] std::vector<SweepTime> sweep_times(const level2::Volume& volume,
                                                  std::span<const ChosenSweep> sweeps);
 
 class SweepClock {
   public:
-    // Times are given in seconds since `origin`. `sweeps` in rising elevation, at least one.
+    // Times are in seconds since `origin`. `sweeps` holds at least one sweep, in order of rising
+    // elevation.
     SweepClock(std::span<const SweepTime> sweeps, BeamGeometry beam, UtcTime origin);
 
-    // For each level of a column.
+    // Computes the time for each level of a column.
     void read(double azimuth_deg, double arc_m, std::span<const double> levels_m,
               std::span<float> seconds) const;
-    // No cell is earlier or later.
+    // No cell is earlier or later than these.
     [[nodiscard]] double earliest_s() const { return earliest_s_; }
     [[nodiscard]] double latest_s() const { return latest_s_; }
 

@@ -18,7 +18,7 @@ Mixture unseen() {
     return mixture;
 }
 
-// Narrows [from, to] to where |at_zero + slope * t| is at most one half.
+// Narrows [from, to] to the part where |at_zero + slope * t| is at most one half.
 void narrow(float at_zero, float slope, float& from, float& to) {
     if (slope == 0) {
         if (!(std::abs(at_zero) <= 0.5F)) to = from - 1;
@@ -56,10 +56,13 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
         int position;
         float weight;
     };
-    // Radials are 0.2 degrees apart and more; what is nearer than that is left out.
+    // Radials are at least 0.2 degrees apart. If a damaged sweep has more in reach, the rest is
+    // left out.
     std::array<Weighted, 32> radials{};
     std::size_t count = 0;
     float total = 0;
+    // The pattern depends on the azimuth alone, so it is evaluated once for each radial; the
+    // weights are scaled to a sum of 1 below.
     sweep.azimuths().visit(azimuth_deg, width_deg, [&](int position, float offset_deg) {
         const float weight = beam_pattern(offset_deg, width_deg);
         if (count == radials.size() || !(weight > 0 || count == 0)) return;
@@ -68,6 +71,8 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
     });
     if (count == 0) return unseen();
     Mixture mixture;
+    // All radials may lie where the pattern is 0; then the first, which is the nearest, counts
+    // alone.
     if (!(total > 0)) {
         sweep.add_along_radial(radials[0].position, place, 1, mixture);
         return mixture;
@@ -78,12 +83,15 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
 }
 
 Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPlace place) {
+    // The outline is a parallelogram within a circle. Seen from the site, the circle covers the
+    // azimuths within asin(radius / arc) of its center, or all azimuths if the site is inside it.
     const float reach_deg = footprint.arc_m > footprint.radius_m
                                 ? std::asin(footprint.radius_m / footprint.arc_m) / degree
                                 : 180;
     const Blending blending = sweep.blending();
     Mixture gates;
     Mixture beyond;
+    // The values of a moment that wraps are taken as differences from the gate at the center.
     if (is_circular(blending)) {
         const Sample center = sweep.sample(footprint.azimuth_deg, place);
         if (center.status == CellStatus::value) gates.refer_to(center);
@@ -95,7 +103,8 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (at.end == 0) return;
         const float sine = std::sin(turn_deg * degree);
         const float cosine = std::cos(turn_deg * degree);
-        // Along this radial, by its arc: u and v are linear.
+        // Along this radial the coordinates u and v of the outline are linear in the arc, so each
+        // of the two conditions |u| <= 1/2 and |v| <= 1/2 leaves an interval of arcs.
         float from_m = std::max(0.0F, footprint.arc_m - footprint.radius_m);
         float to_m = footprint.arc_m + footprint.radius_m;
         narrow(-footprint.u_along * footprint.arc_m,
@@ -103,6 +112,8 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         narrow(-footprint.v_along * footprint.arc_m,
                footprint.v_along * cosine + footprint.v_across * sine, from_m, to_m);
         if (!(from_m <= to_m)) return;
+        // The interval of arcs becomes a run of gates. Those beyond the last gate count as not
+        // seen.
         const float center = at.number_and_half - 0.5F;
         const float low = center + (from_m - footprint.arc_m) * gates_a_m_of_arc;
         const float high = center + (to_m - footprint.arc_m) * gates_a_m_of_arc;
@@ -112,6 +123,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });
+    // The weights are scaled to 1. The part of the circle that lies in azimuth gaps is not seen.
     const float count = gates.weight() + beyond.weight();
     if (count == 0) return {};
     const bool gaps = sweep.azimuths().has_gaps() && reach_deg < 180;

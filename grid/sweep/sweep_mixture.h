@@ -1,6 +1,8 @@
-// grid/sweep/sweep_mixture.h -- several gates of one sweep, as a column sees them.
+// grid/sweep/sweep_mixture.h -- mixtures of several gates of one sweep, as a column sees them.
 //
-// Every mixture has weight 1. What lies in a gap or beyond the gates is not seen.
+// Every mixture has weight 1. A place in a gap, or beyond the gates, is not seen.
+//
+// Threads   Pure functions.
 #pragma once
 
 #include "grid/place/footprint.h"
@@ -8,22 +10,24 @@
 
 namespace stormcellar::grid {
 
-// The nearest gate alone.
+// Returns the nearest gate alone.
 [[nodiscard]] Mixture nearest_gate(const PolarSweep& sweep, float azimuth_deg, ArcPlace place);
 
-// Two gates of the two radials around the azimuth, linear in azimuth and range.
+// Returns two gates of each of the two radials around the azimuth, linear in azimuth and range.
 [[nodiscard]] Mixture four_gates(const PolarSweep& sweep, float azimuth_deg, ArcPlace place);
 
-// Every radial within reach by the antenna's pattern in azimuth (grid/beam/beam_pattern.h), linear
-// in range between two gates of each.
+// Returns every radial within reach, weighted by the antenna's pattern in azimuth
+// (grid/beam/beam_pattern.h), with two gates of each, linear in range.
 [[nodiscard]] Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace place,
                                        float beam_width_deg);
 
-// All gates whose centres lie in the outline, each with the same weight; gates beyond the last one
-// and the share of the outline in azimuth gaps are not seen. Weight 0 where no gate's centre is
-// inside. Gates stand over a plane through the cell's centre: for outlines up to 20 km, within 470
-// km and as far as beams lie below 21 km, off by 2.5 m at elevations of -5 to 0.5 degrees, 3 m up
-// to 1.5, 4 m up to 5, 10 m up to 19.5 and 90 m up to 60 (tests/grid/sweep_mixture_test.cpp).
+// Returns all gates whose centers lie in the outline, each with the same weight. Gates beyond the
+// last one, and the share of the outline in azimuth gaps, are not seen. The weight is 0 if no gate
+// has its center inside.
+//
+// Accuracy: the gates are placed over a plane through the center of the cell. For outlines up to 20
+// km, within 470 km and below 21 km, this is off by 2.5 m at elevations of -5 to 0.5 degrees, 3 m
+// up to 1.5, 4 m up to 5, 10 m up to 19.5 and 90 m up to 60 (tests/grid/sweep_mixture_test.cpp).
 [[nodiscard]] Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint,
                                    ArcPlace place);
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double farthest_arc_m = 1e6;  // no radar sees farther; bounds the tables
 
-// No radial was measured as high as one of the sweeps above.
+// Returns true if no radial was measured as high as a radial of a sweep above it.
 bool are_in_order(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen) {
-    float highest_deg = -90;  // of the sweeps below
+    float highest_deg = -90;  // over the sweeps below
     for (const ChosenSweep& sweep : chosen) {
         const float floor_deg = highest_deg;
         for (const std::uint32_t radial : sweep.radials) {
@@ -24,8 +24,9 @@ bool are_in_order(const level2::Volume& volume, const std::vector<ChosenSweep>& 
     return true;
 }
 
-// Beams lie over each other as their elevations say, and as far apart as they rise by degree. Ducts
-// make beams cross, and wider or narrower than that.
+// Returns true if the beams lie over each other in the order of their elevations, and about as far
+// apart as they rise with elevation. Ducts make beams cross, and make them wider or narrower than
+// that.
 bool are_beams_in_order(const SweepStack& stack) {
     constexpr float even = 1.5F;
     for (std::size_t i = 1; i + 1 < stack.table_size; ++i) {

@@ -1,7 +1,8 @@
-// grid/sweep/sweep_stack.h -- the sweeps of a volume made ready for one moment and one way to grid
-// it.
+// grid/sweep/sweep_stack.h -- the sweeps of a volume, prepared for one moment and one method of
+// gridding.
 //
-// Refers to the volume, which must outlive it. Immutable; use it from many threads.
+// Threads   Immutable; many threads may use one object. It refers to the volume, which must outlive
+//           it.
 #pragma once
 
 #include <optional>
@@ -21,11 +22,11 @@ struct SweepStack {
     std::vector<PolarSweep> sweeps;  // rising elevation, at least one
     std::vector<bool> adjacent_to_next;
     std::vector<float> elevations_deg;
-    // No radial of a sweep was measured as high as one of a sweep above it, and no traced beams
-    // cross or are much wider or narrower than their elevations say.
+    // True if no radial of a sweep was measured as high as a radial of a sweep above it, and no
+    // traced beams cross or are much wider or narrower than their elevations say.
     bool in_order = true;
     float beam_width_deg = 0.95F;
-    std::size_t table_size = 2;  // of each sweep's tables of arc
+    std::size_t table_size = 2;  // size of each sweep's tables of arc
     float gate_spacing_m = 250;  // the largest
 };
 
@@ -37,16 +38,17 @@ struct StackOptions {
     std::optional<RefractivityProfile> profile = std::nullopt;
 };
 
-// `chosen` holds at least one sweep.
+// Prepares the sweeps in `chosen`, of which there is at least one.
 [[nodiscard]] SweepStack make_stack(const level2::Volume& volume, const SitePosition& site,
                                     const std::vector<ChosenSweep>& chosen,
                                     const StackOptions& options);
 
-// The profile is for traced beams; none: the exponential reference atmosphere.
+// Makes the model of the beam. The profile is for traced beams; none: the exponential reference
+// atmosphere.
 [[nodiscard]] BeamModel beam_model_of(const SitePosition& site, ChosenBeam kind,
                                       const std::optional<RefractivityProfile>& profile);
 
-// By the station table.
+// Returns true if the station table says that the radar is a TDWR.
 [[nodiscard]] bool is_tdwr(std::string_view icao);
 
 }  // namespace stormcellar::grid

@@ -1,7 +1,8 @@
-// render/volume/lanes-inl.h -- the numbers of several rays side by side.
+// render/volume/lanes-inl.h -- vectors of numbers, one lane for each of several rays.
 //
-// Part of render/volume/ray_packet.cpp, compiled once for each SIMD target. What a ray finds does
-// not depend on the rays beside it, so the number of lanes, the target's own, changes no bit.
+// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. What
+// a ray finds does not depend on the rays beside it, so the number of lanes, which depends on the
+// target, changes no bit.
 #if defined(STORMCELLAR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_LANES_INL
 #undef STORMCELLAR_LANES_INL
@@ -34,7 +35,7 @@ HWY_INLINE Number load_as(const std::byte* from) {
 }
 
 // The numbers of a vector one by one. Compilers that see through the memory take the vector apart
-// by shuffles, which is slower than reading it: they are kept from that.
+// by shuffles, which is slower than reading it back; the asm statement keeps them from doing so.
 class LaneNumbers {
   public:
     HWY_INLINE explicit LaneNumbers(IntVec numbers) {
@@ -62,7 +63,8 @@ HWY_INLINE Halves halves_of(Word word) {
 }
 #else
 
-// The blocks of 128 bits block(first), block(first + 4) ..., so many that there are `width` lanes.
+// Makes a vector of `width` lanes from the blocks of 128 bits block(first), block(first + 4) and so
+// on.
 template <int width, class Block>
 HWY_INLINE auto blocks_from(int first, Block block) {
     if constexpr (width == 4) {
@@ -77,8 +79,8 @@ HWY_INLINE auto blocks_from(int first, Block block) {
     }
 }
 
-// word(lane) gives a lane's number; in registers all the way, since a vector read over stores of
-// single numbers would wait for them.
+// Returns the halves of word(lane) for all lanes. Everything stays in registers, because a vector
+// that is read over stores of single numbers would have to wait for them.
 template <class Word>
 HWY_INLINE Halves halves_of(Word word) {
     const hn::Full64<std::uint64_t> one;
@@ -86,7 +88,7 @@ HWY_INLINE Halves halves_of(Word word) {
     const auto pair = [&](int lane) {
         return hn::Combine(two, hn::Set(one, word(lane + 1)), hn::Set(one, word(lane)));
     };
-    // In each block of 128 bits the numbers of lanes 0 and 1, and of lanes 2 and 3.
+    // Each block of 128 bits has the numbers of lanes 0 and 1, or of lanes 2 and 3.
     const Ints i;
     const IntVec a = hn::BitCast(i, blocks_from<lanes>(0, pair));
     const IntVec b = hn::BitCast(i, blocks_from<lanes>(2, pair));
@@ -95,7 +97,8 @@ HWY_INLINE Halves halves_of(Word word) {
 }
 #endif
 
-// Four numbers for each lane, those that lie one behind the other at entry(lane), taken apart.
+// Four numbers for each lane, which lie one after the other at entry(lane), sorted into four
+// vectors.
 struct Fours {
     FloatVec first, second, third, fourth;
 };
@@ -115,7 +118,7 @@ HWY_INLINE Fours fours_of(Entry entry) {
     const auto block = [&](int lane) { return hn::LoadU(quad, entry(lane)); };
     const FloatVec a = blocks_from<lanes>(0, block), b = blocks_from<lanes>(1, block);
     const FloatVec c = blocks_from<lanes>(2, block), d = blocks_from<lanes>(3, block);
-    // Four by four, in each block of 128 bits.
+    // Transposes four by four in each block of 128 bits.
     const FloatVec ac_low = hn::InterleaveLower(f, a, c), ac_high = hn::InterleaveUpper(f, a, c);
     const FloatVec bd_low = hn::InterleaveLower(f, b, d), bd_high = hn::InterleaveUpper(f, b, d);
     return {hn::InterleaveLower(f, ac_low, bd_low), hn::InterleaveUpper(f, ac_low, bd_low),

@@ -1,6 +1,6 @@
 // render/volume/ray_light-inl.h -- how light samples are.
 //
-// Part of render/volume/ray_packet.cpp, compiled once for each SIMD target.
+// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target.
 #if defined(STORMCELLAR_RAY_LIGHT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_RAY_LIGHT_INL
 #undef STORMCELLAR_RAY_LIGHT_INL
@@ -17,16 +17,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-constexpr float darkest = 0.35F;  // of a steep surface turned away from the sun
+constexpr float darkest = 0.35F;  // factor for a steep surface that is turned away from the sun
 
-// Codes of cells with values, 0 of others.
+// Returns the codes of cells with values, and 0 for others.
 HWY_INLINE FloatVec density_of(IntVec code) {
     const IntVec last_state = hn::Set(Ints(), grid::first_value_code - 1);
     return hn::ConvertTo(Floats(), hn::IfThenElseZero(hn::Gt(code, last_state), code));
 }
 
-// 1 where the surface looks to the sun, down to `darkest` where it is steep and turned away; by the
-// gradient of the trilinear mix of the eight cells.
+// Returns a factor that is 1 where the surface faces the sun, down to `darkest` where it is steep
+// and turned away. The surface is that of equal values: its normal is the gradient of the trilinear
+// mix of the eight cells.
 HWY_INLINE FloatVec gradient_light(const PacketLight& light, const Corners& corners,
                                    const Places& at) {
     const Floats f;
@@ -36,6 +37,8 @@ HWY_INLINE FloatVec gradient_light(const PacketLight& light, const Corners& corn
         high[c] = density_of(corners.code[c + 4]);
         column[c] = mix(low[c], high[c], at.z.beyond);
     }
+    // The derivative of the mix along each axis is the difference across that axis, interpolated
+    // along the two others.
     const auto rise = [&](int c) { return hn::Sub(high[c], low[c]); };
     const FloatVec east =
         mix(hn::Sub(column[1], column[0]), hn::Sub(column[3], column[2]), at.y.beyond);
@@ -47,11 +50,13 @@ HWY_INLINE FloatVec gradient_light(const PacketLight& light, const Corners& corn
                                   hn::Mul(north, hn::Set(f, light.per_cell[1])),
                                   hn::Mul(up, hn::Set(f, light.per_cell[2]))};
     FloatVec square = hn::Zero(f);
-    FloatVec towards = hn::Zero(f);  // the normal points to where there is less
+    FloatVec towards = hn::Zero(f);  // the normal points to lower values
     for (int axis = 0; axis < 3; ++axis) {
         square = hn::Add(square, hn::Mul(gradient[axis], gradient[axis]));
         towards = hn::Sub(towards, hn::Mul(gradient[axis], hn::Set(f, light.sun[axis])));
     }
+    // A flat gradient has no direction to speak of, so the effect grows with steepness: half_steep
+    // gives half of it. `turned` is 0 toward the sun and 1 away from it.
     const FloatVec steep = hn::Sqrt(square);
     const FloatVec some = hn::Max(steep, hn::Set(f, 1e-20F));
     const FloatVec share = hn::Div(steep, hn::Add(steep, hn::Set(f, light.half_steep)));
@@ -61,7 +66,8 @@ HWY_INLINE FloatVec gradient_light(const PacketLight& light, const Corners& corn
     return hn::Sub(hn::Set(f, 1.0F), dark);
 }
 
-// Of samples at positions in cells and levels.
+// Returns the light of samples at positions in cells and levels: the shadow from the light volume,
+// times the factor of the gradient.
 HWY_INLINE FloatVec light_of(const PacketLight& light, const Corners& corners, const Places& at,
                              FloatVec valued) {
     const Floats f;

@@ -18,19 +18,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-constexpr float opaque_enough = 0.001F;  // a ray ends when less light than this comes through
+constexpr float opaque_enough = 0.001F;  // a ray ends when less light than this reaches through
 
-// 1 - exp(-depth) for depths of 0 and more, to 2e-7. Not the library's, whose fused operations give
-// other bits on other targets.
+// Returns 1 - exp(-depth) for depths of 0 and more, to 2e-7. The library's exp() is not used,
+// because its fused operations give other bits on other targets.
 HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const Floats f;
     const Ints i;
     constexpr float log2_e = 1.44269504F;
-    // exp(-depth) = 2^-whole * 2^-part, part within -1/2 to 1/2.
+    // exp(-depth) = 2^-whole * 2^-part, with part within -1/2 to 1/2.
     const FloatVec exponent = hn::Min(hn::Mul(depth, hn::Set(f, log2_e)), hn::Set(f, 120.0F));
     const IntVec whole = hn::ConvertTo(i, hn::Add(exponent, hn::Set(f, 0.5F)));
     const FloatVec part = hn::Sub(hn::ConvertTo(f, whole), exponent);
-    // ln(2)^n / n!, paired so that few operations wait for each other.
+    // A polynomial gives 2^part, with the coefficients ln(2)^n / n!. Its terms are added in pairs,
+    // so that few operations wait for each other.
     const auto term = [&](float constant, float slope) {
         return hn::Add(hn::Set(f, constant), hn::Mul(hn::Set(f, slope), part));
     };
@@ -40,11 +41,12 @@ HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const FloatVec high =
         hn::Add(term(9.6181291e-3F, 1.3333558e-3F), hn::Mul(hn::Set(f, 1.5403530e-4F), square));
     const FloatVec power = hn::Add(low, hn::Mul(high, hn::Mul(square, square)));
+    // 2^-whole is made directly from the bits of a float, whose exponent it is.
     const IntVec scale = hn::ShiftLeft<23>(hn::Sub(hn::Set(i, 127), whole));
     return hn::Sub(hn::Set(f, 1.0F), hn::Mul(power, hn::BitCast(f, scale)));
 }
 
-// Some of a packet's rays, one a lane.
+// The rays of a packet that fill the lanes of one vector.
 struct Rays {
     FloatVec x, y, z, step_x, step_y, step_z, length, enter, leave;
 
@@ -63,17 +65,18 @@ struct Rays {
     }
 };
 
-// What the rays found at one slice.
+// What the rays find at one slice.
 struct SliceFinds {
     HWY_ALIGN std::int32_t bin[lanes];
     HWY_ALIGN float valued[lanes];
     HWY_ALIGN float light[lanes];
     float t = 0;          // the slice
     bool any = false;     // some ray found a value
-    bool joined = false;  // the slice before is the one in front of it
+    bool joined = false;  // this slice and the one before it are the two ends of one step
 };
 
-// The slices at both ends of the steps whose bits are set.
+// Enumerates the slices at both ends of the steps whose bits are set. Two marked steps in a row
+// share the slice between them, which comes only once.
 class MarkedSlices {
   public:
     HWY_INLINE MarkedSlices(const std::uint64_t* mask, std::size_t words, int first, float leave)
@@ -83,20 +86,25 @@ class MarkedSlices {
           leave_(leave),
           bits_(word_ < words ? mask[word_] & ~std::uint64_t{0} << (first % 64) : 0) {}
 
-    // False behind the last. `joined`: the one before is the other end of its step.
+    // Returns false after the last slice. Sets `joined` if this slice and the one before it are the
+    // two ends of a step.
     HWY_INLINE bool next(float& t, bool& joined) {
+        // The near end of this step came last; its far end comes now.
         if (half_done_) {
             half_done_ = false;
             joined = true;
             t = static_cast<float>(++last_);
             return true;
         }
+        // The next set bit is the next step to be sampled.
         while (bits_ == 0) {
             if (++word_ >= words_) return false;
             bits_ = mask_[word_];
         }
         const int step = static_cast<int>(word_) * 64 + std::countr_zero(bits_);
         if (static_cast<float>(step) >= leave_) return false;
+        // If the step begins at the slice that came last, only its far end is new. Otherwise its
+        // near end comes now and its far end with the next call.
         bits_ &= bits_ - 1;
         joined = step == last_;
         half_done_ = !joined;
@@ -110,13 +118,14 @@ class MarkedSlices {
     std::size_t words_, word_;
     float leave_;
     std::uint64_t bits_;
-    int last_ = -1;           // the last slice that was given
-    bool half_done_ = false;  // of a step the near end alone
+    int last_ = -1;           // the slice that came last
+    bool half_done_ = false;  // only the near end of the last step has come
 };
 
-// Slices are sampled some at a time, and then their steps added up: no sample waits for another, so
-// that the processor works on several at once. `Source` is where codes come from; what a scene does
-// not ask for is not compiled in.
+// Casts the rays of one vector from front to back. Slices are sampled in batches, and then the
+// steps of the batch are added up. Within a batch no sample waits for another, so the processor
+// works on several at once. `Source` says where codes come from. Whatever a scene does not ask for
+// is not compiled in.
 template <class Source, bool curved, bool lit>
 class Caster {
   public:
@@ -134,7 +143,7 @@ class Caster {
     HWY_INLINE void cast(const std::uint64_t* mask, std::size_t words) {
         if (!(enter_ < leave_)) return;
         MarkedSlices slices(mask, words, static_cast<int>(enter_), leave_);
-        SliceFinds finds[batch + 1];  // the first is the last of the batch before
+        SliceFinds finds[batch + 1];  // finds[0] is the last slice of the batch before
         int count = batch;
         while (count == batch) {
             count = 0;
@@ -153,10 +162,11 @@ class Caster {
   private:
     static constexpr int batch = 8;
 
-    // True when no light comes through any more.
+    // Samples a batch and adds up its steps. Returns true if no light reaches through any more.
     HWY_INLINE bool take_batch(SliceFinds* finds, int count) {
         for (int slice = 1; slice <= count; ++slice)
             take_samples(finds[slice]);
+        // A step without a value at either end adds nothing.
         for (int slice = 1; slice <= count; ++slice) {
             const SliceFinds& front = finds[slice - 1];
             const SliceFinds& back = finds[slice];
@@ -166,7 +176,8 @@ class Caster {
         return false;
     }
 
-    // At the slice, or where the ray enters or leaves the box when that is nearer to its middle.
+    // Takes the samples at a slice. Where a ray enters or leaves the box between two slices, its
+    // sample is taken there instead.
     HWY_INLINE void take_samples(SliceFinds& finds) const {
         const Floats f;
         const FloatVec held = hn::Min(hn::Max(hn::Set(f, finds.t), rays_.enter), rays_.leave);
@@ -188,10 +199,13 @@ class Caster {
         }
     }
 
-    // An end of the step without a value takes that of the other.
+    // Adds the step between two slices. The two bins at its ends select an entry of the transfer
+    // function. An end without a value takes the bin of the other end.
     HWY_INLINE bool add_step(const SliceFinds& front, const SliceFinds& back) {
         const Floats f;
         const Ints i;
+        // The length of the step is that of the ray inside the box. It is scaled by the mean share
+        // of cells with values at its two ends, so that echo tapers to nothing.
         const FloatVec from = hn::Max(hn::Set(f, front.t), rays_.enter);
         const FloatVec to = hn::Min(hn::Set(f, back.t), rays_.leave);
         const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
@@ -205,10 +219,13 @@ class Caster {
         const IntVec back_bin = hn::Load(i, back.bin);
         const IntVec one = hn::IfThenElse(hn::RebindMask(i, in_front), front_bin, back_bin);
         const IntVec other = hn::IfThenElse(hn::RebindMask(i, behind), back_bin, front_bin);
+        // Each lane loads its entry of the table: red, green, blue and depth lie one after the
+        // other.
         constexpr int entry_bits = std::countr_zero(sizeof(TransferEntry));
         const LaneNumbers at(hn::ShiftLeft<entry_bits>(hn::Add(hn::ShiftLeft<8>(one), other)));
         Fours looks =
             fours_of([&](int lane) { return reinterpret_cast<const float*>(entries_ + at[lane]); });
+        // With light, the color of the step is darkened by the mean of the light at its two ends.
         if constexpr (lit) {
             const FloatVec front_light = hn::Load(f, front.light);
             const FloatVec back_light = hn::Load(f, back.light);
@@ -222,7 +239,9 @@ class Caster {
         return add_looks(looks, length);
     }
 
-    // Red, green, blue and depth of a whole step.
+    // Composites a step over what the rays have seen so far, front to back: the step adds its color
+    // times its opacity times the light that still reaches through, and takes its share of that
+    // light. `looks` is red, green, blue and optical depth for each reference length.
     HWY_INLINE bool add_looks(const Fours& looks, FloatVec length) {
         const Floats f;
         const FloatVec enough = hn::Set(f, opaque_enough);

@@ -1,8 +1,8 @@
 // render/volume/ray_samples-inl.h -- what the rays of all lanes find at one slice.
 //
-// Part of render/volume/ray_packet.cpp, compiled once for each SIMD target.
-// The eight codes round a point are loaded one ray after the other (gathers cost more on today's
-// machines) and put together in general registers.
+// This is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target. The
+// eight codes around a point are loaded one ray after the other and put together in general
+// registers, because gathers cost more on today's machines.
 #if defined(STORMCELLAR_RAY_SAMPLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_RAY_SAMPLES_INL
 #undef STORMCELLAR_RAY_SAMPLES_INL
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-// A bin of the transfer function and the share of valued cells, for each ray; where the volume is
+// For each ray, a bin of the transfer function, the share of valued cells and, if the volume is
 // lit, how light it is there.
 struct Samples {
     IntVec bin;
@@ -26,7 +26,7 @@ struct Samples {
     FloatVec light;
 };
 
-// A place along one axis: the cell below it, and how far beyond that it lies.
+// A place along one axis: the cell below it, and how far beyond that cell it lies.
 struct Place {
     IntVec cell;
     FloatVec beyond;
@@ -40,17 +40,19 @@ HWY_INLINE Place place_of(FloatVec position, std::int32_t last) {
     return {cell, hn::Sub(held, hn::ConvertTo(f, cell))};
 }
 
-// Of a sample of each ray.
+// The place of one sample of each ray.
 struct Places {
     Place x, y, z;
 };
 
-// The eight codes round it: by the sides in x (bit 0), y (bit 1) and z (bit 2).
+// The eight codes around a place. The number of a code has a bit for its side in x (bit 0), y (bit
+// 1) and z (bit 2).
 struct Corners {
     IntVec code[8];
 };
 
-// From a CornerTable.
+// Takes the codes from a CornerTable: one load of 64 bits brings all eight
+// (render/volume/corner_table.h).
 struct FromTable {
     static HWY_INLINE Corners corners(const PacketVolume& volume, const Places& at) {
         const Ints i;
@@ -74,12 +76,13 @@ struct FromTable {
     }
 };
 
-// From the bricks themselves.
+// Takes the codes from the bricks themselves.
 struct FromBricks {
-    // Where the lower codes are, by the sides in x and y.
+    // The offsets of the four lower codes, by their sides in x and y.
     using Columns = LaneNumbers[4];
 
-    // Adds up where the cell's code is; gives the way to the next cell, 0 at the grid's end.
+    // Adds the offset of the cell along one axis to `at`, and returns the distance to the next
+    // cell: usually `next`, more across the border of a brick, and 0 at the end of the grid.
     template <std::int32_t next>
     static HWY_INLINE IntVec step_along(IntVec cell, std::int32_t last, std::int32_t brick_stride,
                                         IntVec& at) {
@@ -115,7 +118,8 @@ struct FromBricks {
                                       : singly<std::uint16_t>(volume.codes, columns, rise);
     }
 
-    // Both levels of a column in one number.
+    // Loads the codes of both levels of a column as one number. They lie side by side unless the
+    // place is in the uppermost level of a brick.
     static HWY_INLINE Corners paired(const std::byte* codes, const Columns& columns) {
         const Ints i;
         const Halves words = halves_of([&](int lane) {
@@ -137,6 +141,8 @@ struct FromBricks {
         return corners;
     }
 
+    // Loads one code after the other, for codes of two bytes and across the border between two
+    // bricks.
     template <class Code>
     static HWY_INLINE Corners singly(const std::byte* codes, const Columns& columns,
                                      const LaneNumbers& rise) {
@@ -166,7 +172,7 @@ HWY_INLINE FloatVec mix(FloatVec from, FloatVec to, FloatVec share) {
     return hn::Add(from, hn::Mul(hn::Sub(to, from), share));
 }
 
-// All eight cells have values: their mean by weights.
+// Returns the weighted mean of eight cells that all have values, by seven linear interpolations.
 HWY_INLINE FloatVec mean_of_all(const Corners& corners, const Places& at) {
     const Floats f;
     FloatVec column[4];
@@ -178,7 +184,7 @@ HWY_INLINE FloatVec mean_of_all(const Corners& corners, const Places& at) {
                at.y.beyond);
 }
 
-// The mean of those with values, and their share.
+// Returns the weighted mean of the cells that have values, and the share of their weights.
 HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, FloatVec& valued) {
     const Floats f;
     const FloatVec one = hn::Set(f, 1.0F);
@@ -203,6 +209,7 @@ HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, Float
     return hn::Div(sum, hn::IfThenElse(hn::Gt(valued, hn::Zero(f)), valued, one));
 }
 
+// Returns the bin of the transfer function for a code, which may lie between two codes.
 HWY_INLINE IntVec bin_of(const PacketVolume& volume, FloatVec code) {
     const Floats f;
     const FloatVec position = hn::Add(hn::Set(f, volume.transfer->bin_offset()),
@@ -212,7 +219,9 @@ HWY_INLINE IntVec bin_of(const PacketVolume& volume, FloatVec code) {
     return hn::ConvertTo(Ints(), bounded);
 }
 
-// False when no ray finds a value; then no ray has a share.
+// Mixes the eight codes around each ray. Returns false if no ray finds a value; then all shares are
+// 0. If all eight cells of a ray have values, which is the usual case inside echo, the faster
+// mean_of_all() gives its value; mean_of_some() is only computed if some ray needs it.
 HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, const Places& at,
                             Samples& samples) {
     const Floats f;
@@ -240,6 +249,8 @@ HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, 
     return true;
 }
 
+// Turns heights of drawn space into levels, one ray after the other, if the levels are not evenly
+// spaced.
 HWY_INLINE FloatVec level_of(const PacketVolume& volume, FloatVec z) {
     if (volume.levels == nullptr) return z;
     const Floats f;
@@ -250,6 +261,7 @@ HWY_INLINE FloatVec level_of(const PacketVolume& volume, FloatVec z) {
     return hn::Load(f, heights);
 }
 
+// Returns how much the drawn curve of the earth lowers a place; see RayPacket.
 HWY_INLINE FloatVec drop(const CurvedLevels& curve, FloatVec x, FloatVec y) {
     const Floats f;
     const FloatVec dx = hn::Sub(x, hn::Set(f, curve.middle_x));

@@ -16,7 +16,7 @@ namespace {
 
 using grid::brick_edge;
 
-// Steps by which a bit may be set too early or too late: covers the rounding of both sides.
+// A bit may be set this many steps too early or too late, which covers the rounding of both sides.
 constexpr double slack = 0.01;
 
 // Sets the bits from `first` to `last`, both included.
@@ -35,8 +35,8 @@ void set_bits(std::uint64_t* words, int first, int last) {
     words[to / 64] |= tail;
 }
 
-// Blocks about as wide as a tile of the picture tell what tiles can use; smaller ones, or so many,
-// cost more than they save.
+// Returns the edge of the blocks. Blocks about as wide as a tile of the picture tell all that tiles
+// can use; smaller blocks, or too many, cost more than they save.
 int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
     constexpr double most_blocks = 1 << 18;
     const double cell_m = std::min(spec.cell_width_m(), spec.cell_height_m());
@@ -49,8 +49,9 @@ int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
     return edge;
 }
 
-// The stretch along one axis that the cells from `first` to before `past` colour: up to the centres
-// of the neighbours' nearest cells, or to the box's edge where there are none.
+// Computes the interval along one axis that the cells from `first` to before `past` color. Values
+// are interpolated between cells, so it reaches to the centers of the neighboring cells, or to the
+// edge of the box if there are none.
 template <class Centre>
 void reach(int first, int past, int cells, double edge_low, double edge_high, Centre centre,
            double& low, double& high) {
@@ -60,7 +61,7 @@ void reach(int first, int past, int cells, double edge_low, double edge_high, Ce
 
 }  // namespace
 
-// Cells of a grid, from the first to before the last along each axis.
+// A range of cells: along each axis from the first to before the last.
 struct SliceMask::Cells {
     int first[3], past[3];
 };
@@ -77,7 +78,9 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
       block_edge_(block_edge_for(*view.spec, geometry)),
       boxes_(static_cast<std::size_t>(view.bricks_x)),
       row_ends_(static_cast<std::size_t>(tiles_down_)) {
-    // How many boxes of each slab of bricks reach into each row, and then where their numbers go.
+    // The boxes are sorted into the rows of tiles that they reach into, in two passes, so that the
+    // list needs no locks and does not depend on the number of threads. The first pass finds the
+    // boxes of each slab of bricks and counts them for each row.
     const auto rows = static_cast<std::size_t>(tiles_down_);
     std::vector<std::size_t> places(boxes_.size() * rows);
     for_each_piece(view.bricks_x, threads, [&](int bx) {
@@ -91,6 +94,7 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
                 ++places[slab * rows + static_cast<std::size_t>(row)];
         }
     });
+    // The counts become the places where each slab writes its boxes into the list of each row.
     std::size_t count = 0;
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t slab = 0; slab < boxes_.size(); ++slab)
@@ -98,6 +102,7 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
         row_ends_[row] = count;
     }
     in_rows_.resize(count);
+    // The second pass writes the numbers of the boxes to these places.
     for_each_piece(view.bricks_x, threads, [&](int bx) {
         const auto slab = static_cast<std::size_t>(bx);
         const Boxes& boxes = boxes_[slab];
@@ -110,6 +115,8 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
     });
 }
 
+// Adds boxes for the visible parts of a brick. The codes of the whole brick exclude most bricks;
+// only for the others are the codes of the blocks computed.
 void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer,
                           const std::array<int, 3>& brick, Boxes& boxes) const {
     const std::size_t index = view.brick_index(brick[0], brick[1], brick[2]);
@@ -125,7 +132,7 @@ void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& t
         return codes.largest[at] >= grid::first_value_code &&
                transfer.shows(codes.least[at], codes.largest[at]);
     };
-    // Blocks one above the other make one box.
+    // Visible blocks that lie one above the other make one box.
     const int across = codes.across;
     for (int column = 0; column < across * across; ++column) {
         for (int z = 0; z < across; ++z) {
@@ -145,6 +152,8 @@ void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& t
     }
 }
 
+// Makes the box of a range of cells in drawn space: its reach along each axis, lowered by the drawn
+// curve of the earth, times the vertical exaggeration.
 void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes& boxes) const {
     Box box{};
     reach(
@@ -156,7 +165,8 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     reach(
         cells.first[2], cells.past[2], spec.nz(), geometry_.bottom_m(), geometry_.top_m(),
         [&](int i) { return spec.levels_m[static_cast<std::size_t>(i)]; }, box.low[2], box.high[2]);
-    // The drawn earth's curve takes least off where the box is nearest to the middle.
+    // The curve lowers the box least where it is nearest to the middle of the grid, and most where
+    // it is farthest.
     const auto nearest = [&](std::size_t axis) {
         return std::clamp(0.0, box.low[axis], box.high[axis]);
     };
@@ -170,7 +180,7 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     if (place_in_picture(box)) boxes.push_back(box);
 }
 
-// Where a box is in the picture, in pixels, and how far away its farthest corner.
+// Where a box is in the picture, in pixels, and how far away its farthest corner is.
 struct SliceMask::Outline {
     double left, right, top, bottom, farthest_m;
 
@@ -182,7 +192,7 @@ struct SliceMask::Outline {
     }
 };
 
-// Parallel rays: a box is as wide as its sides are together.
+// With parallel rays a box is as wide as the projections of its three edges together.
 SliceMask::Outline SliceMask::parallel_outline(const Box& box) const {
     Vec3 middle{};
     double across = 0, down = 0;
@@ -198,6 +208,7 @@ SliceMask::Outline SliceMask::parallel_outline(const Box& box) const {
             p.y + down / per_pixel, 0};
 }
 
+// In perspective the outline encloses the eight projected corners.
 SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
     constexpr double far_off = 1e9;
     Outline outline{far_off, -far_off, far_off, -far_off, -std::numeric_limits<double>::infinity()};
@@ -214,14 +225,18 @@ SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
             outline.add(geometry_.project(point));
         }
     }
-    if (behind) {  // the camera is in the box or beside it: it may be anywhere in the picture
+    // the camera is in the box or beside it, so the box may be anywhere in the picture
+    if (behind) {
         outline.add({0, 0});
         outline.add({1.0 * geometry_.width(), 1.0 * geometry_.height()});
     }
     return outline;
 }
 
-// False for a box beside the picture, or behind the camera.
+// Finds the tiles and rows of the box, and widens the box by half a tile on each side. After that,
+// one ray through the middle of a tile stands for all rays of the tile: if the ray misses the
+// widened box, all of them miss the box. Returns false for a box beside the picture or behind the
+// camera.
 bool SliceMask::place_in_picture(Box& box) const {
     const Outline outline =
         geometry_.is_perspective() ? perspective_outline(box) : parallel_outline(box);
@@ -253,7 +268,9 @@ SliceMask::Direction SliceMask::direction(const Vec3& along) const {
     return direction;
 }
 
-// Cuts the ray through the tile's middle with the widened box.
+// Sets the bits of the steps in which the ray through the middle of the tile is inside the widened
+// box. The ray enters and leaves the pair of planes of each axis at two depths; the box holds the
+// part that is common to all three axes.
 void SliceMask::mark(const Box& box, const Vec3& start, const Direction& direction,
                      std::uint64_t* words) const {
     double first = 0;

@@ -1,10 +1,13 @@
 // render/volume/slice_mask.h -- which slices of which part of the picture may show anything.
 //
-// The picture is divided into square tiles. A bit for each tile and step (between two slices) says
-// whether any point of that step under any pixel of the tile may find a visible value. Bits err to
-// the safe side only. What may be visible is told by the bricks' least and largest codes, and
-// inside a brick by those of its blocks, 2 to 16 cells wide, about as wide as 8 pixels. Thread
-// contract: immutable; fill_band() may run on many threads.
+// The picture is divided into square tiles. There is a bit for each tile and each step (between two
+// slices). It says whether any point of that step under any pixel of the tile may find a visible
+// value. Bits err on the safe side only: a set bit may be useless, a cleared bit never hides
+// anything. The least and the largest code of each brick say whether the brick can be visible.
+// Inside a brick the codes of its blocks say so; these are 2 to 16 cells wide, about as wide as 8
+// pixels.
+//
+// Threads   Immutable; many threads may call fill_band().
 #pragma once
 
 #include <array>
@@ -17,31 +20,31 @@
 
 namespace stormcellar::render {
 
-// Pixels. Small tiles are those of one packet of rays: fewer steps are sampled in vain.
+// In pixels. A small tile has the size of one packet of rays, so fewer steps are sampled in vain.
 inline constexpr int tile_edge = 8, small_tile_edge = 4;
 
 class SliceMask {
   public:
-    // The geometry must outlive this.
+    // The geometry must outlive the mask.
     SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, int slices,
               const TransferFunction& transfer, int threads, int edge = tile_edge);
 
-    [[nodiscard]] int edge() const { return edge_; }  // of a tile, pixels
+    [[nodiscard]] int edge() const { return edge_; }  // edge of a tile in pixels
     [[nodiscard]] int tiles_across() const { return tiles_across_; }
     [[nodiscard]] int tiles_down() const { return tiles_down_; }
     [[nodiscard]] std::size_t words_per_tile() const { return words_per_tile_; }
 
-    // The bits of one row of tiles: tiles_across() times words_per_tile() words. False when no bit
-    // is set.
+    // Fills the bits of one row of tiles: tiles_across() times words_per_tile() words. Returns
+    // false if no bit is set.
     bool fill_band(int tile_row, std::vector<std::uint64_t>& words) const;
 
   private:
-    // What visible cells may colour: they and all between them and their neighbours.
+    // What visible cells may color: the cells, and everything between them and their neighbors.
     struct Box {
-        Vec3 low, high;  // drawn space, widened by what a tile spans where the box is farthest
+        Vec3 low, high;  // in drawn space, widened by half a tile where the box is farthest
         int first_tile, last_tile, first_row, last_row;
     };
-    // How far the rays go along each axis: reciprocals of a step, and whether they move at all.
+    // How far the rays go along each axis: reciprocals of a step, and whether the ray moves at all.
     struct Direction {
         Vec3 per_step;
         bool moves[3];
@@ -68,9 +71,9 @@ class SliceMask {
     struct BoxNumber {
         std::uint32_t slab, box;
     };
-    std::vector<Boxes> boxes_;           // of each slab of bricks
-    std::vector<BoxNumber> in_rows_;     // of tiles, row after row: the boxes that reach into them
-    std::vector<std::size_t> row_ends_;  // in them
+    std::vector<Boxes> boxes_;           // for each slab of bricks
+    std::vector<BoxNumber> in_rows_;     // for each row of tiles, the boxes that reach into it
+    std::vector<std::size_t> row_ends_;  // where each row ends in in_rows_
 };
 
 }  // namespace stormcellar::render

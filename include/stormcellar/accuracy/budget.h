@@ -1,14 +1,19 @@
 // stormcellar/accuracy/budget.h -- the error, or the time, that a user allows.
 //
-// A budget bounds MODEL error: a rung against the chain's exact form on the same gates. How well
-// the radar sampled the storm is another thing, which is reported and never budgeted.
+// A budget bounds MODEL error: the error of a rung against the exact form of its chain, on the same
+// gates. It does not bound how well the radar sampled the storm; that is reported and never
+// budgeted.
 //   position_m  largest distance between where a cell's sample is taken and where it should be
 //   value       99th percentile over the cells valued in both, in the unit of the moment
 //   image_de    99th percentile over the pixels, CIEDE2000
-//   time_s      of the whole chain, wall clock
-// An error of 0 means exact: only what is predicted to change nothing may be left off. A time of
-// 0 is refused. What is not budgeted is not bounded.
-// Errors: bad_argument, naming the part that was not understood.
+//   time_s      wall clock time of the whole chain
+// An error of 0 means exact: the planner may then leave off only effects that are predicted to
+// change nothing. A time of 0 is refused. A quantity without a budget is not bounded.
+//
+// Units     Each member names its unit; `value` is in `value_unit`.
+// Threads   Budgets are plain values and all functions are pure, so any thread may use them.
+// Errors    parse_budget() returns bad_argument, and the message names the part that it did not
+//           understand.
 #pragma once
 
 #include <optional>
@@ -23,23 +28,28 @@ namespace stormcellar::accuracy {
 struct Budget {
     std::optional<double> position_m;
     std::optional<double> value;
-    ValueUnit value_unit = ValueUnit::db;  // of `value`
+    ValueUnit value_unit = ValueUnit::db;  // the unit of `value`
     std::optional<double> image_de;
     std::optional<double> time_s;
 
+    // Returns the limit for one kind of error, or none if the budget does not bound it.
     [[nodiscard]] std::optional<double> limit(Quantity quantity) const;
-    // Whether any error is bounded; else the budget is a time alone, or empty.
+    // Returns true if any error is bounded. If it returns false, the budget holds a time alone or
+    // nothing.
     [[nodiscard]] bool bounds_errors() const;
     bool operator==(const Budget&) const = default;
 };
 
+// parse_budget() refuses longer texts, in bytes.
 inline constexpr std::size_t longest_budget_text = 200;
 
-// Parts in any order, with commas between, each quantity once: "250 m, 0.5 dB", "0.5 m/s", "dE 2",
-// "20 ms". Units m, km, dB, m/s, deg, ratio, dE (before or behind its number), ms, s, in any case.
+// Parses the parts of a budget, separated by commas: "250 m, 0.5 dB", "0.5 m/s", "dE 2", "20 ms".
+// The parts may stand in any order; each quantity may stand once. The units are m, km, dB, m/s,
+// deg, ratio, dE (before or after its number), ms and s, in upper or lower case.
 [[nodiscard]] Result<Budget> parse_budget(std::string_view text);
 
-// parse_budget(format_budget(b)) == b for every budget that parse_budget gives.
+// Writes a budget as text that parse_budget() reads: parse_budget(format_budget(b)) == b for every
+// budget `b` that parse_budget() returns.
 [[nodiscard]] std::string format_budget(const Budget& budget);
 
 }  // namespace stormcellar::accuracy

@@ -1,7 +1,9 @@
-// stormcellar/accuracy/candidate.h -- every choice that the settings allow, with what it costs and
-// leaves off.
+// stormcellar/accuracy/candidate.h -- all choices that the settings allow, with the cost and the
+// error of each.
 //
-// Thread contract: values and pure functions.
+// Units     Costs are in seconds. Efforts are in the chain's own fixed scale.
+// Threads   Candidates are plain values and all functions are pure.
+// Errors    Only list_candidates() can fail.
 #pragma once
 
 #include <vector>
@@ -13,33 +15,40 @@ namespace stormcellar::accuracy {
 
 struct Candidate {
     Choice choice;
-    double cost_s = 0;    // predicted, of the whole chain
-    double effort = 0;    // of the whole chain, in the chain's fixed scale
-    ErrorSize left_off;   // SUM of the predictions of all effects that are off
-    std::size_t off = 0;  // how many those are
+    double cost_s = 0;    // predicted, for the whole chain
+    double effort = 0;    // for the whole chain, in the chain's fixed scale
+    ErrorSize left_off;   // the SUM of the predictions of all effects that are off
+    std::size_t off = 0;  // the number of those effects
 };
 
-// A chain with more choices than this is refused rather than searched for long.
+// list_candidates() refuses a chain with more choices than this, because the search would take too
+// long.
 inline constexpr std::size_t most_candidates = 65536;
 
-// Of what the settings allow, in order of rising effort; of cost where the chain has no efforts:
-// which is the cheapest is the same however busy the machine is. Left out are those that leave an
-// effect of unbounded size off which may be on: no budget allows that, not even one that does not
-// bound the quantity. Among equals the one with fewer effects left off comes first (accuracy that
-// costs nothing is taken), then the one with the higher rung at the first step where they differ.
-// Errors: as validate(); unsupported beyond most_candidates.
+// Returns the choices that the settings allow, in order of rising effort. Effort rather than cost
+// decides, so that the cheapest choice does not depend on how busy the machine is; a chain without
+// efforts is ordered by cost.
+//
+// A choice is left out if it leaves off an effect of unbounded size that may be on: no budget
+// allows that, not even a budget that does not bound the quantity. Among equals the choice with
+// fewer effects left off comes first, because its accuracy costs nothing. After that, the choice
+// with the higher rung at the first step where the two differ comes first.
+//
+// Errors: those of validate(); unsupported for more than most_candidates choices.
 [[nodiscard]] Result<std::vector<Candidate>> list_candidates(const Chain& chain);
 
-// Whether each sum is within its limit; what is not budgeted is not bounded.
+// Returns true if each sum is within its limit. A quantity without a budget has no limit.
 [[nodiscard]] bool within(const ErrorSize& size, const Budget& budget);
 
-// The largest share that a size takes of its limit: 0 for nothing, 1 when it is used up, infinite
-// for anything against a limit of 0. A budget that bounds no error is replaced by 250 m, 0.5 of the
-// moment's unit, dE 2, so that choices can be compared at all.
+// Returns the largest share of its limit that any of the three errors takes: 0 if there is no
+// error, 1 if a limit is used up, infinity for any error against a limit of 0. For a budget that
+// bounds no error the limits are 250 m, 0.5 of the moment's unit and dE 2, so that choices can
+// still be compared.
 [[nodiscard]] double worst_share(const ErrorSize& size, const Budget& budget);
 
-// Whether `a` is nearer to the budget than `b`: by worst_share(), and between equals (both without
-// bound, or held by the same quantity) by the sum of the shares of 250 m, 0.5 of the unit and dE 2.
+// Returns true if `a` is nearer to the budget than `b` by worst_share(). If both are equal (both
+// unbounded, or held by the same quantity), the sum of the shares of 250 m, 0.5 of the unit and dE
+// 2 decides.
 [[nodiscard]] bool is_more_accurate(const ErrorSize& a, const ErrorSize& b, const Budget& budget);
 
 }  // namespace stormcellar::accuracy

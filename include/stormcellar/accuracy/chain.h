@@ -1,10 +1,16 @@
-// stormcellar/accuracy/chain.h -- the steps of a chain, each a ladder of rungs from cheap to exact.
+// stormcellar/accuracy/chain.h -- the steps of a chain, each of which is a ladder of rungs from
+// cheap to exact.
 //
-// A step ("frame", "beam", "interpolation", ...) has rungs 0, 1, ... of which the last is its exact
-// form. Rung k is reached with the first k effects of the step on: effects of one step are nested,
-// the third needs the second. A step of a single rung has no effects and stands outside the plan.
-// A choice names one rung for each step.
-// Thread contract: values and pure functions.
+// A step ("frame", "beam", "interpolation", ...) has the rungs 0, 1, ...; its last rung is its
+// exact form. Rung k means that the first k effects of the step are on: the effects of one step are
+// nested, so the third needs the second. A step with a single rung has no effects, and the planner
+// has nothing to decide about it. A choice names one rung for each step.
+//
+// Units     Costs are in seconds. Efforts are in the chain's own fixed scale.
+// Threads   Chains are plain values and all functions are pure, but for apply_overrides(), which
+//           changes the chain that it is given.
+// Errors    validate() and apply_overrides() return them. All other functions expect a valid chain,
+//           and a choice with one rung for each of its steps.
 #pragma once
 
 #include <optional>
@@ -19,15 +25,15 @@ namespace stormcellar::accuracy {
 
 struct Step {
     std::string name;
-    std::string cheapest;         // what rung 0 does, e.g. "sphere"
+    std::string cheapest;         // what rung 0 uses, e.g. "sphere"
     std::vector<Effect> effects;  // from rung 0 upwards
 
     [[nodiscard]] std::size_t rung_count() const { return effects.size() + 1; }
     [[nodiscard]] const std::string& rung_name(std::size_t rung) const;
 };
 
-// What two rungs of different steps take together beyond what each takes alone; negative where one
-// spares the other work.
+// The time that two rungs of different steps take together beyond what each takes alone. It is
+// negative where one rung spares the other some work.
 struct JointCost {
     std::size_t step = 0, rung = 0;
     std::size_t other_step = 0, other_rung = 0;
@@ -43,51 +49,54 @@ struct Chain {
 };
 
 struct Choice {
-    std::vector<std::size_t> rungs;  // one a step
+    std::vector<std::size_t> rungs;  // one rung for each step
     bool operator==(const Choice&) const = default;
 };
 
-// The number of the step of this name; none where the chain has no such step.
+// Returns the number of the step with this name, or nothing where the chain has no such step.
 [[nodiscard]] std::optional<std::size_t> find_step(const Chain& chain, std::string_view name);
 
-// The rung that the choice takes of the step of this name; 0 where the chain has no such step.
+// Returns the rung that the choice takes of the step with this name; 0 where the chain has no such
+// step.
 [[nodiscard]] std::size_t rung_of(const Chain& chain, const Choice& choice, std::string_view name);
 
-// The same choice, but for one step.
+// Returns the same choice with one step at another rung.
 [[nodiscard]] Choice with_rung(Choice choice, std::size_t step, std::size_t rung);
 
-// Predicted, of the whole chain: the cheapest, what each effect that is on adds, and what the rungs
-// take jointly. Never negative.
+// Returns the predicted cost of the whole chain: the cost of the cheapest choice, plus the cost of
+// each effect that is on, plus the joint costs. Never negative.
 [[nodiscard]] double cost_s(const Chain& chain, const Choice& choice);
-// The same sum of efforts, the cheapest choice counting as 0.
+// Returns the same sum for efforts. The cheapest choice has an effort of 0.
 [[nodiscard]] double effort(const Chain& chain, const Choice& choice);
 
-// The exact form: every effect on that the scene asks for.
+// Returns the exact form: every effect that the scene asks for is on.
 [[nodiscard]] Choice exact_choice(const Chain& chain);
 
-// The sum of the predicted sizes of the effects above the choice's rungs, of those asked for.
+// Returns the sum of the predicted sizes of the effects that the choice leaves off, not counting
+// effects that the scene does not ask for.
 [[nodiscard]] ErrorSize left_off(const Chain& chain, const Choice& choice);
 
-// The rungs that the effects' settings leave to choose from, both included.
+// The rungs that the effects' settings allow, both ends included.
 struct RungRange {
     std::size_t least = 0;
     std::size_t most = 0;
 };
 [[nodiscard]] RungRange allowed_rungs(const Step& step);
 
-// Errors: bad_argument where a name is no name or stands twice, a size or cost is NaN or negative,
-// a cost is infinite, a joint cost is of no pair of rungs, or an effect is on whose step has an
-// effect below it off. Infinite sizes are good: they say that no bound is known, so that no budget
-// lets the effect be off.
+// Checks a chain. Returns bad_argument if a name is not a valid name or stands twice, a size or
+// cost is NaN or negative, a cost is infinite, a joint cost does not belong to a pair of rungs, or
+// an effect is set on while an effect below it in the same step is set off. An infinite size is
+// valid: it says that no bound is known, so that no budget lets the effect be off.
 [[nodiscard]] Status validate(const Chain& chain);
 
+// Returns the names of all effects, in the order of the steps.
 [[nodiscard]] std::vector<std::string> effect_names(const Chain& chain);
 
-// Sets what the user asked for; the chain is unchanged on errors. Errors: bad_argument for an
-// effect that is not there or is named twice, and as validate() has them.
+// Applies the settings that the user asked for. On an error the chain is unchanged. Errors:
+// bad_argument for an effect that does not exist or is named twice; those of validate().
 [[nodiscard]] Status apply_overrides(Chain& chain, std::span<const EffectOverride> overrides);
 
-// As in "frame: sphere, beam: ray traced".
+// Returns the choice as text, as in "frame: sphere, beam: ray traced".
 [[nodiscard]] std::string describe(const Chain& chain, const Choice& choice);
 
 }  // namespace stormcellar::accuracy

@@ -1,10 +1,13 @@
-// stormcellar/accuracy/error_statistics.h -- what a list of errors amounts to.
+// stormcellar/accuracy/error_statistics.h -- figures that sum up a list of errors.
 //
-// These are the figures OF the errors given. What a sample of errors says about all of them is in
-// accuracy/quantile_bound.h; the two must not be mistaken for each other.
-// Errors are signed, in any one unit; all figures are of their magnitudes. An error that is NaN
-// counts as infinite, so that it hides nothing.
-// Thread contract: pure functions.
+// The figures describe the errors given. What a sample of errors says about all errors is the task
+// of accuracy/quantile_bound.h; the two must not be mistaken for each other. Errors are signed; all
+// figures describe their magnitudes. An error that is NaN counts as infinite, so that it hides
+// nothing.
+//
+// Units     All errors of a list, and its figures, are in one unit of the caller's choice.
+// Threads   Pure functions and plain values.
+// Errors    None; a list without errors has no summary.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +17,11 @@
 
 namespace stormcellar::accuracy {
 
-// Errors that may depend on each other, such as those of the cells of one column. Different
-// clusters of a sample are drawn independently of each other.
+// Errors that may depend on each other, such as those of the cells of one column. The clusters of a
+// sample must have been drawn independently of each other.
 struct ErrorCluster {
     std::vector<double> errors;
-    double weight = 1;  // clusters of the whole that it stands for, in any one scale; above 0
+    double weight = 1;  // how many clusters this one stands for, in any one scale; above 0
 };
 
 struct ErrorSummary {
@@ -26,18 +29,19 @@ struct ErrorSummary {
     double rms = 0, p95 = 0, p99 = 0, max = 0;
 };
 
-// A quantile q is the smallest error that at least q of the (weighted) errors do not exceed: it is
-// always one of them. None when there are no errors.
+// Returns the figures, or none if there are no errors. The quantile q is the smallest error that at
+// least a share q of the (weighted) errors does not exceed, so it is always one of the errors.
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const double> errors);
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const ErrorCluster> clusters);
 
-// Cells whose status (value, no echo, not seen, range folded) was compared, and how many differed.
-// Counted apart: an error of a value exists only where both have one.
+// How many cells had their status (value, no echo, not seen, range folded) compared, and how many
+// differed. These are counted apart, because a value has an error only where both sides have a
+// value.
 struct StatusCounts {
     std::uint64_t compared = 0;
     std::uint64_t disagreeing = 0;
 
-    // 0 when nothing was compared.
+    // Returns the share of cells that disagree, or 0 if nothing was compared.
     [[nodiscard]] double share() const;
     StatusCounts& operator+=(const StatusCounts& other);
     bool operator==(const StatusCounts&) const = default;

@@ -1,9 +1,13 @@
-// stormcellar/accuracy/ladder.h -- the table of accuracy against time, a row for each rung.
+// stormcellar/accuracy/ladder.h -- the table of accuracy against time, with a row for each rung.
 //
-// Each row is a step at one rung with everything else exact, compared with the chain's exact form.
-// The same fields make the text table, the Markdown table and, in the command line, the JSON, so
-// that all three have the same columns: keys with their units, as in "value_p99_db". Thread
-// contract: values and pure functions.
+// Each row describes a step at one rung, with everything else exact, compared with the exact form
+// of the chain. The text table, the Markdown table and (in the command line) the JSON are made from
+// the same fields, so all three have the same columns. The keys name their units, as in
+// "value_p99_db".
+//
+// Threads   Rows are plain values and all functions are pure, but for mark_pareto(), which changes
+//           the rows that it is given.
+// Errors    None.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +26,8 @@ struct LadderRow {
     std::string step;
     std::size_t rung = 0;
     std::string name;
-    double time_s = 0;                  // the first time, everything made anew
-    std::optional<double> kept_time_s;  // with what can be kept from one volume to the next
+    double time_s = 0;                  // the time of the first run, which makes everything anew
+    std::optional<double> kept_time_s;  // the time if what one volume leaves is kept for the next
     std::optional<double> position_max_m;
     std::optional<double> position_rms_m;
     std::optional<ErrorSummary> value;  // in the moment's unit
@@ -32,22 +36,25 @@ struct LadderRow {
     bool pareto = false;
 };
 
-enum class TimeKind { first, kept };  // rows without a kept time count with their first
+// which time counts; a row without a kept time counts with its first
+enum class TimeKind { first, kept };
 
-// Sets `pareto` of every row, each step by itself. A row is on the front unless another of its step
-// is at least as good in time, 99th percentile of value, largest position error and 99th percentile
-// of colour, and better in one of them. Rows that are equal in all are on it together. An error
-// that a row lacks counts as infinite: what was not measured wins nothing.
+// Sets `pareto` in every row, for each step by itself. A row is on the front unless another row of
+// its step is at least as good in time, 99th percentile of the value, largest position error and
+// 99th percentile of the color, and better in one of them. Rows that are equal in all of these are
+// on the front together. A missing error counts as infinite, so a row cannot win by not being
+// measured.
 void mark_pareto(std::span<LadderRow> rows, TimeKind kind = TimeKind::first);
 
 struct LadderField {
     std::string key;
-    std::variant<std::monostate, std::string, std::uint64_t, double, bool> value;  // none: null
+    std::variant<std::monostate, std::string, std::uint64_t, double, bool> value;  // null if empty
 };
-// The same keys in the same order for every row.
+// Returns the fields of a row: the same keys in the same order for every row.
 [[nodiscard]] std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit);
 
-// Columns that no row has a value in are left out; "-" where a row has none. Lines end with "\n".
+// Returns the table as text; each line ends with "\n". A column in which no row has a value is left
+// out. A row without a value has "-" in that column.
 [[nodiscard]] std::string format_table(std::span<const LadderRow> rows, ValueUnit unit);
 
 }  // namespace stormcellar::accuracy

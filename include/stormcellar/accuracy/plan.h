@@ -1,8 +1,12 @@
-// stormcellar/accuracy/plan.h -- what was chosen, and for each effect why.
+// stormcellar/accuracy/plan.h -- what the planner chose, and why it set each effect as it did.
 //
-// A plan is a result even when nothing meets the budget: it then holds the best that there is, and
-// one line, `shortfall`, that names it, its error and the settings in the way.
-// Thread contract: values and pure functions.
+// There is a plan even if nothing meets the budget. It then holds the best choice that there is,
+// and one line, `shortfall`, names that choice, its error and the settings in the way.
+//
+// Units     Times are in seconds; values are in `value_unit`; the units of sizes are in
+//           stormcellar/accuracy/quantity.h.
+// Threads   Plans are plain values and all functions are pure.
+// Errors    None.
 #pragma once
 
 #include <optional>
@@ -16,24 +20,27 @@ namespace stormcellar::accuracy {
 
 struct Decision {
     std::string effect;
-    std::string what;  // the effect's own sentence
+    std::string what;  // the sentence of the effect
     std::string step;
     bool on = false;
-    bool is_asked = true;  // false where Setting::not_asked: no part of what is left off
+    bool is_asked = true;  // false for Setting::not_asked, which never counts as left off
     ErrorSize predicted;
     Evidence evidence = Evidence::sample;
-    double share = 0;    // worst_share() of it alone: what leaving it off takes or would take
-    std::string reason;  // plain words, no full stop
+    // worst_share() of this effect alone: what leaving it off takes, or would take
+    double share = 0;
+    std::string reason;  // plain words without a full stop
 };
 
-// What measuring a choice on a sample gave: upper bounds against the chain's exact form, none where
-// the sample was too small to give one. In a plan, proven sums stand in for what was not measured.
+// The result of measuring a choice on a sample: upper bounds against the exact form of the chain. A
+// bound is none if the sample was too small to give one. In a plan, proven sums stand in for
+// whatever was not measured.
 struct Measured {
     std::optional<double> position_m;
-    std::optional<double> value;  // of the 99th percentile (accuracy/quantile_bound.h)
+    std::optional<double> value;  // bounds the 99th percentile (accuracy/quantile_bound.h)
     std::optional<double> image_de;
     StatusCounts status;  // reported, not budgeted
 
+    // Returns the bound for one kind of error, or none.
     [[nodiscard]] std::optional<double> of(Quantity quantity) const;
 };
 
@@ -43,21 +50,21 @@ struct Plan {
     Choice choice;
     std::string description;  // describe() of the choice
     bool meets_budget = false;
-    std::string shortfall;            // empty when the budget is met
-    ErrorSize left_off;               // sum of the predictions of what is off
-    double cost_s = 0;                // predicted, without measuring
+    std::string shortfall;            // empty if the budget is met
+    ErrorSize left_off;               // sum of the predictions of the effects that are off
+    double cost_s = 0;                // predicted, without the time for measuring
     std::vector<Decision> decisions;  // in the order of the chain
 
-    std::optional<Measured> measured;  // of the choice
-    std::size_t measured_choices = 0;  // how many were measured
-    double measuring_s = 0;            // and what that took
+    std::optional<Measured> measured;  // for `choice`
+    std::size_t measured_choices = 0;  // how many choices were measured
+    double measuring_s = 0;            // the time that measuring took
 };
 
 enum class Outcome { met, unmet };
 
-// The plan that a candidate makes; `outcome` says whether it meets the budget, which the reasons
-// depend on. An empty budget: the candidate is what is done by default. The caller adds shortfall
-// and what was measured.
+// Makes the plan for a candidate. The reasons depend on `outcome`, which says whether the candidate
+// meets the budget. An empty budget means that the candidate is the default. The caller adds the
+// shortfall and the measurements.
 [[nodiscard]] Plan make_plan(const Chain& chain, const Budget& budget, const Candidate& candidate,
                              Outcome outcome);
 

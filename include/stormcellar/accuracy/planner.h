@@ -1,29 +1,34 @@
-// stormcellar/accuracy/planner.h -- the cheapest set of effects that keeps what is left off within
+// stormcellar/accuracy/planner.h -- finds the cheapest set of effects whose omissions stay within
 // the budget.
 //
-// Effects stay off only while the SUM of all predictions left off is within the budget, in every
-// quantity that it bounds. An effect that the user set off counts into the sum.
-//   a budget of errors        the first of list_candidates() whose sums are within it
-//   of errors and a time      the same among those whose predicted cost is within the time
-//   of a time alone           the most accurate within it (is_more_accurate()), then the cheaper
-// When there is none, the best: the most accurate within the time, or the cheapest when none is.
-// The search is exhaustive: it is right by construction, for at most most_candidates choices.
-// Errors: as list_candidates(); bad_argument for a budget without any limit, or with one in a unit
-// that is not the chain's.
-// Thread contract: pure functions.
+// Effects may stay off only while the SUM of all predictions left off is within the budget, in
+// every quantity that the budget bounds. An effect that the user turned off counts into the sum.
+//   budget of errors             the first of list_candidates() whose sums are within it
+//   budget of errors and a time  the same, among those whose predicted cost is within the time
+//   budget of a time alone       the most accurate within it (is_more_accurate()), then the cheaper
+// If no candidate fits, the plan holds the best one: the most accurate within the time, or the
+// cheapest if none is within the time. The search is exhaustive, for at most most_candidates
+// choices, so it cannot miss the best.
+//
+// Units     Those of stormcellar/accuracy/budget.h and chain.h.
+// Threads   Pure functions.
+// Errors    Those of list_candidates(); bad_argument for a budget without any limit, or with a
+//           value in another unit than the chain's.
 #pragma once
 
 #include "stormcellar/accuracy/plan.h"
 
 namespace stormcellar::accuracy {
 
+// Returns the plan, which may not meet the budget; see Plan::meets_budget.
 [[nodiscard]] Result<Plan> plan(const Chain& chain, const Budget& budget);
 
-// Whether a plan can be made for the budget at all.
+// Returns success if plan() can make a plan for this budget, else the error that plan() would
+// return.
 [[nodiscard]] Status validate(const Chain& chain, const Budget& budget);
 
-// The settings without which the candidate would leave less off, or cost less; as in "; set off:
-// refraction", empty when there are none.
+// Names the settings without which the candidate would leave less off or cost less, as in "; set
+// off: refraction". Returns an empty text if there are none.
 [[nodiscard]] std::string settings_in_the_way(const Chain& chain, const Budget& budget,
                                               const Candidate& candidate);
 

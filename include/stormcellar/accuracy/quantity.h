@@ -1,9 +1,14 @@
-// stormcellar/accuracy/quantity.h -- what an error is measured in, and how it is written.
+// stormcellar/accuracy/quantity.h -- the quantities that errors are measured in, and how they are
+// written.
 //
-// Three quantities, never mixed: how far a cell's sample lies from where it should (metres), how
-// far a value is off (in the unit of its moment), how far a picture's colour is off (CIEDE2000).
-// Sizes are magnitudes: never negative, never NaN; infinity says that no bound is known.
-// Thread contract: values and pure functions.
+// There are three quantities, which are never mixed: how far a cell's sample lies from where it
+// should be, how far a value is off, and how far a picture's color is off. Sizes are magnitudes:
+// never negative and never NaN. Infinity says that no bound is known.
+//
+// Units     Meters for positions, the unit of the moment (ValueUnit) for values, CIEDE2000 for
+//           colors.
+// Threads   Plain values and pure functions.
+// Errors    None.
 #pragma once
 
 #include <array>
@@ -12,15 +17,15 @@
 
 namespace stormcellar::accuracy {
 
-// Decibels for REF, ZDR and CFP, metres per second for VEL and SW, degrees for PHI, a ratio for
-// RHO.
+// The unit of a moment's values: decibels for REF, ZDR and CFP, meters per second for VEL and SW,
+// degrees for PHI, a ratio for RHO.
 enum class ValueUnit { db, mps, degree, ratio };
 [[nodiscard]] std::string_view name_of(ValueUnit unit);  // "dB", "m/s", "deg", "ratio"
 
 enum class Quantity { position, value, image };
 inline constexpr std::array all_quantities = {Quantity::position, Quantity::value, Quantity::image};
 
-// Of three figures the one for a quantity.
+// Returns the one of the three figures that belongs to the quantity.
 template <class Figure>
 [[nodiscard]] const Figure& figure_of(Quantity quantity, const Figure& position,
                                       const Figure& value, const Figure& image) {
@@ -37,24 +42,27 @@ template <class Figure>
 
 struct ErrorSize {
     double position_m = 0;
-    double value = 0;     // in the ValueUnit of the chain or budget that it stands beside
+    double value = 0;     // in the ValueUnit of the chain or budget that holds it
     double image_de = 0;  // CIEDE2000
 
+    // Returns the size of one quantity.
     [[nodiscard]] double of(Quantity quantity) const;
     ErrorSize& operator+=(const ErrorSize& other);
     bool operator==(const ErrorSize&) const = default;
 };
 
-// Whether no bound is known of any quantity.
+// Returns true if no bound is known for any quantity.
 [[nodiscard]] bool is_unbounded(const ErrorSize& size);
 
-// Three significant digits, rounded UP, so that no error looks smaller than it is; "unbounded" for
-// infinity. For people: budgets are written by format_budget(), which loses nothing.
+// Writes a number with three significant digits, rounded UP so that no error looks smaller than it
+// is, or "unbounded" for infinity. The text is for people; format_budget() writes budgets without
+// loss.
 [[nodiscard]] std::string format_number(double number);
+// Writes one size with its unit, by format_number().
 [[nodiscard]] std::string format_quantity(Quantity quantity, double size, ValueUnit unit);
-// The quantities that are not zero, as in "412 m, 0.2 dB"; "0" when all are.
+// Writes the quantities that are not zero, as in "412 m, 0.2 dB", or "0" if all are zero.
 [[nodiscard]] std::string format_size(const ErrorSize& size, ValueUnit unit);
-// As in "1.25 s", "20 ms", "3.1 us"; "0 s".
+// Writes a time as in "1.25 s", "20 ms", "3.1 us" or "0 s".
 [[nodiscard]] std::string format_seconds(double seconds);
 
 }  // namespace stormcellar::accuracy

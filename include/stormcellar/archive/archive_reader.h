@@ -1,12 +1,20 @@
-// stormcellar/archive/archive_reader.h -- the members of tar and zip archives, one after the other.
+// stormcellar/archive/archive_reader.h -- reads the members of tar and zip archives, one after the
+// other.
 //
-// NCEI's orders come as tar files, and people send what they have as zip. Members are streamed into
-// memory, never unpacked under their own names. Links, devices, directories and encrypted members
-// are no files and left out, as are names that lead out of the archive. An archive in an archive is
-// gone through too, once. What the input can claim is bounded (Limits): at a bound the reader stops
-// and says so; what is unpacked to be passed over counts, too. Of a damaged archive it gives what
-// is whole. Formats: tar (also compressed: gzip, bzip2, xz, zstd, compress) and zip, by content,
-// with libarchive. Thread contract: one thread at a time.
+// NCEI delivers orders as tar files, and people send what they have as zip. Members are read into
+// memory and never unpacked under their own names. Links, devices, directories, encrypted members
+// and members whose names lead out of the archive are left out. The members of an archive inside an
+// archive are read too, one level deep.
+//
+// The input is hostile, so `Limits` bounds whatever it can claim: at a bound the reader stops and
+// says so. Data that is unpacked only to be passed over counts as well. From a damaged archive the
+// reader returns the members that are whole. Formats, found by content with libarchive: tar (also
+// compressed by gzip, bzip2, xz, zstd or compress) and zip.
+//
+// Units     All sizes are in bytes.
+// Threads   Each reader may be used by one thread at a time.
+// Errors    ArchiveReader returns none: whatever it cannot give is in left_out().
+//           SourceReader::read() returns those of read_file(), and not_found.
 #pragma once
 
 #include <cstddef>
@@ -27,48 +35,53 @@
 namespace stormcellar::archive {
 
 struct Limits {
-    std::size_t members = 100'000;                             // of any kind
-    std::uint64_t member_bytes = std::uint64_t{256} << 20;     // of one: twice any known volume
-    std::uint64_t all_bytes = std::uint64_t{256} << 30;        // of all together
-    std::uint64_t expansion = 200;                             // times the archive's own bytes
-    std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;  // that no expansion counts for
-    int nesting = 1;  // archives in archives that are gone through
-    // Only codecs that take a few megabytes of memory whatever the input says: of tar gzip, bzip2
-    // and compress, of zip what is deflated or stored. Not xz and zstd.
+    std::size_t members = 100'000;  // members of any kind
+    // of one member: twice the size of any known volume
+    std::uint64_t member_bytes = std::uint64_t{256} << 20;
+    std::uint64_t all_bytes = std::uint64_t{256} << 30;  // of all members together
+    std::uint64_t expansion = 200;  // unpacked bytes for each byte of the archive
+    // an archive may unpack to this many bytes, whatever its expansion
+    std::uint64_t unbounded_bytes = std::uint64_t{256} << 20;
+    int nesting = 1;  // how deep archives inside archives are read
+    // Allows only codecs that need a few megabytes of memory whatever the input says: gzip, bzip2
+    // and compress for tar; deflated or stored members for zip. It excludes xz and zstd.
     bool small_codecs = false;
 };
 
 struct Member {
-    std::string name;  // as the archive has it; "INNER!NAME" where an archive lies in the archive
+    // as in the archive; "INNER!NAME" for a member of an archive inside the archive
+    std::string name;
     std::optional<UtcTime> modified;
     std::vector<std::byte> bytes;
 };
 
-// Something of the archive that is not given, and why, for a person.
+// Something in the archive that the reader does not return, with the reason for a person to read.
 struct LeftOut {
-    std::string name;  // of the member; empty: the archive
+    std::string name;  // the member's name; empty: the archive itself
     std::string reason;
 };
 
 class ArchiveReader {
   public:
-    // None where the file is no archive. The descriptor must stay open; it is read from its start.
+    // Opens an archive, reading the descriptor from the start of the file. The descriptor must stay
+    // open as long as the reader. Returns none if the file is not an archive.
     [[nodiscard]] static std::optional<ArchiveReader> open(int descriptor, Limits limits = {});
-    // The bytes must outlive the reader.
+    // The same for an archive in memory. The bytes must outlive the reader.
     [[nodiscard]] static std::optional<ArchiveReader> open(std::span<const std::byte> bytes,
                                                            Limits limits = {});
     ArchiveReader(ArchiveReader&&) noexcept;
     ArchiveReader& operator=(ArchiveReader&&) noexcept;
     ~ArchiveReader();
 
-    // The next member that is a file; none at the end.
+    // Returns the next member that is a file, or none at the end of the archive.
     [[nodiscard]] std::optional<Member> next();
-    // Up to here.
+    // Returns what was left out up to now.
     [[nodiscard]] const std::vector<LeftOut>& left_out() const;
-    // The archive ends too early or is damaged, so members may be missing; it may still be growing.
+    // Returns true if the archive ends too early or is damaged, so that members may be missing. The
+    // file may still be growing.
     [[nodiscard]] bool is_cut() const;
-    // Whether the end of a tar that is not packed, or of a zip, is there, by its last bytes. Of a
-    // packed one nobody knows before it was read: true.
+    // Returns true if the last bytes are the end of an uncompressed tar or of a zip. The end of a
+    // compressed archive cannot be known before it is read, so the result is true for those.
     [[nodiscard]] bool may_have_its_end() const;
 
   private:
@@ -77,17 +90,20 @@ class ArchiveReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// The archive and the member that a path names: DIR/a.tar is a file and the path itself is none.
+// Splits a path such as DIR/a.tar!NAME, for which DIR/a.tar is a file and the whole path is not,
+// into the archive and the member. Returns none for any other path.
 [[nodiscard]] std::optional<MemberName> member_path_of(const std::filesystem::path& path);
-// The member of that name; none where the archive has none. The descriptor as in open().
+// Returns the member of that name, or none if the archive has no such member. The descriptor is
+// used as in open().
 [[nodiscard]] std::optional<Member> find_member(int descriptor, const std::string& name,
                                                 Limits limits = {});
 
-// Reads files, and members of archives that are named as "ARCHIVE!MEMBER"; members are fastest in
-// their order. Thread contract: one thread at a time.
+// Reads files, and members of archives named as "ARCHIVE!MEMBER". Members are read fastest in the
+// order in which they stand in the archive.
 class SourceReader {
   public:
-    // Errors: those of read_file(); not_found where the archive has no such member.
+    // Returns the bytes of the file or member. Errors: those of read_file(); not_found if the
+    // archive has no such member.
     [[nodiscard]] Result<std::vector<std::byte>> read(const std::filesystem::path& path);
 
   private:

@@ -1,7 +1,9 @@
-// stormcellar/base/descriptor.h -- a file descriptor that is closed when nobody holds it any more.
+// stormcellar/base/descriptor.h -- owns a file descriptor and closes it when destroyed.
 //
-// A negative number is none; so is AT_FDCWD, which is nobody's to close.
-// Thread contract: one thread at a time.
+// A negative number means that there is no descriptor. AT_FDCWD is negative, so it is never closed.
+//
+// Threads   A Descriptor may be used by one thread at a time.
+// Errors    None; a failure of close() is ignored.
 #pragma once
 
 #include <utility>
@@ -26,7 +28,7 @@ class Descriptor {
     }
     [[nodiscard]] int number() const { return number_; }
     [[nodiscard]] bool is_open() const { return number_ >= 0; }
-    // Whoever asks closes it.
+    // Gives the descriptor away: the caller must close it.
     [[nodiscard]] int release() { return std::exchange(number_, -1); }
 
   private:

@@ -1,10 +1,14 @@
-// stormcellar/base/file_system.h -- the one seam through which files appear.
+// stormcellar/base/file_system.h -- the one place through which files are created and replaced.
 //
-// A file appears by: temporary file in the same directory, write, fsync, rename, fsync of the
-// directory. After commit() returns success the file survives a power cut; before that, the final
-// name is untouched. Tests replace FileSystem by a double that drops what was not synced, fills up,
-// or fails (tests/testing).
-// Thread contract: a FileSystem may be used by many threads; an AtomicFile by one.
+// A file appears in these steps: create a temporary file in the same directory, write, fsync,
+// rename, fsync the directory. Once commit() has returned success the file survives a power cut;
+// before that, the final name is untouched. Tests replace FileSystem by a double that drops what
+// was not synced, fills up, or fails (tests/testing).
+//
+// Units     Offsets and sizes are in bytes.
+// Threads   Many threads may use one FileSystem. An AtomicFile may be used by one thread at a time.
+// Errors    io, no_space, permission, not_found, not_a_file or unsupported, as each function says;
+//           the message has the path and the system's reason.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +31,8 @@ class FileSystem {
     FileSystem& operator=(const FileSystem&) = delete;
     virtual ~FileSystem() = default;
 
-    // Each returns io, no_space, permission or not_found with the path and the system's reason.
+    // Each function returns io, no_space, permission or not_found, with the path and the system's
+    // reason.
     virtual Result<int> create_exclusive(const std::filesystem::path& path) = 0;
     virtual Status write_at(int descriptor, std::uint64_t offset,
                             std::span<const std::byte> bytes) = 0;
@@ -39,23 +44,26 @@ class FileSystem {
     virtual Status remove(const std::filesystem::path& path) = 0;
 };
 
-// The operating system's files.
+// Returns the files of the operating system.
 [[nodiscard]] FileSystem& real_file_system();
 
-// Our temporary files start with this, so that others are never touched when leftovers are swept.
+// The names of our temporary files start with this prefix, so that sweeping up leftovers never
+// touches other files.
 inline constexpr std::string_view temporary_prefix = ".stormcellar-tmp-";
-[[nodiscard]] std::string own_temporary_prefix();  // of those of this process
-// Removes every file of the directory that is named so: what a killed writer left. Only for who
-// knows that nobody writes there. No directory is no error; io, permission.
+[[nodiscard]] std::string own_temporary_prefix();  // the prefix of this process
+// Removes every file of the directory whose name has the prefix: the leftovers of killed writers.
+// Call it only if no other process writes there. A directory that does not exist is not an error.
+// Errors: io, permission.
 [[nodiscard]] Status remove_temporaries(FileSystem& file_system,
                                         const std::filesystem::path& directory);
 
-// Whether a file can appear at this path: its directory is there and may be written, and nothing
-// but a regular file (or a link to one) stands there. For asking before long work.
+// Checks, before long work, whether a file can appear at this path: its directory exists and is
+// writable, and the path holds nothing, a regular file, or a link to one.
 [[nodiscard]] Status check_target(const std::filesystem::path& path);
 
-// A file that exists under its final name wholly or not at all. Destroyed without commit(), it
-// leaves nothing behind. A link is followed; not_a_file where anything but a regular file stands.
+// A file that exists under its final name wholly or not at all. If it is destroyed without
+// commit(), it leaves nothing behind. A link is followed. create() returns not_a_file if the path
+// holds anything but a regular file.
 class AtomicFile {
   public:
     static Result<AtomicFile> create(FileSystem& file_system, std::filesystem::path final_path);
@@ -67,7 +75,8 @@ class AtomicFile {
 
     Status append(std::span<const std::byte> bytes);
     Status write_at(std::uint64_t offset, std::span<const std::byte> bytes);
-    // Gives the file exactly this size; ranges never written read as zeros and take no space.
+    // Gives the file exactly this size. Ranges that were never written read as zeros and take no
+    // space.
     Status set_size(std::uint64_t size);
     Status commit();
 
@@ -84,13 +93,13 @@ class AtomicFile {
     std::uint64_t end_ = 0;
 };
 
-// Whole files, for convenience. read_file gives empty for an empty file's bytes as an empty vector
-// (not an error), not_a_file for a directory or another thing that is not a regular file (it
-// never blocks on a FIFO), and unsupported for a file of more than `limit` bytes.
+// Read and write whole files. read_file() returns an empty vector for an empty file, not_a_file for
+// a directory or anything else that is not a regular file (it never blocks on a FIFO), and
+// unsupported for a file of more than `limit` bytes.
 inline constexpr std::uint64_t default_read_limit = std::uint64_t{1} << 30;
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                                        std::uint64_t limit = default_read_limit);
-// The same of a file that is open; its path is for messages.
+// Reads a file that is open already. The path is used in messages.
 [[nodiscard]] Result<std::vector<std::byte>> read_open_file(int descriptor,
                                                             const std::filesystem::path& path,
                                                             std::uint64_t limit);

@@ -1,8 +1,11 @@
-// stormcellar/base/member_name.h -- how a member of an archive is named:
+// stormcellar/base/member_name.h -- names of members of archives:
 // "DIR/a.tar!KTLX20170101_030027_V06".
 //
-// A mark inside a name proves nothing: files may have it, too. Whether an archive stands there, who
-// asks must see.
+// A '!' in a path proves nothing, because names of files may hold it too. The caller must check
+// whether the archive exists.
+//
+// Threads   Pure functions.
+// Errors    None.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +22,8 @@ struct MemberName {
     std::string member;
 };
 
-// What the path may mean, the shortest archive's name first; nothing where it has no mark.
+// Returns all ways to split the path into an archive and a member, the shortest archive name first.
+// Returns nothing if the path has no mark.
 [[nodiscard]] inline std::vector<MemberName> member_names_in(const std::filesystem::path& path) {
     std::vector<MemberName> names;
     const std::string& text = path.native();
@@ -31,6 +35,7 @@ struct MemberName {
     return names;
 }
 
+// Returns the path that names a member of an archive.
 [[nodiscard]] inline std::filesystem::path member_path(const std::filesystem::path& archive,
                                                        const std::string& member) {
     return archive.native() + member_mark + member;

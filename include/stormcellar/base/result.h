@@ -1,7 +1,10 @@
 // stormcellar/base/result.h -- how a function says that it failed.
 //
 // Library code never logs and never throws for bad input: it returns a Result. The message of an
-// Error is one line that names the file or the value and the reason, fit to be shown to a user.
+// Error is one line that names the file or the value, and the reason, so that it can be shown to a
+// user.
+//
+// Threads   Results and errors are plain values; all functions are pure.
 #pragma once
 
 #include <optional>
@@ -13,8 +16,8 @@
 
 namespace stormcellar {
 
-// What kind of failure, for a caller that acts on it. Empty, truncated, corrupt and unsupported
-// input are different things to a user, so they are different codes.
+// The kind of a failure, for a caller that acts on it. Empty, truncated, corrupt and unsupported
+// input mean different things to a user, so each has its own code.
 enum class ErrorCode {
     bad_argument,  // the caller asked for something that makes no sense
     not_found,     // the thing named does not exist
@@ -25,20 +28,21 @@ enum class ErrorCode {
     not_level2,    // the input is not a Level II file
     not_a_file,    // a directory, FIFO or other thing that is not a regular file
     io,            // the operating system refused a read or a write
-    exhausted,     // the system gives no memory or no descriptors
+    exhausted,     // the system has no more memory or descriptors
     no_space,      // the file system is full
-    over_budget,   // what may be kept is used up, though the file system may have room
+    over_budget,   // the allowed space is used up, though the file system may have room
     permission,    // the file may not be read or written
     internal,      // a defect of this software
 };
 
-// Who has to change something before another try can succeed.
+// Who must change something before another try can succeed.
 enum class Cause {
     data,           // whoever wrote the input: another try reads the same bytes
-    system,         // the machine, or another process: another try may succeed as it is
-    configuration,  // whoever asked for this, or said what is allowed
+    system,         // the machine or another process: another try may succeed
+    configuration,  // whoever asked for this, or set what is allowed
 };
 
+// Returns the usual cause of a code; see Error::cause() for the cause of one error.
 [[nodiscard]] constexpr Cause cause_of(ErrorCode code) {
     switch (code) {
         case ErrorCode::empty:
@@ -62,8 +66,8 @@ enum class Cause {
     return Cause::system;
 }
 
-// Whether the system itself is short of what everybody uses: disk, memory, descriptors. Whatever
-// fails so is not to blame, however often it is tried.
+// Returns true if the system itself is short of what all programs use: disk, memory, descriptors. A
+// file whose reading fails for such a reason is not to blame, however often it is tried.
 [[nodiscard]] constexpr bool is_shortage(ErrorCode code) {
     return code == ErrorCode::no_space || code == ErrorCode::exhausted;
 }
@@ -71,13 +75,14 @@ enum class Cause {
 struct Error {
     ErrorCode code = ErrorCode::internal;
     std::string message;
-    // Where the code alone does not say it: a function that knows what it was given corrects it.
+    // Set where the code does not tell the cause; a function that knows more about its input sets
+    // it.
     std::optional<Cause> known_cause = std::nullopt;
 
     [[nodiscard]] Cause cause() const { return known_cause.value_or(cause_of(code)); }
 };
 
-// The same error, of which the caller knows better than its code who has to change something.
+// Returns the error with a cause that the caller knows better than cause_of() can.
 [[nodiscard]] inline Error caused_by(Cause cause, Error error) {
     error.known_cause = cause;
     return error;

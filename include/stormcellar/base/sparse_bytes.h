@@ -1,7 +1,9 @@
-// stormcellar/base/sparse_bytes.h -- a large array of bytes of which only what is written takes
-// memory.
+// stormcellar/base/sparse_bytes.h -- a large array of bytes that takes memory only where it is
+// written.
 //
-// Threads: as an array; different threads may write different bytes.
+// Units     Sizes are in bytes.
+// Threads   As for an ordinary array: different threads may write different bytes.
+// Errors    The constructor throws std::bad_alloc if the system refuses the memory.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +11,9 @@
 
 namespace stormcellar {
 
-// All zeros to begin with. From 32 MiB on it is a mapping of its own whose untouched pages take no
-// memory, and none is set apart for them; below that it comes from malloc, which serves the small
-// ones faster. Moves leave the source empty. Throws std::bad_alloc where the system refuses.
+// An array that holds zeros at first. From 32 MiB on it is a mapping of its own: pages that were
+// never written take no memory, and the system sets none aside for them. A smaller array comes from
+// malloc, which is faster for small sizes. Moving leaves the source empty.
 class SparseBytes {
   public:
     SparseBytes() = default;

@@ -1,14 +1,16 @@
-// stormcellar/base/station_rule.h -- of which stations data are taken in.
+// stormcellar/base/station_rule.h -- which stations' data are accepted.
 //
-// A file may claim to be of any station, and each station that is believed gets a database, a
-// domain in the cache and a share of memory and of the queue. So names are asked for here before
-// they get anything. Three rules:
-//   known   the station table and the stations that were added to it (add_stations())
+// A file may claim to be from any station, and each accepted station gets a database, a domain in
+// the cache and a share of the memory and of the queue. So a station must pass this rule before it
+// gets anything. There are three rules:
+//   known   the station table, and the stations added to it (set_added_stations())
 //   any     the same, and the first `most_further` other names that are admitted
-//   listed  the named stations alone
-// Data of every other station are cataloged among those of no known station, and not gridded.
-// A name is four characters, [A-Z][A-Z0-9]{3}; whatever is none is never believed.
-// Thread contract: all may be called by any thread.
+//   listed  the listed stations alone
+// Data of all other stations are cataloged among those of no known station, and not gridded. A name
+// is four characters, [A-Z][A-Z0-9]{3}; anything else is never accepted.
+//
+// Threads   Any thread may call every function.
+// Errors    None.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +29,7 @@ class StationRule {
 
     enum class Kind { known, any, listed };
 
-    // The rule `known`.
+    // Makes the rule `known`.
     StationRule() = default;
     [[nodiscard]] static StationRule any(std::size_t most_further = usual_most_further);
     [[nodiscard]] static StationRule listed(const std::vector<std::string>& stations);
@@ -36,14 +38,14 @@ class StationRule {
     ~StationRule() = default;
 
     [[nodiscard]] Kind kind() const { return kind_; }
-    // Whether data of this station are taken in, without admitting anything.
+    // Returns true if data of this station are accepted. Nothing is admitted.
     [[nodiscard]] bool knows(std::string_view station) const;
-    // The same; under `any` a new name is admitted while there is room, and stays admitted.
+    // The same, but the rule `any` admits a new name while there is room, and keeps it admitted.
     [[nodiscard]] bool admits(std::string_view station);
-    // The further stations that `any` has admitted, sorted.
+    // Returns the further stations that `any` has admitted, sorted.
     [[nodiscard]] std::vector<std::string> further() const;
     [[nodiscard]] std::size_t most_further() const { return most_further_; }
-    // For the configuration: the same rule, whatever was admitted.
+    // Returns true if the other rule is configured in the same way, whatever either has admitted.
     [[nodiscard]] bool same_as(const StationRule& other) const;
 
   private:

@@ -1,9 +1,14 @@
 // stormcellar/base/station_table.h -- where the radars stand.
 //
-// All NEXRAD (WSR-88D) and TDWR sites that send Level II data. Used for volumes that carry no
-// position and to check those that do. Sources: docs/data-sources.md.
-// Accuracy: positions to about 0.001 deg (100 m), altitudes as published, to about 1 m, with
-// exceptions named in docs/data-sources.md.
+// The table holds all NEXRAD (WSR-88D) and TDWR sites that send Level II data. It gives the
+// position of volumes that carry none, and checks the position of those that do.
+//
+// Units     Degrees on WGS84, meters above mean sea level.
+// Threads   Any thread may call every function, but for set_added_stations(); see there.
+// Errors    None; an unknown station is none or an empty text.
+// Accuracy  Positions to about 0.001 degrees (100 m), altitudes as published, to about 1 m, with
+//           the exceptions named in docs/data-sources.md.
+// Source    docs/data-sources.md.
 #pragma once
 
 #include <optional>
@@ -26,17 +31,18 @@ struct Station {
     double antenna_altitude_m = 0;  // of the feed horn, above mean sea level
 };
 
-[[nodiscard]] std::span<const Station> all_stations();  // of the table alone, sorted by icao
-// Of the table, or else of those that were added. Exact, upper case.
+[[nodiscard]] std::span<const Station> all_stations();  // the table alone, sorted by icao
+// Returns the station of this name from the table, else from the added stations, else none. The
+// name must match exactly, in upper case.
 [[nodiscard]] std::optional<Station> find_station(std::string_view icao);
 
-// The station that the name of a file begins with, as in KTLX20240601_220000_V06, or in the names
-// that NCEI gives, 6500KTLX19910720_160529.Z; in either case of letters. Empty where find_station()
-// does not know it.
+// Returns the station that a file name begins with, as in KTLX20240601_220000_V06, or as in NCEI's
+// names, 6500KTLX19910720_160529.Z, in upper or lower case. Returns an empty text if find_station()
+// does not know the station.
 [[nodiscard]] std::string station_in_name(std::string_view file_name);
 
-// A station that a configuration or a command line adds to the table. What the table has already
-// stays as it is there, unless `instead_of_table` says otherwise.
+// A station that a configuration or a command line adds to the table. A station that the table has
+// already stays as it is there, unless `instead_of_table` is set.
 struct AddedStation {
     std::string icao;
     std::string name;
@@ -46,13 +52,14 @@ struct AddedStation {
     bool instead_of_table = false;
     bool operator==(const AddedStation&) const = default;
 };
-// From now on find_station() finds these, too, and no others that were added before. To be called
-// before other threads ask for stations, and at most once while anybody holds a found one.
+// Replaces all stations added before by these. Call it before other threads ask for stations, and
+// at most once while anybody holds a station that find_station() returned.
 void set_added_stations(std::vector<AddedStation> stations);
 
-// Whether a name may stand for a station: [A-Z][A-Z0-9]{3}. Only such names become file names.
+// Returns true if a text has the form of a station's name, [A-Z][A-Z0-9]{3}. Only such names become
+// names of files.
 [[nodiscard]] bool is_icao(std::string_view text);
-// The name in capitals; none where it is no station's in either case.
+// Returns the name in capitals, or none if the text is not a station's name in either case.
 [[nodiscard]] std::optional<std::string> icao_of(std::string_view text);
 
 }  // namespace stormcellar

@@ -1,22 +1,28 @@
-// stormcellar/export/cfradial.h -- a volume as CfRadial 1.4 netCDF-4, every gate where it was
-// measured.
+// stormcellar/export/cfradial.h -- writes a volume as CfRadial 1.4 netCDF-4, with every gate where
+// it was measured.
 //
-// Dimensions time (the radials of all sweeps, in file order), sweep, string_length, and range,
-// range_2, ... for each pair of first gate and spacing that the volume holds. A moment is a packed
-// integer variable named REF, VEL, SW, ZDR, PHI, RHO or CFP on (time, range): the codes as they
-// came, with scale_factor and add_offset in double. Gates that differ from the most in range, scale
-// or word size go to a second variable (REF_2 on range_2) instead of being resampled. Whatever is
-// no value is _FillValue; REF_status keeps valid, below threshold, range folded and no data apart,
-// and the flags of CFP. docs/export.md has every variable.
-// Accuracy: unpacked in double, a value is within 1e-12 (codes of 8 bits) or 1e-11 (of 16 bits) of
-// (code - offset) / scale.
-// Without radials: a file whose time and sweep hold nothing. Without a position: latitude,
-// longitude and altitude are _FillValue. Without a VCP: no scan_id, and fixed_angle is the median
-// of the radials' elevations.
-// The file is made in memory and appears whole or not at all (stormcellar/base/file_system.h); the
-// same volume gives the same bytes, which name no time of writing. Source: CfRadial Data File
-// Format, version 1.4, NCAR/EOL, 2016-08-01. Thread contract: any thread; calls wait for each
-// other, because the netCDF library is not thread-safe.
+// The dimensions are time (the radials of all sweeps, in file order), sweep, string_length, and
+// range, range_2, ... for each pair of first gate and spacing in the volume. A moment is a packed
+// integer variable named REF, VEL, SW, ZDR, PHI, RHO or CFP on (time, range): it holds the codes as
+// they came, with scale_factor and add_offset in double. Gates that differ from the most common
+// range, scale or word size go to a second variable (REF_2 on range_2) instead of being resampled.
+// Whatever is not a value is _FillValue; REF_status tells valid, below threshold, range folded and
+// no data, and the flags of CFP, apart. docs/export.md lists every variable.
+//
+// If the volume has no radials, time and sweep have no elements. If it has no position, latitude,
+// longitude and altitude are _FillValue. If it has no VCP, there is no scan_id, and fixed_angle is
+// the median of the radials' elevations.
+//
+// The file is made in memory and appears whole or not at all (stormcellar/base/file_system.h). The
+// same volume gives the same bytes; they do not name the time of writing.
+//
+// Units     CF units, named in the file.
+// Threads   Any thread may call. Calls wait for each other, because the netCDF library is not
+//           thread-safe.
+// Errors    See write_volume().
+// Accuracy  Unpacked in double, a value is within 1e-12 (8-bit codes) or 1e-11 (16-bit codes) of
+//           (code - offset) / scale.
+// Source    CfRadial Data File Format, version 1.4, NCAR/EOL, 2016-08-01.
 #pragma once
 
 #include <filesystem>
@@ -30,15 +36,16 @@
 namespace stormcellar::netcdf {
 
 struct VolumeWriteOptions {
-    std::string source_file;         // name of the raw file; empty: not said
+    std::string source_file;         // name of the raw file; empty: not written
     bool complete = true;            // the volume is whole
-    std::vector<std::string> notes;  // what is to be known of the volume, e.g. its problems
+    std::vector<std::string> notes;  // what readers should know of the volume, e.g. its problems
     int deflate_level = 1;           // 0 to 9; 0: not compressed
 };
 
-// Errors: bad_argument for a deflate level out of range, a sweep without radials or arrays that do
-// not fit each other; unsupported for more than 64 kinds of gates (a damaged file); io, no_space,
-// permission, not_a_file and not_found from the file system; internal when netCDF refuses.
+// Writes the file. Errors: bad_argument for a deflate level out of range, a sweep without radials,
+// or arrays that do not fit each other; unsupported for more than 64 kinds of gates (a damaged
+// file); io, no_space, permission, not_a_file and not_found from the file system; internal if
+// netCDF refuses.
 [[nodiscard]] Status write_volume(FileSystem& file_system, const std::filesystem::path& path,
                                   const level2::Volume& volume,
                                   const VolumeWriteOptions& options = {});

@@ -1,10 +1,15 @@
-// stormcellar/fetch/fetch.h -- raw files from a public bucket, into a directory.
+// stormcellar/fetch/fetch.h -- downloads raw files from a public bucket into a directory.
 //
-// Files keep their names and the times that the bucket has of them. One that is there with its size
-// is not fetched again; one that was cut goes on where it ended. A file appears under its name when
-// it is whole. What fails is tried again, ever later; what fails for good is in the report.
+// Files keep their names and the times that the bucket gives them. A file that is there with its
+// full size is not downloaded again; an interrupted transfer continues where it stopped. A file
+// appears under its name only when it is whole. A failed transfer is tried again, with longer waits
+// each time; what fails for good is listed in the report.
+//
 // The transfers are done by a module with libcurl, stormcellar_fetch.so, which nothing else loads.
-// Thread contract: one thread.
+//
+// Units     Sizes are in bytes.
+// Threads   One thread at a time; fetch() calls `progress` on the thread that called it.
+// Errors    See fetch(). The failure of a single file is no error; it is in the report.
 #pragma once
 
 #include <atomic>
@@ -30,36 +35,37 @@ struct FetchProgress {
 struct FetchRequest {
     std::string source = default_source;
     std::vector<std::string> stations;
-    UtcTime from, to;  // of the volumes' starts, inclusive
+    UtcTime from, to;  // the range of the volumes' starts, inclusive
     std::filesystem::path directory;
-    int parallel = 8;                           // transfers at a time
-    int tries = 6;                              // of each
-    std::chrono::milliseconds first_wait{500};  // before the second try; twice as long each time
-    std::chrono::seconds stall{30};             // a transfer without a byte for so long has failed
+    int parallel = 8;  // transfers at the same time
+    int tries = 6;     // for each file
+    // before the second try; doubled for each further try
+    std::chrono::milliseconds first_wait{500};
+    std::chrono::seconds stall{30};  // a transfer without a byte for so long has failed
     std::function<void(const FetchProgress&)> progress;
-    const std::atomic<bool>* stop = nullptr;  // when it is set no transfer goes on
+    const std::atomic<bool>* stop = nullptr;  // once it is set, fetch() stops all transfers
 };
 
 struct FetchFailure {
-    std::string what;  // a key, or what was to be listed
+    std::string what;  // a key of the bucket, or the listing that failed
     std::string reason;
 };
 
 struct FetchReport {
-    std::size_t found = 0;            // volumes of the stations and times
-    std::size_t fetched = 0;          // of these now
-    std::size_t present = 0;          // were there
-    std::size_t without_radials = 0;  // _MDM: left out
-    std::uint64_t bytes = 0;          // that came now
+    std::size_t found = 0;            // volumes of these stations and times
+    std::size_t fetched = 0;          // downloaded by this call
+    std::size_t present = 0;          // already in the directory
+    std::size_t without_radials = 0;  // _MDM files, which are left out
+    std::uint64_t bytes = 0;          // downloaded by this call
     std::vector<FetchFailure> failures;
     bool stopped = false;
 };
 
-// Errors: bad_argument for a source that is no address; unsupported where the module is not
-// installed; those of the directory.
+// Downloads the files and returns what became of them. Errors: bad_argument if the source is not an
+// address; unsupported if the module is not installed; those of the directory.
 [[nodiscard]] Result<FetchReport> fetch(const FetchRequest& request);
 
-// What the module gives, under this name.
+// The function that the module exports, under the name below.
 using FetchEntry = void (*)(const FetchRequest& request, Result<FetchReport>& report);
 inline constexpr const char* fetch_module_file = "stormcellar_fetch.so";
 inline constexpr const char* fetch_module_entry = "stormcellar_fetch_files";

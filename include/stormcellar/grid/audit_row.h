@@ -1,9 +1,12 @@
-// stormcellar/grid/audit_row.h -- what an audit found of one sweep and range, small enough for
-// every file.
+// stormcellar/grid/audit_row.h -- what an audit found for one sweep and one class of ranges.
 //
-// grid/judge/audit.h makes the rows; here is what may be asked of them. Values are in the moment's
-// unit: dB of REF and ZDR, m/s of VEL. A row is 32 bytes, as docs/cache-format.md has it. Threads:
-// plain values.
+// grid/judge/audit.h makes the rows; every grid file holds them, so they are small: a row is 32
+// bytes, as in docs/cache-format.md.
+//
+// Units     Values are in the unit of the moment (dB for REF and ZDR, m/s for VEL); ranges are
+//           slant ranges in meters.
+// Threads   Plain values and pure functions.
+// Errors    None; is_possible() checks rows from a file.
 #pragma once
 
 #include <cstdint>
@@ -17,35 +20,37 @@
 namespace stormcellar::grid {
 
 struct AuditRow {
-    float elevation_deg = 0;        // the sweep's, as it was measured
+    float elevation_deg = 0;        // the measured elevation of the sweep
     float range_from_m = 0;         // gates from this slant range on,
-    float range_to_m = 0;           // below this one; infinite of the last class
+    float range_to_m = 0;           // and below this one; infinite in the last class
     std::uint32_t sampled = 0;      // gates that lie within the grid
-    std::uint32_t same_status = 0;  // of these: the grid has the gate's status there
-    std::uint32_t count = 0;        // of these: gate and grid have a value
-    float rms = 0;                  // of grid minus gate over `count`; 0 of none
+    std::uint32_t same_status = 0;  // of these, gates whose status the grid has there
+    std::uint32_t count = 0;        // of these, gates for which both gate and grid have a value
+    float rms = 0;                  // of grid minus gate over `count`; 0 if `count` is 0
     float mean = 0;
 
     bool operator==(const AuditRow&) const = default;
 };
 static_assert(sizeof(AuditRow) == 32);
 
-// Whether an audit can have given this row: finite numbers (but for range_to_m), counts that
-// include each other, a mean that is no larger than the RMS.
+// Returns true if an audit can have made this row: its numbers are finite (except range_to_m), each
+// count includes the next, and the mean is no larger than the RMS.
 [[nodiscard]] bool is_possible(const AuditRow& row);
 
-// All rows as one: of the lowest elevation and the whole range. Of none: a row of zeros.
+// Pools all rows into one, with the lowest elevation and the whole range. Returns a row of zeros if
+// there are no rows.
 [[nodiscard]] AuditRow pooled(std::span<const AuditRow> rows);
-// A row a range class, rising, over all sweeps; a row a sweep, in their order, over all ranges.
+// Pool the rows into one row for each class of ranges, by rising range, or into one row for each
+// sweep, by rising elevation.
 [[nodiscard]] std::vector<AuditRow> pooled_by_range(std::span<const AuditRow> rows);
 [[nodiscard]] std::vector<AuditRow> pooled_by_sweep(std::span<const AuditRow> rows);
 
-// Of differences: that of the moment, but dB of REF.
+// Returns the unit of differences: the unit of the moment, but dB for REF.
 [[nodiscard]] std::string_view difference_unit(level2::Moment moment);
-// "0 to 60 km", "beyond 240 km".
+// Returns a class of ranges as text: "0 to 60 km", "beyond 240 km".
 [[nodiscard]] std::string range_text(const AuditRow& row);
-// "RMS 1.23 dB, mean -0.04 dB over 12345 gates; status the same in 97.1 % of 40000"; of a moment
-// whose unit is empty or 1 the numbers alone.
+// Returns the errors as text: "RMS 1.23 dB, mean -0.04 dB over 12345 gates; status the same in 97.1
+// % of 40000". A unit that is empty or "1" is left out.
 [[nodiscard]] std::string errors_text(const AuditRow& row, std::string_view unit);
 
 }  // namespace stormcellar::grid

@@ -1,26 +1,28 @@
 // stormcellar/grid/beam_geometry.h -- where a gate is, and which gate sees a point.
 //
-// Units   metres and degrees at every boundary; heights above mean sea level.
-// Range   to the CENTRE of a gate, as message 31 gives it.
-// Model   straight ray over a sphere of radius 4/3 * Gaussian earth radius; antenna altitude enters
-//         the root; the arc is along the sphere at sea level.
-// Source  Doviak & Zrnic (1993) eqs 2.28b-c, rearranged so that nothing cancels.
-// Threads a BeamGeometry is immutable.
-// Accuracy (each line enforced by tests/grid/beam_geometry_test.cpp)
-//   height, arc: 1e-9 m of the formula in 113-bit floats, range [-1, 470] km, elevation [-5, 60]
-//   deg; round trip: 1e-9 m and 1e-12 deg, ranges of 1 km and more. Do not narrow: the same formula
-//   in float errs by 0.1 m.
-// Not covered is the model itself: the radius along the azimuth (7 m at 230 km, 28 m at 460 km,
-// 35 N), refraction other than 4/3 (docs/geometry.md).
+// Units     Meters and degrees at every boundary; heights are above mean sea level. A range leads
+//           to the CENTER of a gate, as in message 31.
+// Model     A straight ray over a sphere of radius 4/3 * Gaussian earth radius. The altitude of the
+//           antenna enters the root. The arc is measured along the sphere at sea level.
+// Source    Doviak & Zrnic (1993) eqs 2.28b-c, rearranged so that nothing cancels.
+// Threads   A BeamGeometry is immutable, so any thread may use it.
+// Errors    None: NaN in, NaN out.
+// Accuracy  Each line is enforced by tests/grid/beam_geometry_test.cpp. height, arc  1e-9 m of the
+//           formula in 113-bit floats, for ranges of -1 to 470 km and
+//                        elevations of -5 to 60 degrees
+//           round trip   1e-9 m and 1e-12 degrees for ranges of 1 km and more
+//           float        Do not narrow: the same formula in float errs by 0.1 m.
+//           NOT covered  the model itself: the radius along the azimuth (7 m at 230 km, 28 m at 460
+//                        km, 35 N) and refraction other than 4/3 (docs/geometry.md)
 #pragma once
 
 namespace stormcellar::grid {
 
-// WGS84 (NGA.STND.0036): semi-major axis and flattening.
+// WGS84 (NGA.STND.0036): the semi-major axis and the flattening.
 inline constexpr double wgs84_semi_major_m = 6378137.0;
 inline constexpr double wgs84_flattening = 1 / 298.257223563;
 
-// sqrt(M N): the radius of the sphere that fits the ellipsoid best at a latitude.
+// Returns sqrt(M N), the radius of the sphere that fits the ellipsoid best at a latitude.
 [[nodiscard]] double gaussian_radius_m(double latitude_deg) noexcept;
 
 // A point as the antenna sees it. A negative range lies behind the antenna, on the same line.
@@ -40,19 +42,20 @@ class BeamGeometry {
     BeamGeometry(double site_latitude_deg, double antenna_altitude_m) noexcept;
 
     [[nodiscard]] EarthPoint forward(AntennaPoint gate) const noexcept;  // NaN in, NaN out
-    // Closed form; the range is never negative. The antenna itself has elevation 0.
+    // Solves forward() for the gate, in closed form. The range is never negative, and the antenna
+    // itself has elevation 0.
     [[nodiscard]] AntennaPoint inverse(EarthPoint point) const noexcept;
 
-    // Where a beam of this elevation passes over a point at this arc. NaN where it never does:
-    // elevation + arc / radius must stay below 90 degrees.
+    // Returns the range and the height at which a beam of this elevation passes over the arc.
+    // Returns NaN if it never does: elevation + arc / radius must stay below 90 degrees.
     struct BeamPoint {
         double range_m = 0;
         double height_m = 0;
     };
     [[nodiscard]] BeamPoint over(double arc_m, double elevation_deg) const noexcept;
 
-    // over().height_m for many arcs and elevations: what each alone contributes, made once. Within
-    // 1e-8 m of over().
+    // These give over().height_m for many arcs and elevations, within 1e-8 m: the caller computes
+    // the angle of each arc and of each elevation once, and combines them.
     struct Angle {
         double sine = 0, cosine = 1;
     };
@@ -66,7 +69,7 @@ class BeamGeometry {
   private:
     double radius_m_;    // 4/3 of the Gaussian radius
     double altitude_m_;  // of the antenna above mean sea level
-    double antenna_m_;   // from the centre of the sphere: radius + altitude
+    double antenna_m_;   // from the center of the sphere: radius + altitude
 };
 
 }  // namespace stormcellar::grid

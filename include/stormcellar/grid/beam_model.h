@@ -1,16 +1,18 @@
-// stormcellar/grid/beam_model.h -- the rungs of the beam: flat earth, 4/3 earth, a ray traced
-// through a profile.
+// stormcellar/grid/beam_model.h -- the rungs of the beam: a flat earth, a 4/3 earth, and a ray
+// traced through a profile of the air.
 //
-// Units   metres and degrees; heights above mean sea level. Sphere:
-// stormcellar/grid/beam_geometry.h. Range   as the radar gives it. The traced beam takes it for the
-// optical path (stormcellar/grid/ray_tracer.h),
-//         the two others for the path itself, as their formulas are meant.
-// Cost    path() of a traced beam integrates it once (some 70 us; 0.2 ms with 300 levels);
-//         everything asked of a path after that costs tens of nanoseconds.
-// Accuracy (enforced by tests/grid/beam_model_test.cpp) flat earth: 1e-9 m of its formula; 4/3
-// earth:
-//         BeamGeometry's bits; traced: stormcellar/grid/ray_tracer.h; over() undoes at() to 1 mm.
-// Threads both classes are immutable and cheap to copy; use one from many threads.
+// Units     Meters and degrees; heights are above mean sea level. The sphere is that of
+//           stormcellar/grid/beam_geometry.h.
+// Range     As the radar reports it. The traced beam takes it for the optical path
+//           (stormcellar/grid/ray_tracer.h); the two others take it for the path itself, as their
+//           formulas do.
+// Cost      path() integrates a traced beam once (some 70 us; 0.2 ms with 300 levels). After that,
+//           a question to the path costs tens of nanoseconds.
+// Threads   Both classes are immutable and cheap to copy; many threads may use one object.
+// Errors    None: what a path does not reach is NaN.
+// Accuracy  Enforced by tests/grid/beam_model_test.cpp. Flat earth: 1e-9 m of its formula. 4/3
+//           earth: the bits of BeamGeometry. Traced: see stormcellar/grid/ray_tracer.h. over()
+//           undoes at() to 1 mm.
 #pragma once
 
 #include <memory>
@@ -31,16 +33,16 @@ using ChosenBeam = Chosen<BeamKind::four_thirds, BeamKind::flat_earth>;
 // The axis of the beam at one elevation.
 class BeamPath {
   public:
-    // Arc and height of a gate. NaN where the path does not go.
+    // Returns the arc and the height of a gate, or NaN where the path does not go.
     [[nodiscard]] EarthPoint at(double range_m) const noexcept;
-    // Range and height over an arc. NaN where the path never passes.
+    // Returns the range and the height over an arc, or NaN where the path never passes.
     [[nodiscard]] BeamGeometry::BeamPoint over(double arc_m) const noexcept;
 
   private:
     friend class BeamModel;
     ChosenBeam kind_;
     double elevation_deg_ = 0;
-    double cosine_ = 1, sine_ = 0;  // flat earth
+    double cosine_ = 1, sine_ = 0;  // used by the flat earth
     double altitude_m_ = 0;
     BeamGeometry four_thirds_{0, 0};
     std::shared_ptr<const TracedRay> ray_;
@@ -48,22 +50,24 @@ class BeamPath {
 
 class BeamModel {
   public:
-    // A traced path goes from here behind the antenna to there ahead of it, unless it meets the
-    // ground (RayOptions::floor_m) first: 600 km, that arcs of 470 km are reached up to 35 degrees.
+    // A traced path runs from behind_m behind the antenna to farthest_m ahead of it, unless it
+    // meets the ground first (RayOptions::floor_m). With 600 km, beams of up to 35 degrees reach
+    // arcs of 470 km.
     static constexpr double behind_m = 1000;
     static constexpr double farthest_m = 600e3;
 
-    // arc = r cos e, height = altitude + r sin e.
+    // The formulas are arc = r cos e and height = altitude + r sin e.
     [[nodiscard]] static BeamModel flat_earth(double antenna_altitude_m);
-    // BeamGeometry, bit for bit.
+    // The same as BeamGeometry, bit for bit.
     [[nodiscard]] static BeamModel four_thirds(double site_latitude_deg, double antenna_altitude_m);
     [[nodiscard]] static BeamModel traced(double site_latitude_deg, double antenna_altitude_m,
                                           RefractivityProfile profile,
                                           RangeKind range_kind = RangeKind::optical);
 
     [[nodiscard]] BeamPath path(double elevation_deg) const;
-    // Closed, or iterated until the gate is within 1 mm of the point. NaN where no beam reaches it,
-    // or, in and below ducts (where several may), when none is found in 100 steps.
+    // Returns the gate that sees a point. The result is in closed form, or iterated until the gate
+    // is within 1 mm of the point. It is NaN if no beam reaches the point. In and below ducts,
+    // where several beams may reach it, it is also NaN if 100 steps find none.
     [[nodiscard]] AntennaPoint inverse(EarthPoint point) const;
 
     [[nodiscard]] BeamKind kind() const noexcept { return kind_; }
@@ -83,21 +87,23 @@ class BeamModel {
     RangeKind range_kind_ = RangeKind::optical;
 };
 
-// How far apart two models put the beams of some elevations, where either puts them within the
-// limits. Infinite where only one has a place there at all, as when a duct bends the other away.
-// Arcs and ranges are taken every 500 m, one step around the limits included. What lies between
-// exceeds the result by less than 0.1 m (enforced, down to levels 50 m apart, without ducts);
-// tables with that step that are linear between hold no larger differences.
+// The largest difference between two models, over the beams of some elevations, wherever either of
+// them puts a beam within the limits. It is infinite if only one of the models reaches a place, as
+// when a duct bends the other beam away.
+//
+// Arcs and ranges are compared every 500 m, including one step beyond the limits. The difference
+// between those points exceeds the result by less than 0.1 m (enforced, down to levels 50 m apart,
+// without ducts). Tables with that step that are linear in between hold no larger differences.
 struct BeamLimits {
-    double arc_m = 470e3;  // arcs from 0 to this
+    double arc_m = 470e3;  // arcs from 0 to this one
     double range_m = 470e3;
-    double floor_m = 0;  // heights between these
-    double ceiling_m = 20e3;
+    double floor_m = 0;       // heights from here
+    double ceiling_m = 20e3;  // to here
 };
 struct BeamDifference {
     double height_m = 0;  // over the same arc
     double range_m = 0;   // over the same arc
-    double gate_m = 0;    // of the same gate: hypot of the differences of arc and height
+    double gate_m = 0;    // for the same gate: hypot of the differences of arc and height
 };
 [[nodiscard]] BeamDifference greatest_difference(const BeamModel& a, const BeamModel& b,
                                                  std::span<const double> elevations_deg,

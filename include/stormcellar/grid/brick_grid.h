@@ -1,13 +1,17 @@
-// stormcellar/grid/brick_grid.h -- a quantised grid in bricks in memory; owns what a BrickView
-// shows.
+// stormcellar/grid/brick_grid.h -- a quantized grid in bricks in memory. It owns the bytes that a
+// BrickView shows.
 //
 // Codes are dense-addressed (stormcellar/grid/brick_view.h), yet bricks without values take no
-// memory in a large grid: 7000 x 3500 x 33 cells are 1.1 GiB of addresses and only the bricks
-// written of pages. Cells beyond the grid's edge in the last bricks are no cells: they have code 0,
-// and count neither way where a brick's cells are all alike. Threads: const is safe; different
-// BricksWriters may write different bricks at the same time. Accuracy: a value is off by at most
-// half a quantisation step; values beyond the code range are clamped to its ends and counted in
-// clamped_count.
+// memory in a large grid: 7000 x 3500 x 33 cells take 1.1 GiB of addresses, but pages only for the
+// bricks that were written. The last bricks reach beyond the edge of the grid. Their places there
+// are not cells: they have code 0, and they do not count when a brick is checked for cells that are
+// all alike.
+//
+// Threads   Any thread may call const functions. Different BricksWriters may write different bricks
+//           at the same time.
+// Errors    None; the caller must keep to the contracts stated below.
+// Accuracy  A value is off by at most half a quantization step. Values beyond the range of codes
+//           are clamped to its ends and counted in clamped_count().
 #pragma once
 
 #include <cstddef>
@@ -25,25 +29,27 @@ class BricksWriter;
 
 class BrickGrid {
   public:
-    // Every cell not seen.
+    // Makes a grid in which no cell is seen.
     BrickGrid(GridSpec spec, const Quantization& quantization);
 
-    // The same to the bit for any number of threads.
+    // Quantizes a grid. The result has the same bits for any number of threads.
     [[nodiscard]] static BrickGrid from(const Grid& grid, const Quantization& quantization,
                                         int threads = 1);
 
-    // Valid as long as this object lives and is not moved.
+    // Returns a view, which is valid as long as this object lives and is not moved.
     [[nodiscard]] BrickView view() const;
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_count_; }
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
 
-    // Takes over what the writers hold beside the codes. Each has written bricks behind those of
-    // the one before it, in rising order; so states stand in the order of their bricks.
+    // Takes over what the writers hold beside the codes. Each writer must have written bricks after
+    // those of the writer before it, in rising order, so that the states lie in the order of their
+    // bricks.
     void finish(std::span<BricksWriter> writers);
 
-    // Bricks become not seen, to be written anew: then finish_again(), whose writers may have
-    // written in any order. States stand in the order of their bricks again, as if the grid had
-    // been written at once, but for what clamped_count() counts: all that was ever clamped.
+    // clear() makes bricks not seen, so that they can be written anew. finish_again() then takes
+    // over from their writers, which may have written in any order. Afterward the states lie in the
+    // order of their bricks again, as if the grid had been written at once. Only clamped_count()
+    // differs: it counts all that was ever clamped.
     void clear(std::size_t brick);
     void finish_again(std::span<BricksWriter> writers);
 
@@ -58,7 +64,7 @@ class BrickGrid {
     std::uint64_t clamped_count_ = 0;
 };
 
-// How many of a brick's cells lie within the grid, along each axis.
+// How many cells of a brick lie within the grid, along each axis.
 struct BrickExtent {
     int x = brick_edge;
     int y = brick_edge;
@@ -67,20 +73,22 @@ struct BrickExtent {
 };
 [[nodiscard]] BrickExtent brick_extent(const GridSpec& spec, int bx, int by, int bz);
 
-// Writes bricks of a new BrickGrid, each at most once and in rising order. What is not written is
-// not seen. The grid must outlive the writer and not move; BrickGrid::finish() ends the writing.
+// Writes the bricks of a new BrickGrid, each at most once and in rising order. Bricks that are not
+// written are not seen. The grid must outlive the writer and must not move. BrickGrid::finish()
+// ends the writing.
 class BricksWriter {
   public:
     explicit BricksWriter(BrickGrid& grid) : grid_(&grid) {}
 
     void put_uniform(std::size_t brick, CellStatus status);
-    // 4,096 codes, 0 in all cells beyond the extent; the grid's codes must be as long as Code.
+    // Writes 4,096 codes, which must be 0 in all places beyond the extent. Code must be as long as
+    // the codes of the grid.
     template <class Code>
     void put_codes(std::size_t brick, const Code* codes, const BrickExtent& extent);
-    // 1,024 bytes of states, none of them a value.
+    // Writes 1,024 bytes of states, none of which may be a value.
     void put_states(std::size_t brick, std::span<const std::byte> states,
                     const BrickExtent& extent);
-    // A brick of a view with the same quantisation, its cells as they are.
+    // Copies a brick, cell by cell, from a view with the same quantization.
     void copy(std::size_t brick, const BrickView& from, std::size_t from_brick);
 
     void count_clamped(std::uint64_t cells) { clamped_count_ += cells; }
@@ -96,7 +104,7 @@ class BricksWriter {
     std::uint64_t clamped_count_ = 0;
 };
 
-// The opposite: every cell of a view as value and status.
+// Turns bricks into a dense grid: the value and the status of every cell of the view.
 [[nodiscard]] Grid to_dense(const BrickView& view);
 
 }  // namespace stormcellar::grid

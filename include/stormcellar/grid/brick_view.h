@@ -1,14 +1,20 @@
-// stormcellar/grid/brick_view.h -- a read-only view of a quantised grid in bricks, wherever its
-// bytes are.
+// stormcellar/grid/brick_view.h -- a read-only view of a quantized grid in bricks, in memory or in
+// a mapped file.
 //
-// The codes are dense-addressed: every brick of 16x16x16 cells has its fixed place, so the address
-// of a cell is the sum of three numbers, one for each axis, and needs no lookup. Bricks that hold
-// no value are absent: their place reads as zeros (a hole of a sparse file, untouched memory) and
-// their status comes from the brick's entry. A brick of 8-bit codes is one page of 4,096 bytes.
+// The codes are dense-addressed: every brick of 16x16x16 cells has its fixed place. The address of
+// a cell is therefore the sum of three numbers, one for each axis, and needs no lookup. Bricks that
+// hold no value are absent: their place reads as zeros (a hole in a sparse file, or untouched
+// memory), and the entry of the brick gives their status. A brick of 8-bit codes is one page of
+// 4,096 bytes.
 //
-// Inside a brick z runs fastest, then y, then x. Bricks follow each other z fastest, then y, x.
-// Code 0 not seen, 1 no echo, 2 range folded; from 3 on, value = first_value + step * (code - 3).
-// Thread contract: a view is plain data over bytes that somebody else owns and keeps.
+// Inside a brick z runs fastest, then y, then x. The bricks follow each other in the same order.
+// Code 0 means not seen, 1 no echo and 2 range folded; from 3 on, value = first_value + step *
+// (code - 3).
+//
+// Threads   A view is plain data over bytes that somebody else owns and keeps; any thread may read
+//           it.
+// Errors    None: indices must be within the grid.
+// Accuracy  A value is within step / 2 of the value that was quantized.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +32,7 @@ inline constexpr std::uint16_t first_value_code = 3;
 struct Quantization {
     int code_bytes = 1;       // 1 or 2
     float first_value = -32;  // value of code 3
-    float step = 0.5F;        // so the rounding error is at most step / 2
+    float step = 0.5F;        // the rounding error is at most step / 2
 
     [[nodiscard]] float value_of(std::uint16_t code) const {
         return first_value + step * static_cast<float>(code - first_value_code);
@@ -35,7 +41,7 @@ struct Quantization {
     bool operator==(const Quantization&) const = default;
 };
 
-// Steps that are no coarser than the radar's own codes: REF 0.5 dBZ from -32, and so on.
+// Returns steps that are no coarser than the radar's own codes, such as 0.5 dBZ from -32 for REF.
 [[nodiscard]] Quantization default_quantization(level2::Moment moment);
 
 enum class BrickKind : std::uint8_t {
@@ -48,10 +54,10 @@ struct BrickEntry {
     BrickKind kind = BrickKind::uniform;
     CellStatus uniform_status = CellStatus::not_seen;
     std::uint16_t value_count = 0;  // cells with a value, at most 4,096
-    std::uint16_t min_code = 0;     // of the cells with a value
+    std::uint16_t min_code = 0;     // over the cells with a value
     std::uint16_t max_code = 0;
-    std::uint32_t status_index = 0;  // status_only: which 1,024-byte block
-    std::uint32_t packed_bytes = 0;  // stored, in a file whose codes are packed: what they take
+    std::uint32_t status_index = 0;  // status_only: the number of its 1,024-byte block
+    std::uint32_t packed_bytes = 0;  // stored in a file with packed codes: the bytes that they take
     std::uint64_t checksum = 0;      // XXH3 of the brick's codes or of its states
 };
 static_assert(sizeof(BrickEntry) == 24);
@@ -70,7 +76,8 @@ struct BrickView {
                    static_cast<std::size_t>(bricks_z) +
                static_cast<std::size_t>(bz);
     }
-    // Cell offsets (in codes) along each axis: the address of a cell is their sum.
+    // These are the offsets of a cell along each axis, in codes. The address of a cell is their
+    // sum.
     [[nodiscard]] std::size_t offset_x(int ix) const {
         return brick_index(ix / brick_edge, 0, 0) * brick_cells +
                static_cast<std::size_t>(ix % brick_edge) * brick_edge * brick_edge;
@@ -83,11 +90,11 @@ struct BrickView {
         return brick_index(0, 0, iz / brick_edge) * brick_cells +
                static_cast<std::size_t>(iz % brick_edge);
     }
-    // The stored code at an offset; 0 inside absent bricks, whatever their status.
+    // Returns the stored code at an offset; 0 inside absent bricks, whatever their status.
     [[nodiscard]] std::uint16_t code_at(std::size_t offset) const;
-    // Slow and complete: what a cell holds, absent bricks included. The cell must exist.
+    // Returns the status of any cell, in absent bricks too. This is slow. The cell must exist.
     [[nodiscard]] CellStatus status(int ix, int iy, int iz) const;
-    [[nodiscard]] float value(int ix, int iy, int iz) const;  // of a cell whose status is value
+    [[nodiscard]] float value(int ix, int iy, int iz) const;  // the cell's status must be value
 };
 
 [[nodiscard]] constexpr int bricks_along(int cells) {

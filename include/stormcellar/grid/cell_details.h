@@ -1,27 +1,32 @@
-// stormcellar/grid/cell_details.h -- what else can be known of a cell beside its value, on demand.
+// stormcellar/grid/cell_details.h -- what else can be known about a cell beside its value, on
+// demand.
 //
-// Of each cell that is not `not_seen`, from the nearest gates (nearest radial, nearest in range) of
-// the sweeps that it is made of: the two that bracket it, with weights linear in height; outside of
-// them, beside a lost cut and for Interpolation::nearest the nearer one alone. Those of them that
-// see the place count, whatever else the method mixes in:
-//   age            s; mean of the times of their nearest radials, by weight, minus the frame time
-//                  (GridderOptions::frame_time): negative before it, positive after it. Not known
-//                  where one of these radials is undated, or the volume and no frame time is given
-//   height_offset  m; height of the cell minus that of the centre of the nearest of their beams
-//   over
-//                  the same place: positive above the beam
-//   distance       m; in space from the cell's centre to the nearest of the centres of their gates:
-//                  hypot of the difference in height and of that in the plane about the site in
-//                  which arc and azimuth are polar coordinates
-//   weight         1; the share of the weight of all that the method mixes that was seen, 1 - u of
-//                  the status rule (grid/sweep/mixture.h): 1/2 to 1
-// Cells with an extent are described at their centre (weight: as a whole). Where several gates are
-// mixed, or the cell has an extent, none of the nearest gates may see a cell that others see: then
-// only its weight is known.
-// Accuracy (tests/grid/cell_details_test.cpp, within 470 km): height_offset 0.5 m and distance 0.5
-// m of the beam model; age and weight of the cell's linear weights are those of a cell up to 0.5 m
-// higher or lower, beside 2 ms and 1e-5.
-// Threads: plain values.
+// Details are known for each cell that is not `not_seen`. They come from the nearest gates (nearest
+// radial, nearest in range) of the sweeps that the cell is made of. These are the two sweeps that
+// bracket the cell, with weights linear in height. Above and below all sweeps, beside a lost cut
+// and for Interpolation::nearest, it is the nearer sweep alone. Of these gates, those that see the
+// place count, whatever else the method mixes in:
+//   age            s; the weighted mean of the times of the radials of these gates, minus the frame
+//                  time (GridderOptions::frame_time): negative before it, positive after it. It is
+//                  not known if one of these radials has no time, or if the volume has none and no
+//                  frame time is given.
+//   height_offset  m; the height of the cell minus the height of the center of the nearest of these
+//                  beams over the same place: positive above the beam
+//   distance       m; the distance in space from the center of the cell to the nearest of the
+//                  centers of these gates: hypot of the difference in height and of the distance in
+//                  the plane about the site in which arc and azimuth are polar coordinates
+//   weight         1; the share of the weight of all that the method mixes that was seen, which is
+//                  1 - u of the status rule (grid/sweep/mixture.h): 1/2 to 1
+// The details of a cell with an extent describe its center, but for the weight, which describes the
+// whole cell. If several gates are mixed, or the cell has an extent, it may happen that none of the
+// nearest gates sees a cell that other gates see. Then only its weight is known.
+//
+// Units     Seconds and meters, as above.
+// Threads   Plain values; see CellDetails::put() for writing.
+// Errors    None; an unknown detail is none.
+// Accuracy  Within 470 km, enforced by tests/grid/cell_details_test.cpp: height_offset and distance
+//           are within 0.5 m of the beam model. For linear weights, age and weight are those of a
+//           cell up to 0.5 m higher or lower, within 2 ms and 1e-5.
 #pragma once
 
 #include <array>
@@ -35,7 +40,7 @@
 
 namespace stormcellar::grid {
 
-// Whether any were asked for.
+// Says whether any details were asked for.
 using ChosenDetails = Chosen<false, false>;
 
 enum class Detail : std::uint8_t { age, height_offset, distance, weight };
@@ -60,25 +65,26 @@ class DetailSet {
     std::uint8_t bits_ = 0;
 };
 
-// Of all cells of a grid, index by GridSpec::index().
+// The details of all cells of a grid; the index is GridSpec::index().
 class CellDetails {
   public:
     CellDetails() = default;
-    // Room for those of the set; nothing is known yet.
+    // Makes room for the details of the set. None is known yet.
     CellDetails(DetailSet set, std::size_t cells);
 
     [[nodiscard]] DetailSet set() const { return set_; }
-    // None where it is not known, or was not asked for.
+    // Returns a detail, or none if it is not known or was not asked for.
     [[nodiscard]] std::optional<float> at(Detail detail, std::size_t cell) const;
-    // Cells that there is room for; 0 when nothing was asked for.
+    // Returns the number of cells that there is room for; 0 if no detail was asked for.
     [[nodiscard]] std::size_t size() const { return known_.size(); }
-    // The detail must be of the set. Different cells may be put by different threads.
+    // Sets a detail, which must be in the set. Different threads may put details of different
+    // cells.
     void put(Detail detail, std::size_t cell, float value);
 
   private:
     DetailSet set_;
-    std::array<std::vector<float>, all_details.size()> values_;  // empty where not asked for
-    std::vector<std::uint8_t> known_;                            // a bit a detail
+    std::array<std::vector<float>, all_details.size()> values_;  // empty for details not asked for
+    std::vector<std::uint8_t> known_;                            // one bit for each detail
 };
 
 }  // namespace stormcellar::grid

@@ -1,21 +1,24 @@
-// stormcellar/grid/chosen.h -- a rung that the caller chooses, unless the library is built with one
+// stormcellar/grid/chosen.h -- a rung that the caller chooses, unless the library is built for one
 // chain alone.
 //
-// As released the library has every rung of every step, and a Chosen is a value like any other. To
-// count what the choice itself costs (scripts/check-costs) the library is built without it, with
-// -DSTORMCELLAR_CHAIN=
-//   usual     the default chain: what DESIGN section 6 calls a build without what is off by default
-//   cheapest  every effect off: flat earth, one elevation a sweep, nearest, a point, on a sphere
-// A Chosen is a constant then, and the compiler drops every rung that it is not and every question
-// which it is. Such a library is for counting: it aborts where another rung is asked for.
-// Threads: plain values.
+// In a normal build the library has every rung of every step, and a Chosen is a value like any
+// other. To count what the choice itself costs, scripts/check-costs builds the library without it,
+// with -DSTORMCELLAR_CHAIN=
+//   usual     the default chain, without any effect that is off by default
+//   cheapest  every effect off: flat earth, one elevation for each sweep, nearest, a point, on a
+//             sphere
+// In these builds a Chosen is a constant, so the compiler drops every other rung and every test of
+// which rung it is. Such a library is only for counting: it aborts if another rung is asked for.
+//
+// Threads   Plain values.
+// Errors    None, but for the abort in the builds for counting.
 #pragma once
 
 #include <cstdlib>
 
 namespace stormcellar::grid {
 
-// A Chosen stands for its rung: NOLINTBEGIN(google-explicit-constructor)
+// A Chosen converts to and from its rung: NOLINTBEGIN(google-explicit-constructor)
 #if defined(STORMCELLAR_USUAL_CHAIN) || defined(STORMCELLAR_CHEAPEST_CHAIN)
 
 template <auto usual, auto cheapest>
@@ -46,7 +49,7 @@ template <auto usual, auto cheapest>
 class Chosen {
   public:
     using Rung = decltype(usual);
-    // Whether the library is built with this rung.
+    // Returns true if the library is built with this rung.
     [[nodiscard]] static constexpr bool can_be(Rung) { return true; }
 
     constexpr Chosen() = default;

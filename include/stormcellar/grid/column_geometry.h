@@ -1,11 +1,15 @@
 // stormcellar/grid/column_geometry.h -- azimuth and arc from one site to every column of a grid
 // spec.
 //
-// Made once, immutable, shared between volumes and threads.
-// Accuracy: arc 0.02 m within 500 km, azimuth 2e-5 deg and what 1e-3 m (`table`) or 1e-6 m
-// (`geodesic`) make of it close to the site: floats of exact geodesics, or of places so far from
-// them; enforced by tests/grid/column_geometry_test.cpp. In metres, and for `sphere`:
-// stormcellar/grid/frame_ladder.h.
+// A ColumnGeometry is costly to make, so volumes and threads share one.
+//
+// Units     Degrees clockwise from north; meters along the earth.
+// Threads   Immutable; many threads may use one object.
+// Errors    See make_column_geometry().
+// Accuracy  Enforced by tests/grid/column_geometry_test.cpp. The arc is within 0.02 m up to 500 km.
+//           The azimuth is within 2e-5 degrees, plus what a place that is off by 1e-3 m (`table`)
+//           or 1e-6 m (`geodesic`) adds close to the site. stormcellar/grid/frame_ladder.h has the
+//           bounds in meters, and those of `sphere`.
 #pragma once
 
 #include <memory>
@@ -19,7 +23,7 @@
 
 namespace stormcellar::grid {
 
-// As seen from the site.
+// Where a column lies as seen from the site.
 struct ColumnPlace {
     float azimuth_deg = 0;  // [0, 360)
     float arc_m = 0;
@@ -27,18 +31,18 @@ struct ColumnPlace {
 
 class ColumnGeometry {
   public:
-    // The spec must be valid and the site on the earth: make_column_geometry() checks.
+    // The spec must be valid and the site must be on the earth. make_column_geometry() checks both.
     ColumnGeometry(SitePosition site, GridSpec spec, ChosenFrame kind);
 
     [[nodiscard]] const SitePosition& site() const { return site_; }
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
     [[nodiscard]] FrameKind frame_kind() const { return kind_; }
-    // The columns of a row, west to east.
+    // Returns the columns of a row, from west to east.
     [[nodiscard]] std::span<const ColumnPlace> row(int iy) const {
         const auto width = static_cast<std::size_t>(spec_.nx);
         return std::span(places_).subspan(static_cast<std::size_t>(iy) * width, width);
     }
-    // Tiles of columns, row by row.
+    // Returns the tiles of columns, row by row.
     [[nodiscard]] std::span<const Tile> tiles() const { return tiles_; }
 
   private:
@@ -54,8 +58,8 @@ class ColumnGeometry {
     std::vector<Tile> tiles_;
 };
 
-// Azimuth and arc from one site to every column of a spec. Errors: bad_argument for an invalid spec
-// or a site that is not on the earth.
+// Computes azimuth and arc from one site to every column of a spec. Errors: bad_argument for an
+// invalid spec or a site that is not on the earth.
 [[nodiscard]] Result<std::shared_ptr<const ColumnGeometry>> make_column_geometry(
     const SitePosition& site, const GridSpec& spec, ChosenFrame kind = {});
 

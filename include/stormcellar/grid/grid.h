@@ -1,4 +1,9 @@
 // stormcellar/grid/grid.h -- gridded values with their four-state status, dense in memory.
+//
+// Units     Values are in the unit of the moment; positions are in degrees and meters on WGS84,
+//           with heights above mean sea level.
+// Threads   Plain data; any thread may read it while no thread writes it.
+// Errors    None.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +20,7 @@
 
 namespace stormcellar::grid {
 
-// The four states of a cell (DESIGN section 5). They stay apart from the gate to the pixel.
+// The four states of a cell (docs/geometry.md). They stay apart from the gate to the pixel.
 enum class CellStatus : std::uint8_t {
     not_seen = 0,      // blind region, beyond range, missing radials or sweeps
     no_echo = 1,       // seen, below threshold
@@ -24,25 +29,26 @@ enum class CellStatus : std::uint8_t {
 };
 [[nodiscard]] std::string_view cell_status_name(CellStatus status);
 
-// When and how fast the antenna turned for one sweep (grid/sweep/sweep_clock.h).
+// When one sweep was made, and how fast the antenna turned (grid/sweep/sweep_clock.h).
 struct SweepTime {
     double elevation_deg = 0;
-    UtcTime start;                 // of its first radial
-    double first_azimuth_deg = 0;  // of that radial
-    double degrees_per_s = 0;      // clockwise; 0: not known, all is of `start`
+    UtcTime start;                 // time of the first radial
+    double first_azimuth_deg = 0;  // azimuth of that radial
+    double degrees_per_s = 0;      // clockwise; 0: not known, the whole sweep has the time `start`
     bool operator==(const SweepTime&) const = default;
 };
 
-// One site's volume, as a part of a frame that several make (pipeline/mosaic/frame_parts.h).
+// The volume of one site, as one part of a frame that several volumes make
+// (pipeline/mosaic/frame_parts.h).
 struct FramePart {
     std::string icao;
-    UtcTime time;                   // start of the volume: the part's name in time
-    std::uint64_t fingerprint = 0;  // of its cells, its place and its times
+    UtcTime time;                   // start of the volume, which names it in time
+    std::uint64_t fingerprint = 0;  // identifies its cells, its place and its times
     GridWindow window;              // the columns of the frame on which it lies
     bool operator==(const FramePart&) const = default;
 };
 
-// Where a grid comes from and how it was made; written into every file and loop.
+// Where a grid comes from and how it was made. Every file and every loop holds it.
 struct Provenance {
     std::vector<std::string> source_files;  // names without directories
     std::vector<std::string> stations;      // ICAOs
@@ -50,23 +56,26 @@ struct Provenance {
     std::string beam_model;                 // e.g. "4/3 earth"
     std::string averaging;                  // "dBZ" or "Z"
     std::string effects;  // rungs chosen by a plan, as in "frame: sphere, beam: ..."; or empty
-    std::string predicted_error;  // by that plan; or empty
+    std::string predicted_error;  // as predicted by that plan; or empty
     std::string software_version;
     int vcp = 0;           // 0: unknown
     bool partial = false;  // the volume was not complete
-    // Of the newest source file, since the epoch: tells a re-sent volume from an older file of it.
+    // When the newest source file was modified, since the epoch. It tells a volume that was sent
+    // again from an older file of the same volume.
     std::int64_t source_modified_ns = 0;  // 0: unknown
-    std::vector<std::string> notes;       // e.g. a position that disagrees with the table
-    // What the radars reported to be wrong with them, "KTLX: standby, maintenance required".
+    std::vector<std::string> notes;       // e.g. that a position disagrees with the table
+    // The faults that the radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles;
-    // Of a frame between volumes: a later volume will change it; how often it was made. 0: no
-    // frame.
+    // For a frame between volumes: whether a later volume will change it, and how often it was made
+    // so far. The revision is 0 if the grid is not a frame.
     bool provisional = false;
     int revision = 0;
-    std::vector<FramePart> parts;   // of a frame: by ICAO, then time; empty: not known, or no frame
-    std::uint64_t recipe = 0;       // of a frame: by which rules the parts became one; 0: not known
-    std::vector<SweepTime> sweeps;  // that it is made of, rising; none: of several sites or undated
-    std::vector<AuditRow> audit;    // against the gates (grid/judge/audit.h); empty: not audited
+    std::vector<FramePart> parts;  // of a frame, by ICAO, then time; empty: not known, or no frame
+    // of a frame: identifies the rules that merged the parts; 0: not known
+    std::uint64_t recipe = 0;
+    // the sweeps used, rising; empty for several sites or without times
+    std::vector<SweepTime> sweeps;
+    std::vector<AuditRow> audit;  // result of grid/judge/audit.h; empty: not audited
 };
 
 struct SitePosition {
@@ -79,19 +88,20 @@ struct SitePosition {
 struct Grid {
     GridSpec spec;
     level2::Moment moment = level2::Moment::ref;
-    UtcTime time;        // start of the volume: the grid's name in time
-    UtcTime start_time;  // of the first radial used
-    UtcTime end_time;    // of the last radial used
-    // The instant that the grid was asked for, where that is not the start of the volume.
+    UtcTime time;        // start of the volume, which names the grid in time
+    UtcTime start_time;  // time of the first radial used
+    UtcTime end_time;    // time of the last radial used
+    // The instant for which the grid was made, if that is not the start of the volume.
     std::optional<UtcTime> frame_time;
     std::vector<SitePosition> sites;
     Provenance provenance;
-    std::vector<float> values;       // index by spec.index(); unspecified (0) where not a value
+    // index by spec.index(); 0, without meaning, where there is no value
+    std::vector<float> values;
     std::vector<CellStatus> status;  // same shape
-    CellDetails details;             // of the same shape, where they were asked for
-    // Of a mosaic, of the same shape where they were asked for, else empty
-    // (stormcellar/grid/mosaic.h): how many sites see a cell, and the sum of their weights. 0 where
-    // none does.
+    CellDetails details;             // same shape if they were asked for, else empty
+    // For a mosaic (stormcellar/grid/mosaic.h): how many sites see a cell, and the sum of their
+    // weights; 0 where no site does. The shape is the same if they were asked for, else they are
+    // empty.
     std::vector<std::uint16_t> site_counts;
     std::vector<float> site_weights;
 };

@@ -1,11 +1,13 @@
-// stormcellar/grid/grid_sampler.h -- a grid between its cells: the eight around a place, with
-// linear weights.
+// stormcellar/grid/grid_sampler.h -- samples a grid between its cells: the eight cells around a
+// place, with linear weights.
 //
-// Units   columns as GridProjection has them (ix at the centre of column ix); levels likewise, with
-//         heights in metres between them.
-// A place is within the grid where cells are on all sides of it: up to the centres of the outermost
-// cells, and exactly at the level of a grid that has one.
-// Threads immutable; the view must outlive it.
+// A place is within the grid if there are cells on all sides of it: up to the centers of the
+// outermost cells, and exactly at the level of a grid that has only one.
+//
+// Units     Columns are those of GridProjection (ix at the center of column ix). Levels are counted
+//           in the same way; between two levels they are linear in height (meters).
+// Threads   Immutable; any thread may use it. The bytes of the view must outlive it.
+// Errors    None; a place outside the grid gives false or none.
 #pragma once
 
 #include <array>
@@ -21,26 +23,27 @@ class GridSampler {
   public:
     struct Corner {
         CellStatus status = CellStatus::not_seen;
-        float value = 0;   // where that is `value`
-        float weight = 0;  // of all eight: 1
+        float value = 0;   // if the status is `value`
+        float weight = 0;  // the weights of all eight add up to 1
     };
     using Corners = std::array<Corner, 8>;
 
     explicit GridSampler(const BrickView& view);
 
-    // Where a height lies among the levels, linear between them; NaN below the lowest and above
-    // the highest.
+    // Returns where a height lies among the levels, linear between them. Returns NaN below the
+    // lowest level and above the highest.
     [[nodiscard]] double level_at(double height_m) const;
-    // False where the place is not within the grid. NaN is nowhere. Where all eight are of one
-    // state the first may have all the weight.
+    // Finds the eight cells around a place and their weights. Returns false if the place is not
+    // within the grid, or is NaN. If all eight have the same state, the first may have all the
+    // weight.
     [[nodiscard]] bool find(ColumnPoint column, double level, Corners& corners) const;
-    // The weighted mean where every cell that has a weight has a value.
+    // Returns the weighted mean, or none unless every cell with a weight has a value.
     [[nodiscard]] std::optional<float> value(ColumnPoint column, double level) const;
 
     [[nodiscard]] const BrickView& view() const { return view_; }
 
   private:
-    // Of a cell along one axis: parts of its address and of its brick's number.
+    // What one cell adds along one axis: to the address, and to the number of the brick.
     struct Step {
         std::size_t offset = 0;
         std::size_t brick = 0;

@@ -1,14 +1,18 @@
 // stormcellar/grid/grid_spec.h -- the geometry of a grid: where its cells are.
 //
-// A grid is nx columns west to east, ny rows south to north and a list of levels. Cells are point
-// samples at their centres, which lie symmetrically about the grid's centre: 512 columns at 1 km
-// have centres at -255.5 ... 255.5 km. Levels are heights above mean sea level. A grid is regular
-// in metres of its projection's plane, or in degrees of latitude and longitude. Which column is
-// where on the earth: stormcellar/grid/projection.h. Units: metres and degrees (WGS84).
+// A grid is nx columns from west to east, ny rows from south to north and a list of levels. Cells
+// are point samples at their centers, which lie symmetrically about the center of the grid: 512
+// columns at 1 km have centers at -255.5 ... 255.5 km. Levels are heights above mean sea level. A
+// grid is regular either in meters of the plane of its projection, or in degrees of latitude and
+// longitude. stormcellar/grid/projection.h says where on the earth a column is.
 //
-// A window of a grid is a grid too: same projection, same centre, and its middle lies off the
-// centre by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are at the bit-same
-// places.
+// A window of a grid is a grid too. It has the same projection and the same center, and its middle
+// lies off the center by `offset_*_cells` (stormcellar/grid/grid_window.h). Its columns are at the
+// same places to the bit.
+//
+// Units     Meters and degrees (WGS84).
+// Threads   Plain data and pure functions.
+// Errors    See validate(). All other functions expect a valid spec.
 #pragma once
 
 #include <array>
@@ -21,13 +25,14 @@
 
 namespace stormcellar::grid {
 
-// Numbers of the cache's file format: they do not change.
+// These numbers are part of the cache's file format, so they do not change.
 enum class Projection {
-    azimuthal_equidistant = 0,  // about the centre, geodesics of WGS84
+    azimuthal_equidistant = 0,  // about the center, by geodesics of WGS84
     latitude_longitude = 1,     // no projection: rows and columns regular in degrees
-    lambert_conformal = 2,      // conic, origin at the centre; true to scale along the parallels
+    // conic with its origin at the center; true to scale along the parallels
+    lambert_conformal = 2,
 };
-// The CF grid_mapping_name but for lambert_conformal: "azimuthal_equidistant" and so on.
+// Returns the CF grid_mapping_name, such as "azimuthal_equidistant", except for lambert_conformal.
 [[nodiscard]] std::string_view projection_name(Projection projection);
 [[nodiscard]] std::optional<Projection> projection_from_name(std::string_view name);
 
@@ -38,15 +43,15 @@ struct GridSpec {
     Projection projection = Projection::azimuthal_equidistant;
     double center_latitude_deg = 0;
     double center_longitude_deg = 0;
-    double spacing_m = 1000;  // of a plane projection; 0 for latitude_longitude
-    double spacing_deg = 0;   // of latitude_longitude, along both; else 0
-    // Standard parallels of lambert_conformal, which may be one and the same; else 0.
+    double spacing_m = 1000;  // for a projection with a plane; 0 for latitude_longitude
+    double spacing_deg = 0;   // for latitude_longitude, in both directions; else 0
+    // The standard parallels of lambert_conformal, which may be equal; else 0.
     std::array<double, 2> parallels_deg{};
     int nx = 460;
     int ny = 460;
     std::vector<double> levels_m;  // strictly rising, at least one
-    // Where the grid's middle lies, seen from the centre: columns to the east and rows to the
-    // north, in halves. 0 but for windows of a larger grid.
+    // Where the middle of the grid lies as seen from the center: columns to the east and rows to
+    // the north, in halves. Both are 0 except in windows of a larger grid.
     double offset_x_cells = 0;
     double offset_y_cells = 0;
 
@@ -56,21 +61,24 @@ struct GridSpec {
     }
     [[nodiscard]] std::size_t cell_count() const { return column_count() * levels_m.size(); }
 
-    // A column in metres. Of a plane projection this is its spacing; of latitude_longitude its
-    // width and height at the grid's centre, for all that takes the grid as a plane (pictures).
+    // Return the size of a column in meters. With a plane this is the spacing. For
+    // latitude_longitude it is the width or height at the center of the grid, for users that take
+    // the grid as a plane (pictures).
     [[nodiscard]] double cell_width_m() const {
         return projection == Projection::latitude_longitude ? width_at_center_m() : spacing_m;
     }
     [[nodiscard]] double cell_height_m() const {
         return projection == Projection::latitude_longitude ? height_at_center_m() : spacing_m;
     }
-    // The column and the row of the centre, which may lie between two and beyond the grid. Exact.
+    // Return the column and the row of the center, exactly. The center may lie between two columns,
+    // and beyond the grid.
     [[nodiscard]] double center_x() const { return 0.5 * (nx - 1) - offset_x_cells; }
     [[nodiscard]] double center_y() const { return 0.5 * (ny - 1) - offset_y_cells; }
-    // Centre of column ix (east of the centre) and row iy (north of it), in that plane.
+    // Return the center of column ix (east of the grid's center) and of row iy (north of it), in
+    // that plane.
     [[nodiscard]] double x_m(int ix) const { return (ix - center_x()) * cell_width_m(); }
     [[nodiscard]] double y_m(int iy) const { return (iy - center_y()) * cell_height_m(); }
-    // The same from the grid's own middle, about which pictures are made.
+    // The same, counted from the middle of the grid. Pictures are made about the middle.
     [[nodiscard]] double x_from_middle_m(int ix) const {
         return (ix - 0.5 * (nx - 1)) * cell_width_m();
     }
@@ -78,7 +86,7 @@ struct GridSpec {
         return (iy - 0.5 * (ny - 1)) * cell_height_m();
     }
 
-    // Index of a cell in the arrays of a Grid: z runs fastest, then x, then y.
+    // Returns the index of a cell in the arrays of a Grid: z runs fastest, then x, then y.
     [[nodiscard]] std::size_t index(int ix, int iy, int iz) const {
         return (static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
                 static_cast<std::size_t>(ix)) *
@@ -103,22 +111,25 @@ struct GridWindow {
     bool operator==(const GridWindow&) const = default;
 };
 
-// How long a degree of longitude and of latitude is on WGS84.
+// The length of a degree of longitude and of a degree of latitude on WGS84.
 struct DegreeLength {
     double east_m = 0;   // N cos(latitude) per degree; 0 at the poles
     double north_m = 0;  // M per degree
 };
 [[nodiscard]] DegreeLength degree_length(double latitude_deg) noexcept;
 
-// 460 x 460 km at 1 km, 32 levels from 0.5 to 16 km by 0.5 km.
+// Returns a spec of 460 x 460 km at 1 km with 32 levels, from 0.5 to 16 km by 0.5 km.
 [[nodiscard]] GridSpec default_spec(double center_latitude_deg, double center_longitude_deg);
 
-// bad_argument unless sizes are 1..16384 by 16384 by 1024, spacing is positive and finite, the
-// centre is on the earth, levels rise strictly within -1 to 60 km, offsets are halves that keep the
-// grid within one of 16384 by 16384 about the centre, and the projection covers the grid:
-// latitude_longitude ends at the poles and spans at most 360 degrees; lambert_conformal has
-// parallels within -89 to 89 degrees that are not opposite, and holds neither pole nor the cut
-// opposite its central meridian. What a projection does not use must be 0.
+// Checks a spec. Returns bad_argument unless:
+// - there are 1 to 16384 columns, 1 to 16384 rows and 1 to 1024 levels;
+// - the spacing is positive and finite, and the center is on the earth;
+// - the levels rise strictly within -1 to 60 km;
+// - the offsets are halves, and keep the grid within one of 16384 by 16384 about the center;
+// - the projection covers the grid: latitude_longitude ends at the poles and spans at most 360
+//   degrees; lambert_conformal has parallels within -89 to 89 degrees that are not opposite, and
+//   holds neither a pole nor the cut opposite its central meridian;
+// - whatever the projection does not use is 0.
 [[nodiscard]] Status validate(const GridSpec& spec);
 
 }  // namespace stormcellar::grid

@@ -1,10 +1,14 @@
 // stormcellar/grid/grid_window.h -- rectangles of columns of a domain's grid, as grids of their
 // own.
 //
-// What one site sees of a large domain is gridded on the domain's own columns, in a window: a
-// GridSpec with the same projection, centre and levels, whose columns are at the bit-same places.
-// So nothing is interpolated twice, and windows of many sites merge cell by cell
-// (stormcellar/grid/mosaic.h). Threads: pure functions.
+// What one site sees of a large domain is gridded on the columns of the domain, in a window: a
+// GridSpec with the same projection, center and levels, whose columns are at the same places to the
+// bit. So nothing is interpolated twice, and the windows of many sites can be merged cell by cell
+// (stormcellar/grid/mosaic.h).
+//
+// Units     Columns and rows; meters for reaches.
+// Threads   Pure functions.
+// Errors    None; what does not fit is none.
 #pragma once
 
 #include <optional>
@@ -14,23 +18,29 @@
 
 namespace stormcellar::grid {
 
-// Which columns of a domain a site is gridded on: beyond the last gate of a WSR-88D.
+// A site is gridded on the columns of a domain up to this distance, which is beyond the last gate
+// of a WSR-88D.
 inline constexpr double site_reach_m = 460000;
 
-// The window must lie within the domain, which may itself be a window of another.
+// Returns the spec of a window. The window must lie within the domain, which may itself be a window
+// of another domain.
 [[nodiscard]] GridSpec window_spec(const GridSpec& domain, const GridWindow& window);
 
-// The opposite; none where the spec's columns are not columns of the domain, or its levels others.
+// Returns the window that a spec is of the domain. Returns none if the columns of the spec are not
+// columns of the domain, or its levels are not those of the domain.
 [[nodiscard]] std::optional<GridWindow> window_of(const GridSpec& domain, const GridSpec& spec);
 
-// Whether it starts and ends at whole bricks, or at the domain's end, as merging asks.
+// Returns true if the window starts and ends at whole bricks, or ends with the domain. Merging
+// requires this.
 [[nodiscard]] bool is_whole_bricks(const GridSpec& domain, const GridWindow& window);
 
-// A window of whole bricks that holds every column of a valid domain within `reach_m` (at most
-// 2,000 km) of the site. None where the site reaches no column for certain. It is at most one brick
-// a side larger than the smallest, except where the reach holds a pole or what a projection tears
-// apart (the antipode of its centre, the cut of a cone, both ends of a grid all round the earth):
-// there it may be as wide or as high as the domain.
+// Returns a window of whole bricks that holds every column of a valid domain within `reach_m` (at
+// most 2,000 km) of the site. Returns none if the site certainly reaches no column.
+//
+// The window is at most one brick larger on each side than the smallest such window. There is one
+// exception: where the reach holds a pole or a place that a projection tears apart (the antipode of
+// its center, the cut of a cone, both ends of a grid all round the earth), the window may be as
+// wide or as high as the domain.
 [[nodiscard]] std::optional<GridWindow> site_window(const GridSpec& domain,
                                                     const SitePosition& site,
                                                     double reach_m = site_reach_m);

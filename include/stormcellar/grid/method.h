@@ -1,13 +1,17 @@
-// stormcellar/grid/method.h -- what a grid is made with: one rung of each step from antenna to
+// stormcellar/grid/method.h -- how a grid is made: one rung for each step from the antenna to the
 // cell.
 //
-// The steps, each from cheap to exact (docs/accuracy.md):
+// The steps, each of which has rungs from cheap to exact (docs/accuracy.md):
 //   frame          where a column lies as the site sees it
 //   beam           where a gate lies in the vertical plane of its azimuth
-//   elevation      the sweep's one elevation (the median), or each radial's as measured
+//   elevation      one elevation for the sweep (the median), or the measured one of each radial
 //   interpolation  which gates make up a point, and how much each counts
-//   cell           a point at the cell's centre, or the mean over the cell
-//   averaging      in the moment's own unit (dBZ), or in linear Z, which is what adds up
+//   cell           a point at the center of the cell, or the mean over the cell
+//   averaging      in the moment's own unit (dBZ), or in linear Z, which is the quantity that adds
+//                  up
+//
+// Threads   Plain values and pure functions.
+// Errors    None; an unknown name gives none.
 #pragma once
 
 #include <optional>
@@ -34,23 +38,24 @@ using ChosenAveraging = Chosen<Averaging::in_db, Averaging::in_db>;
 using ChosenElevation = Chosen<true, false>;
 using ChosenCircle = Chosen<true, false>;
 
-// What a method's name says of its cells; point for a name that none has.
+// Returns the extent of cells that a method's name stands for; point for an unknown name.
 [[nodiscard]] CellExtent cell_extent_of(std::string_view method_name);
 
-// "nearest", "linear", "eight-point", "beam-weighted".
+// Returns "nearest", "linear", "eight-point" or "beam-weighted".
 [[nodiscard]] std::string_view interpolation_name(Interpolation interpolation);
 [[nodiscard]] std::optional<Interpolation> interpolation_from_name(std::string_view name);
 
 struct Method {
-    ChosenBeam beam = {};                    // the 4/3 earth unless said otherwise
+    ChosenBeam beam = {};                    // the 4/3 earth
     ChosenInterpolation interpolation = {};  // linear
     ChosenExtent cell = {};                  // a point
-    ChosenAveraging averaging = {};  // in dB; reflectivity alone, other moments in their unit
-    ChosenElevation radial_elevations = {};  // true: each radial's measured elevation
-    // True: of moments that wrap; else their values are averaged as numbers.
+    ChosenAveraging averaging = {};          // in dB; in_z is for reflectivity only
+    ChosenElevation radial_elevations = {};  // true: the measured elevation of each radial
+    // True for moments that wrap. If false, their values are averaged as plain numbers.
     ChosenCircle on_circle = {};
 
-    // "column-nearest", "column-linear", "eight-point", "beam-weighted", "area, beam-weighted".
+    // Returns "column-nearest", "column-linear", "eight-point", "beam-weighted" or "area,
+    // beam-weighted".
     [[nodiscard]] std::string name() const;
     bool operator==(const Method&) const = default;
 };

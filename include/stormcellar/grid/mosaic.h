@@ -1,34 +1,39 @@
-// stormcellar/grid/mosaic.h -- grids of many sites, each on a window of a domain's grid, merged
-// into one.
+// stormcellar/grid/mosaic.h -- merges grids of many sites, each on a window of a domain's grid,
+// into one grid.
 //
-// Each site is gridded once, on the domain's own columns (site_window(), window_spec()), and kept
-// as bricks: its partial. Merging goes brick by brick and reads only bricks in which a site sees
-// something; a new volume of one site costs the bricks that its window touches (update()).
+// Each site is gridded once, on the columns of the domain (site_window(), window_spec()), and kept
+// as bricks. This is the site's partial. Merging goes brick by brick and reads only bricks in which
+// a site sees something. A new volume of one site costs only the bricks that its window touches
+// (update()).
 //
-// Of each cell only the sites that see it count. Each has a state and a weight by the arc r from
-// its column to the site:
-//   mean               weight 1
-//   distance_weighted  exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250 km Lakshmanan
-//                      et al. 2006), never below 1e-30, so that the only site that sees a cell is
-//                      not lost
-//     both             states mix by the rule of docs/geometry.md: range folded where its weight is
-//                      the largest, no echo where that outweighs values, else the weighted mean;
-//                      for REF no echo enters it at its site's detection limit (by the curve of
-//                      grid/beam/detection_limit.h at the slant range of the cell), else it does
-//                      not
-//   maximum            the largest value if any; else no echo if any site sees that; else folded
-//   nearest            the state and value of the site with the smallest r that sees the cell; of
-//                      two as near, the first by name. The only rule for VEL (velocities toward
-//                      different radars) and PHI (each radar's own offset).
-// Not seen is what no site sees. Of one site alone every cell is as its partial has it.
+// In each cell only the sites that see it count. Each of them has a state, and a weight that
+// depends on the arc r from its column to the site:
+//   mean               The weight is 1.
+//   distance_weighted  The weight is exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250
+//                      km Lakshmanan et al. 2006). It is never below 1e-30, so that the only site
+//                      that sees a cell is not lost.
+//     both             States mix by the rule of docs/geometry.md: the cell is range folded if the
+//                      weight of that state is the largest, no echo if that outweighs values, else
+//                      the weighted mean of the values. For REF, a site that sees no echo enters
+//                      the mean with its detection limit (the curve of grid/beam/detection_limit.h
+//                      at the slant range of the cell); for other moments it does not enter.
+//   maximum            The largest value if there is any; else no echo if any site sees no echo;
+//                      else range folded.
+//   nearest            The state and the value of the site with the smallest r that sees the cell.
+//                      Of two equally near sites, the first by name counts. VEL (velocities toward
+//                      different radars) and PHI (each radar's own offset) allow no other rule.
+// A cell that no site sees is not seen. With one site alone, every cell is as in its partial.
 //
-// Threads  pure functions; the result has the same bits for any number of threads and any order of
-//          the partials (sums run in the order of ICAO, then position).
-// Accuracy (enforced by tests/grid/mosaic_test.cpp, 1- and 2-byte codes)
-//          a merged value is within 0.51 steps of the codes of the rule applied in exact arithmetic
-//          to the values that the partials hold, unless it is below the least code (a mean with
-//          detection limits) and takes that. The state is that of the exact rule, but where two
-//          weights differ by less than 1e-5 of themselves. What partials were off by is not in it.
+// Units     Meters for distances; values are in the unit of the moment.
+// Threads   Pure functions, but for update_in_place(), which changes its mosaic. The result has the
+//           same bits for any number of threads and any order of the partials (sums run in the
+//           order of ICAO, then position).
+// Errors    See each function.
+// Accuracy  Enforced by tests/grid/mosaic_test.cpp with 1- and 2-byte codes. A merged value is
+//           within 0.51 steps of the codes of the exact rule applied to the values that the
+//           partials hold. If that is below the least code (a mean with detection limits), it is
+//           the least code. The state is that of the exact rule, except where two weights differ by
+//           less than 1e-5 of themselves. The errors of the partials themselves come on top.
 #pragma once
 
 #include <memory>
@@ -45,32 +50,33 @@
 namespace stormcellar::grid {
 
 enum class Overlap { mean, maximum, nearest, distance_weighted };
-// "mean", "maximum", "nearest", "distance-weighted".
+// Returns "mean", "maximum", "nearest" or "distance-weighted".
 [[nodiscard]] std::string_view overlap_name(Overlap overlap);
 [[nodiscard]] std::optional<Overlap> overlap_from_name(std::string_view name);
-// The default for a moment: nearest for VEL and PHI, else distance_weighted.
+// Returns the default for a moment: nearest for VEL and PHI, else distance_weighted.
 [[nodiscard]] Overlap default_overlap(level2::Moment moment);
 
 struct MosaicOptions {
     level2::Moment moment = level2::Moment::ref;
     Overlap overlap = Overlap::distance_weighted;
-    Averaging averaging = Averaging::in_db;  // in_z: reflectivity alone
+    Averaging averaging = Averaging::in_db;  // in_z is for reflectivity only
     double length_m = 250000;                // L; 1 km to 10,000 km
-    bool counts = false;                     // beside the values, see Mosaic
+    bool counts = false;                     // make Mosaic::counts and Mosaic::weights too
     bool weights = false;
     int threads = 1;
 };
 
-// What one site sees.
+// The grid of one site.
 struct Partial {
-    BrickView view;  // of a window of whole bricks; its spec and bytes must outlive the call
+    BrickView view;  // a window of whole bricks; its spec and its bytes must outlive the call
     SitePosition site;
-    // Made before for this site, over a window that holds the view's; else it is made in the call.
+    // The distances from this site, over a window that holds that of the view. If null, the call
+    // computes them.
     std::shared_ptr<const SiteDistance> distance = nullptr;
 };
 
-// The bricks of a mosaic, wherever they are. Where there are counts and weights, they have the same
-// cells: a value where a site sees the cell, else not seen.
+// The bricks of a mosaic, in memory or in a file. Counts and weights have the same cells: a value
+// where a site sees the cell, else not seen.
 struct MosaicView {
     BrickView cells;
     std::optional<BrickView> counts;   // how many sites see the cell, exact up to 252
@@ -84,28 +90,32 @@ struct Mosaic {
     [[nodiscard]] MosaicView view() const;  // valid as long as this lives and is not moved
 };
 
-// Partials of which the same window and quantisation may be asked; none at all gives a mosaic in
-// which nothing is seen, in the moment's default quantisation.
+// Merges partials, which must all have the same quantization. Without any partial the result is a
+// mosaic in which nothing is seen, in the default quantization of the moment.
+//
 // Errors: bad_argument for an invalid domain or options; a moment that the overlap or the averaging
-// cannot mix; a partial that is no window of whole bricks of the domain, that is quantised unlike
-// the others, or whose distance is of another place; one site twice.
+// cannot mix; a partial that is not a window of whole bricks of the domain, has another
+// quantization, or has distances for another place; the same site twice.
 [[nodiscard]] Result<Mosaic> merge(const GridSpec& domain, std::span<const Partial> partials,
                                    const MosaicOptions& options);
 
-// The same bits as merge() of all partials, at the cost of the bricks within `changed`: the windows
-// of every partial that came, went or was replaced since `previous` was made with the same options.
-// All other bricks are copied from `previous`, and their partials are not read.
-// Errors: those of merge(); bad_argument for a previous mosaic of another domain, quantisation or
-// without the counts or weights asked for.
+// Returns the same bits as merge() of all partials, at the cost of the bricks within `changed`.
+// These are the windows of every partial that came, went or was replaced since `previous` was made
+// with the same options. All other bricks are copied from `previous`, and their partials are not
+// read.
+//
+// Errors: those of merge(); bad_argument if the previous mosaic is of another domain or
+// quantization, or lacks the counts or weights that are asked for.
 [[nodiscard]] Result<Mosaic> update(const MosaicView& previous, std::span<const Partial> partials,
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
 
-// The same bits again, but in `mosaic` itself: nothing is copied, so it costs the changed bricks
-// and one pass over the table and states. Of `partials` only those are needed whose windows hold
-// something changed; a mosaic too large for all of them at once is made of an empty one (merge() of
-// no partials) stripe by stripe.
-// Errors: those of update(), before anything was changed. No view of the mosaic may be in use.
+// Gives the same bits again, but changes `mosaic` itself. Nothing is copied, so it costs the
+// changed bricks and one pass over the table and the states. It needs only those partials whose
+// windows hold something that changed. A mosaic that is too large for all partials at once can be
+// made stripe by stripe from an empty one, which is merge() of no partials.
+//
+// No view of the mosaic may be in use. Errors: those of update(), before anything was changed.
 [[nodiscard]] Status update_in_place(Mosaic& mosaic, std::span<const Partial> partials,
                                      std::span<const GridWindow> changed,
                                      const MosaicOptions& options);

@@ -1,18 +1,19 @@
-// stormcellar/grid/projection.h -- between columns of a grid and places on the earth, for every
-// projection.
+// stormcellar/grid/projection.h -- converts between columns of a grid and places on the earth, for
+// every projection.
 //
-// Units    columns are fractional: (ix, iy) is the centre of column ix in row iy, and beyond the
-//          grid the numbers go on. Places are degrees on WGS84.
-// Range    to_geo: the grid itself and some columns about it. to_column: the whole earth; a point
-//          that the projection cannot show (the far pole of a cone) lies far outside the grid.
-//          Longitudes are taken the short way round from the centre's, so a grid goes on across
-//          the antimeridian.
-// Source   Karney (2013), Algorithms for geodesics; Snyder (1987), Map Projections - A Working
-//          Manual, pp 107-109, without its cancellations; both through GeographicLib.
-// Threads  a GridProjection is immutable. NaN in, NaN out; nothing throws.
-// Accuracy (enforced by tests/grid/projection_test.cpp)
-//          round trip: 1e-7 m for centres from pole to pole, grids of up to 4000 km;
-//          lambert_conformal against the closed formula in long doubles (Snyder 1987): 1e-6 m.
+// Units     Columns are fractional: (ix, iy) is the center of column ix in row iy. The numbers go
+//           on beyond the grid. Places are in degrees on WGS84.
+// Range     to_geo() covers the grid and some columns around it. to_column() covers the whole
+//           earth; a point that the projection cannot show (the far pole of a cone) lies far
+//           outside the grid. Longitudes are taken the short way round from the center, so a grid
+//           may cross the antimeridian.
+// Source    Karney (2013), Algorithms for geodesics; Snyder (1987), Map Projections - A Working
+//           Manual, pp 107-109, without its cancellations; both through GeographicLib.
+// Threads   A GridProjection is immutable, so any thread may use it.
+// Errors    Nothing throws: NaN in, NaN out. validate_projection() returns bad_argument.
+// Accuracy  Enforced by tests/grid/projection_test.cpp. Round trip: 1e-7 m for centers from pole to
+//           pole and grids of up to 4000 km. lambert_conformal against the closed formula in long
+//           doubles (Snyder 1987): 1e-6 m.
 #pragma once
 
 #include <memory>
@@ -27,9 +28,9 @@ class LambertConformalConic;
 
 namespace stormcellar::grid {
 
-// Where a point lies in the columns of a grid.
+// A place in columns of a grid.
 struct ColumnPoint {
-    double x = 0;  // ix at the centre of column ix
+    double x = 0;  // ix at the center of column ix
     double y = 0;
 };
 
@@ -41,11 +42,12 @@ class GridProjection {
     [[nodiscard]] GeoPoint to_geo(ColumnPoint column) const noexcept;
     [[nodiscard]] ColumnPoint to_column(GeoPoint point) const noexcept;
 
-    // The longitude of a place, plus or minus whole turns: within 180 degrees of the centre's, so
-    // that it is continuous over the grid.
+    // Returns the longitude of a place, plus or minus whole turns, within 180 degrees of the
+    // center's longitude, so that it is continuous over the grid.
     [[nodiscard]] double continuous_longitude_deg(double longitude_deg) const noexcept;
 
-    // Of a latitude_longitude grid: the latitude of a row and the continuous longitude of a column.
+    // For a latitude_longitude grid: the latitude of a row and the continuous longitude of a
+    // column.
     [[nodiscard]] double row_latitude_deg(double y) const noexcept;
     [[nodiscard]] double column_longitude_deg(double x) const noexcept;
 
@@ -53,17 +55,18 @@ class GridProjection {
     Projection kind_;
     SiteFrame center_;
     double center_latitude_deg_, center_longitude_deg_;
-    double spacing_;              // in metres or degrees
-    double center_x_, center_y_;  // the centre, in columns
+    double spacing_;              // in meters or degrees
+    double center_x_, center_y_;  // the center, in columns
     std::shared_ptr<const GeographicLib::LambertConformalConic> cone_;
-    double cone_y_m_ = 0;  // of the centre, from the cone's own origin
+    double cone_y_m_ = 0;  // distance of the center from the cone's own origin
 };
 
-// Latitude and longitude of a column's centre. For more than a few, make a GridProjection.
+// Returns the latitude and the longitude of a column's center. For more than a few columns, make a
+// GridProjection.
 [[nodiscard]] GeoPoint column_position(const GridSpec& spec, int ix, int iy);
 
-// What validate() (stormcellar/grid/grid_spec.h) asks of the projection; spacing and centre must be
-// valid.
+// Checks what validate() (stormcellar/grid/grid_spec.h) demands of the projection. Spacing and
+// center must be valid.
 [[nodiscard]] Status validate_projection(const GridSpec& spec);
 
 }  // namespace stormcellar::grid

@@ -1,12 +1,15 @@
 // stormcellar/grid/site_frame.h -- geodesics from one point of the WGS84 ellipsoid: azimuth and arc
-// to any other.
+// to any other point.
 //
-// Units    metres along the ellipsoid, degrees; azimuths clockwise from north, [0, 360).
-// Source   Karney (2013), Algorithms for geodesics, through GeographicLib.
-// Threads  a SiteFrame is immutable.
-// Accuracy 15 nanometres (GeographicLib); round trip 1e-8 m within 500 km, enforced by
-//          tests/grid/site_frame_test.cpp.
-// Heights above mean sea level are used as heights above the ellipsoid: about 1 m at 230 km.
+// Heights above mean sea level are used as heights above the ellipsoid, which makes a difference of
+// about 1 m at 230 km.
+//
+// Units     Meters along the ellipsoid; degrees; azimuths are clockwise from north, [0, 360).
+// Source    Karney (2013), Algorithms for geodesics, through GeographicLib.
+// Threads   A SiteFrame is immutable, so any thread may use it.
+// Errors    None.
+// Accuracy  15 nanometers (GeographicLib); round trip 1e-8 m within 500 km, enforced by
+//           tests/grid/site_frame_test.cpp.
 #pragma once
 
 namespace stormcellar::grid {
@@ -16,13 +19,14 @@ struct GeoPoint {
     double longitude_deg = 0;  // [-180, 180]
 };
 
-// Where a point lies as seen from the frame's origin. The origin itself has azimuth 0.
+// Where a point lies as seen from the origin of the frame. The origin itself has azimuth 0.
 struct PolarPoint {
     double azimuth_deg = 0;
     double arc_m = 0;
 };
 
-// The azimuthal equidistant plane about the origin: arc times sine and cosine of the azimuth.
+// A point of the azimuthal equidistant plane about the origin: arc times sine and cosine of the
+// azimuth.
 struct PlanePoint {
     double x_m = 0;  // east
     double y_m = 0;  // north
@@ -36,8 +40,8 @@ class SiteFrame {
     [[nodiscard]] PolarPoint to_polar(GeoPoint point) const noexcept;
     [[nodiscard]] GeoPoint to_geo(PolarPoint point) const noexcept;
 
-    // Azimuthal equidistant plane about the origin, x to the east and y to the north: azimuth and
-    // arc in closed form.
+    // Convert between azimuth and arc and the azimuthal equidistant plane about the origin, x to
+    // the east and y to the north, in closed form.
     [[nodiscard]] static PolarPoint from_plane(double x_m, double y_m) noexcept;
     [[nodiscard]] static PlanePoint to_plane(PolarPoint point) noexcept;
 

@@ -1,8 +1,11 @@
 // stormcellar/grid/tile.h -- tiles of columns, and where they lie as the site sees them.
 //
-// A grid is filled tile by tile: the gates that neighbouring columns need lie together, and a sweep
-// that holds nothing but no echo over a whole tile need not be sampled there.
-// Threads: plain values.
+// A grid is filled tile by tile, because the gates that neighboring columns need lie together, and
+// because a sweep that holds nothing but no echo over a whole tile need not be sampled there.
+//
+// Units     Degrees and meters.
+// Threads   Plain values and pure functions.
+// Errors    None.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +19,16 @@ class ColumnGeometry;
 
 inline constexpr int tile_edge = 8;
 
-// Holds every column of a tile: azimuths clockwise from `from_deg` in [0, 360) to `to_deg`, which
-// may exceed 360; all of them from 0 to 360 where the tile surrounds or nears the site.
+// Bounds that hold every column of a tile: azimuths clockwise from `from_deg`, in [0, 360), to
+// `to_deg`, which may exceed 360. They hold all azimuths from 0 to 360 if the tile surrounds the
+// site or is near it.
 struct PolarBounds {
     float from_deg = 0;
     float to_deg = 360;
     float least_arc_m = 0;
     float greatest_arc_m = 0;
 
-    // Reaching farther to each side.
+    // Returns bounds that reach farther on each side.
     [[nodiscard]] PolarBounds widened(float by_deg, float by_m) const;
 };
 

@@ -1,12 +1,16 @@
-// stormcellar/level2/decode.h -- bytes -> Volume.
+// stormcellar/level2/decode.h -- decodes the bytes of a Level II file into a Volume.
 //
-// Containers are found by content, never by name, and peeled in a loop: gzip, whole-file bzip2,
-// then a 24-byte header or none, then LDM bzip2 records or plain 2432-byte frames and message 31.
-// Input is hostile: every length is bounded before use. What is whole is kept; what is not is
-// named in the report. Never a made-up sweep, never half a radial.
-// Errors: empty (no bytes), not_level2 (nothing recognised), corrupt or truncated (recognised, but
-// neither a whole radial nor metadata could be read), unsupported (output limit exceeded).
-// Thread contract: functions are pure; decode() may use `threads` worker threads of its own.
+// Containers are found by content, never by name, and peeled in a loop: gzip, bzip2 or .Z around
+// the whole file, then a 24-byte header or none, then LDM bzip2 records, or plain 2432-byte frames
+// and messages 31. The input is hostile, so every length is bounded before it is used. The decoder
+// keeps what is whole and names the rest in the report. It never makes up a sweep and never returns
+// half a radial.
+//
+// Units     Those of stormcellar/level2/volume.h; limits are in bytes.
+// Threads   Pure functions. decode() may use `threads` threads of its own.
+// Errors    empty: there are no bytes. not_level2: nothing was recognized. corrupt or truncated:
+//           the input was recognized, but neither a whole radial nor metadata could be read.
+//           unsupported: a limit on the output was exceeded. exhausted: there is no more memory.
 #pragma once
 
 #include <cstddef>
@@ -22,39 +26,41 @@
 
 namespace stormcellar::level2 {
 
-// What is compressed inside something compressed is held whole; no volume comes near this.
+// A file whose content is compressed twice is held whole in memory, up to this size. No known
+// volume comes near it.
 inline constexpr std::size_t most_packed_bytes = std::size_t{64} << 20;
 
 struct DecodeOptions {
     int threads = 1;
-    // Of the decompressed messages, of which little is held at a time.
+    // Limits the decompressed messages. Only a few of them are held at a time.
     std::uint64_t output_limit_bytes = std::uint64_t{512} << 20;
-    // Of all that is made of them and held; 0: the same.
+    // Limits what is made of them and held; 0: output_limit_bytes.
     std::uint64_t array_limit_bytes = 0;
     [[nodiscard]] std::uint64_t most_array_bytes() const {
         return array_limit_bytes == 0 ? output_limit_bytes : array_limit_bytes;
     }
-    // Of the sweep that is still open in a volume that grows, looked at after each record (0: as
-    // much as arrays may take). Beyond it appending fails with over_budget.
+    // Limits the sweep that is still open in a volume that grows; 0: no limit of its own. It is
+    // checked after each record. Beyond it, appending fails with over_budget.
     std::uint64_t open_sweep_limit_bytes = 0;
-    // Arrays are made only for these; a cut that is not asked for gives no sweep.
+    // Arrays are made only for these moments and cuts. A cut that is not selected gives no sweep.
     Selection selection;
-    // Takes the station where the file does not say, e.g. from the file name; empty: unknown.
+    // The station to use if the file does not name it, e.g. from the file name; empty: unknown.
     std::string fallback_station;
 };
 
 [[nodiscard]] Result<Decoded> decode(std::span<const std::byte> bytes,
                                      const DecodeOptions& options = {});
 
-// Reads and decodes a file; the station falls back to the first four characters of its name when
-// they are an ICAO in the station table. Messages of errors begin with the path.
+// Reads and decodes a file. If the file does not name its station, the first four characters of its
+// name do, provided that the station table knows them. Messages of errors begin with the path.
+// Errors: those of read_file() and of decode().
 [[nodiscard]] Result<Decoded> decode_file(const std::filesystem::path& path,
                                           const DecodeOptions& options = {});
 
-// The volumes of a file that holds several, each with its share of the sweeps; block and VCP are
-// repeated. A further volume has its own header where the file holds one, else the first with the
-// time of its own first radial, since a start time names a volume. One element for an ordinary
-// file.
+// Splits the result for a file that holds several volumes; an ordinary file gives one element. Each
+// volume has its own sweeps; the volume block and the VCP are repeated. A further volume has its
+// own header if the file holds one. Otherwise it has the first header with the time of its own
+// first radial, because the start time names a volume.
 [[nodiscard]] std::vector<Volume> split_volumes(Decoded decoded);
 
 }  // namespace stormcellar::level2

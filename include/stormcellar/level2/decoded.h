@@ -1,4 +1,6 @@
-// stormcellar/level2/decoded.h -- a volume, and what its decoder has to say of it.
+// stormcellar/level2/decoded.h -- a volume, and the report of its decoder.
+//
+// Threads   Plain data.
 #pragma once
 
 #include "stormcellar/level2/decode_report.h"

@@ -1,10 +1,13 @@
 // stormcellar/level2/describe.h -- a decoded file as facts: what `stormcellar info --json` prints.
 //
-// Names of fields are those of the reference descriptions beside the real volumes (data/golden),
-// with which tests/level2/golden_test.cpp compares; "problems" holds the report's. Moments of one
-// name that differ in geometry inside a sweep are described together, their codes in the order of
-// the radials.
-// Accuracy: counts and checksums exact; means from exact counts of each code, in double.
+// The names of fields are those of the reference descriptions beside the real volumes
+// (data/golden), with which tests/level2/golden_test.cpp compares the result. "problems" holds the
+// problems of the report. If moments of one name differ in geometry inside a sweep, they are
+// described together, with their codes in the order of the radials.
+//
+// Threads   Pure functions.
+// Errors    None.
+// Accuracy  Counts and checksums are exact. Means come from exact counts of each code, in double.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +24,11 @@ struct FileFacts {
     std::uint64_t size = 0;
 };
 
-// Text that is not UTF-8 is the caller's to guard against when it writes the JSON.
+// Describes a file. Strings are copied from the file as they are; the caller must expect text that
+// is not UTF-8 when it writes the JSON.
 [[nodiscard]] nlohmann::ordered_json describe(const Decoded& decoded, const FileFacts& file);
 
-// The "sweeps" array's element alone.
+// Describes one element of the array "sweeps".
 [[nodiscard]] nlohmann::ordered_json describe_sweep(const Sweep& sweep, std::size_t index);
 
 }  // namespace stormcellar::level2

@@ -1,10 +1,13 @@
-// stormcellar/level2/fragment.h -- the contents of a stretch of the message stream, decoded by
+// stormcellar/level2/fragment.h -- the content of a stretch of the message stream, decoded by
 // itself.
 //
-// An LDM record, a live chunk or a run of messages becomes a Fragment without knowing what stood
-// before it; a VolumeBuilder joins fragments in their order. So records can be decoded by several
-// threads and chunks in the order in which they arrive, and the volume does not depend on either.
-// Thread contract: plain data.
+// An LDM record, a live chunk or a run of messages becomes a Fragment without any knowledge of what
+// came before it. A VolumeBuilder joins fragments in their order. So several threads can decode
+// records, chunks can be decoded in the order in which they arrive, and the volume depends on
+// neither.
+//
+// Threads   Plain data.
+// Errors    See Fragment::failure.
 #pragma once
 
 #include <cstdint>
@@ -17,36 +20,37 @@
 
 namespace stormcellar::level2 {
 
-// What stands between radials.
+// What the stream holds between radials.
 struct FragmentMarks {
-    std::vector<Vcp> patterns;           // messages 5 and 7, in their order
+    std::vector<Vcp> patterns;           // messages 5 and 7, in order
     std::optional<VolumeHeader> header;  // the last 24-byte header inside the stream
 };
 
 struct Fragment {
-    // Radials one behind the other that belong to one sweep.
+    // A run of consecutive radials that belong to one sweep.
     struct Piece {
         FragmentMarks before;
-        Sweep sweep;            // never without radials; without vcp_elevation_deg
-        std::uint16_t vcp = 0;  // that its first radial names; 0: none
-        // Its cut is not asked for: the sweep holds only its first radial, and its last.
+        Sweep sweep;            // has radials, but no vcp_elevation_deg
+        std::uint16_t vcp = 0;  // the VCP that its first radial names; 0: none
+        // True if its cut is not selected: the sweep then holds only its first and its last radial.
         bool left_out = false;
     };
     std::vector<Piece> pieces;
-    FragmentMarks behind;  // after the last piece
-    std::string station;   // the first ICAO of a message 31
+    FragmentMarks behind;  // what follows the last piece
+    std::string station;   // the first ICAO in a message 31
     std::optional<VolumeBlock> block;
-    std::uint16_t vcp = 0;  // the first that a radial names
-    // Offsets count from where the fragment begins, LDM records from 1.
+    std::uint16_t vcp = 0;  // the first VCP that a radial names
+    // Offsets count from the beginning of the fragment, LDM records from 1.
     DecodeReport report;
-    // Decompressed, whether messages or not, and half of what was in vain (BzipBlocks::Block).
+    // The decompressed bytes, whether messages or not, and half of the bytes that were decompressed
+    // in vain (BzipBlocks::Block).
     std::uint64_t output_bytes = 0;
-    std::uint64_t array_bytes = 0;  // what radials, rows and patterns take, see ArrayRoom
-    // Of the errors in the report those behind the last radial; all where there is none.
+    std::uint64_t array_bytes = 0;  // the bytes of radials, rows and patterns, see ArrayRoom
+    // How many of the errors in the report come after the last radial; all if there is no radial.
     std::uint64_t errors_behind = 0;
     bool cut = false;  // the input ends too early
     enum class Failure : std::uint8_t { none, no_memory, too_much_output, too_large_arrays };
-    Failure failure = Failure::none;  // the fragment is not whole, for want of room
+    Failure failure = Failure::none;  // why the fragment is not whole, if there was no room
 };
 
 }  // namespace stormcellar::level2

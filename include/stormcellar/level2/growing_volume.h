@@ -1,13 +1,18 @@
-// stormcellar/level2/growing_volume.h -- decodes a file as it grows.
+// stormcellar/level2/growing_volume.h -- decodes a file while it grows.
 //
-// Bytes are appended as they come, cut anywhere. Each LDM record, or each message of an
-// uncompressed file, is decoded as soon as it is whole, and the sweeps come out as they close.
-// What cannot be read before it is whole (gzip, bzip2, .Z around it) is held until the end, up to
-// most_packed_bytes. finish() gives what decode() gives for the same bytes, bit for bit, also for
-// damaged files; but for more than 34 MiB in which no LDM record ends, and for 16 MiB that hold
-// neither record nor message at all, which are refused.
-// After a restart of the program the file is appended again from its start.
-// Errors: those of decode(). Thread contract: one thread at a time.
+// Bytes are appended as they come, in pieces of any size. Each LDM record, or each message of an
+// uncompressed file, is decoded as soon as it is whole, and sweeps are handed out as they close. A
+// file that is compressed as a whole (gzip, bzip2, .Z) cannot be read before it is complete; it is
+// held until the end, up to most_packed_bytes.
+//
+// finish() returns what decode() returns for the same bytes, bit for bit, also for damaged files.
+// There are two exceptions, which are refused: more than 34 MiB in which no LDM record ends, and 16
+// MiB that hold neither a record nor a message. After a restart of the program the file is appended
+// again from its start.
+//
+// Units     Sizes are in bytes.
+// Threads   One thread at a time.
+// Errors    Those of decode(), and over_budget for DecodeOptions::open_sweep_limit_bytes.
 #pragma once
 
 #include <cstddef>
@@ -28,33 +33,36 @@ class GrowingVolume {
     GrowingVolume& operator=(GrowingVolume&&) noexcept;
     ~GrowingVolume();
 
-    // An error is final: no more is taken, and finish() gives it again.
+    // Appends bytes. An error is final: no more bytes are taken, and finish() returns it again.
     [[nodiscard]] Status append(std::span<const std::byte> bytes);
-    // The sweeps that have closed since the last call, in the order of the file. A sweep is closed
-    // by its last radial's status or by the sweep that follows. Where it goes on after its last
-    // radial it comes again when it has grown by a quarter, and when another one follows. Of more
-    // than most_live_bytes the rest comes with the next call.
+    // Returns the sweeps that have closed since the last call, in the order of the file. A sweep is
+    // closed by the status of its last radial or by the sweep that follows. If a sweep goes on
+    // after its last radial, it is returned again when it has grown by a quarter, and again when
+    // another sweep follows. Once the sweeps exceed most_live_bytes, the rest comes with the next
+    // call.
     [[nodiscard]] std::vector<LiveSweep> take_sweeps();
-    // Station, position and pattern as far as they are known; without sweeps.
+    // Returns station, position and pattern as far as they are known, without sweeps.
     [[nodiscard]] Volume facts() const;
-    // The newest radial is marked as the volume's last, or the newest record's control word is
-    // negative and there are radials. More may follow all the same.
+    // Returns true if the newest radial is marked as the last of the volume, or the newest record
+    // has a negative control word and there are radials. More may follow all the same.
     [[nodiscard]] bool has_ended() const;
 
-    // The newest radial is marked so, whatever the control words say.
+    // Returns true if the newest radial is marked as the last, whatever the control words say.
     [[nodiscard]] bool has_last_radial() const;
-    // LDM records: what is appended is decoded at once and not held until the end.
+    // Returns true if the file consists of LDM records, so that bytes are decoded at once and not
+    // held until the end.
     [[nodiscard]] bool is_of_records() const;
-    // A further volume has begun in the file.
+    // Returns true if a further volume has begun in the file.
     [[nodiscard]] bool holds_several() const;
 
-    // What is held now: sweeps that were not dropped, an unfinished record or message, and what has
-    // to be whole before it is read. About right: what the allocator adds is not counted.
+    // Returns the bytes held now: sweeps that were not dropped, an unfinished record or message,
+    // and a file that must be complete before it is read. The number is approximate, because it
+    // leaves out what the allocator adds.
     [[nodiscard]] std::uint64_t held_bytes() const;
 
-    // To hold less: sweeps below this index are closed and were handed out, and what take_sweeps()
-    // gave last of each is what the volume holds. They may be dropped, each once, and must be put
-    // back, bit for bit, before finish().
+    // These three let the caller hold less memory. Sweeps below droppable_sweeps() are closed and
+    // were handed out, and take_sweeps() last returned exactly what the volume holds of them. Each
+    // may be dropped once, and must be put back, bit for bit, before finish().
     [[nodiscard]] std::size_t droppable_sweeps() const;
     void drop_sweep(std::size_t index);
     void put_back(std::size_t index, Sweep sweep);

@@ -1,5 +1,8 @@
 // stormcellar/level2/live_chunk.h -- one chunk of a live volume, decoded by itself.
-// Thread contract: no state but what is given.
+//
+// Units     Sizes are in bytes.
+// Threads   Plain data; the functions have no state beyond their arguments.
+// Errors    See each function.
 #pragma once
 
 #include <cstddef>
@@ -17,41 +20,43 @@
 namespace stormcellar::level2 {
 
 struct LiveChunk {
-    std::optional<VolumeHeader> header;  // at its start
-    std::vector<Fragment> fragments;     // of its records, in their order
-    bool has_records = false;            // else plain messages
-    bool negative = false;               // the last record's control word
-    bool ended_volume = false;           // a radial says so
+    std::optional<VolumeHeader> header;  // the header at its start
+    std::vector<Fragment> fragments;     // the fragments of its records, in order
+    bool has_records = false;            // false: it has plain messages
+    bool negative = false;               // the control word of the last record
+    bool ended_volume = false;           // a radial says that the volume ends
     std::size_t radials = 0;
     std::size_t bytes = 0;
     std::uint64_t output_bytes = 0;  // decompressed
-    std::uint64_t held_bytes = 0;    // in its fragments, when all of them is here
-    // Of each piece, over all fragments, where all of its sweep lies, if not here: what is left of
-    // that are its first radial and its last. Empty: everything is here.
+    std::uint64_t held_bytes = 0;    // memory of the fragments while no sweep lies in the depot
+    // For each piece, counted over all fragments: where its sweep lies in the depot, or none if it
+    // is here. Of a sweep in the depot only the first and the last radial stay here. An empty list
+    // means that all sweeps are here.
     std::vector<std::optional<std::uint64_t>> places;
-    std::uint64_t away_bytes = 0;  // of held_bytes
+    std::uint64_t away_bytes = 0;  // the part of held_bytes in the depot
     std::uint64_t checksum = 0;
     ChunkKind kind = ChunkKind::intermediate;
-    std::uint64_t serial = 0;  // of its arrival
+    std::uint64_t serial = 0;  // the order of arrival
 };
 
-// What a chunk may take.
+// The room for one chunk.
 struct LiveRoom {
     std::uint64_t output_bytes = 0;
     std::uint64_t held_bytes = 0;
 };
 
-// Puts what is large into the depot, as far as it takes it.
+// Puts large sweeps into the depot, as far as the depot takes them.
 void put_aside(LiveChunk& chunk, SweepDepot& depot);
-// The whole sweep of a piece; `place` counts over all fragments. Errors: those of the depot.
+// Returns the whole sweep of a piece. `place` counts over all fragments. Errors: those of the
+// depot.
 [[nodiscard]] Result<Sweep> whole_piece(const LiveChunk& chunk, std::size_t place,
                                         const Fragment::Piece& piece, const SweepDepot* depot);
-// All pieces are here again.
+// Brings all pieces back from the depot. Errors: those of the depot.
 [[nodiscard]] Status bring_back(LiveChunk& chunk, const SweepDepot* depot);
 
-// Without kind and serial. Errors: empty; not_level2; corrupt or truncated where nothing is whole,
-// neither a header nor a message; unsupported beyond the room; exhausted where the system gives no
-// memory, or std::bad_alloc is thrown.
+// Decodes a chunk, without kind and serial. Errors: empty; not_level2; corrupt or truncated if it
+// holds neither a whole header nor a whole message; unsupported beyond the room; exhausted if the
+// system has no more memory. It may also throw std::bad_alloc.
 [[nodiscard]] Result<LiveChunk> read_live_chunk(std::span<const std::byte> bytes,
                                                 const DecodeOptions& options, LiveRoom room);
 

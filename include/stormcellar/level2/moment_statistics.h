@@ -1,4 +1,9 @@
-// stormcellar/level2/moment_statistics.h -- what the gates of one moment of a sweep hold, counted.
+// stormcellar/level2/moment_statistics.h -- counts what the gates of one moment of a sweep hold.
+//
+// Units     Values are in the unit of the moment.
+// Threads   Plain data and a pure function.
+// Errors    None.
+// Accuracy  Counts and the checksum are exact. The mean comes from exact counts, in double.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +15,7 @@
 namespace stormcellar::level2 {
 
 struct MomentStatistics {
-    std::uint64_t radials = 0;  // that have the moment
+    std::uint64_t radials = 0;  // radials that have the moment
     std::uint16_t gates_first = 0;
     std::uint16_t gates_min = 0;
     std::uint16_t gates_max = 0;
@@ -19,16 +24,17 @@ struct MomentStatistics {
     std::uint64_t code_1 = 0;
     std::uint64_t code_2_to_7 = 0;  // flags in CFP, values elsewhere
     std::uint64_t valid = 0;
-    std::optional<double> min;  // of the valid values; none without any
+    // min, max and mean are over the valid values; none if there are none
+    std::optional<double> min;
     std::optional<double> max;
     std::optional<double> mean;
-    std::uint32_t crc32 = 0;  // of the codes, 16-bit ones big-endian, radials in file order
-    const SweepMoment* first = nullptr;  // the kind that the first radial with the moment has
+    std::uint32_t crc32 = 0;  // over the codes, 16-bit ones big-endian, radials in file order
+    const SweepMoment* first = nullptr;  // the kind of the first radial with the moment
     bool geometry_constant = true;
     bool scale_constant = true;
 };
 
-// All kinds of the moment together; none when the sweep lacks it.
+// Counts all kinds of the moment together. Returns none if the sweep lacks the moment.
 [[nodiscard]] std::optional<MomentStatistics> moment_statistics(const Sweep& sweep, Moment moment);
 
 }  // namespace stormcellar::level2

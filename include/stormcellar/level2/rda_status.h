@@ -1,7 +1,9 @@
-// stormcellar/level2/rda_status.h -- what a radar says of itself in message 2 (ICD 2620002, table
-// IV).
+// stormcellar/level2/rda_status.h -- what a radar says about itself in message 2 (ICD 2620002,
+// table IV).
 //
-// Thread contract: plain data and a pure function.
+// Units     Each member names its unit.
+// Threads   Plain data and a pure function.
+// Errors    None; unknown codes are kept.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +15,7 @@
 
 namespace stormcellar::level2 {
 
-// Codes are kept as they came, also those that no ICD names.
+// Codes are kept as they came, including codes that no ICD names.
 enum class RdaState : std::uint16_t {
     start_up = 2,
     standby = 4,
@@ -23,7 +25,7 @@ enum class RdaState : std::uint16_t {
     off_line_operate = 64,  // up to build 18
 };
 
-// Flags; a radar with no trouble has on_line alone.
+// Flags. A radar without trouble has on_line alone.
 namespace rda_operability {
 inline constexpr std::uint16_t calibration_disabled = 1;  // up to build 13
 inline constexpr std::uint16_t on_line = 2;
@@ -48,17 +50,18 @@ inline constexpr std::uint16_t velocity = 8;
 inline constexpr std::uint16_t width = 16;
 }  // namespace rda_data
 
-// How the radar is run; code 2 has changed its meaning, so it is translated.
+// How the radar is run. The meaning of code 2 has changed over the years, so the decoder translates
+// it.
 enum class RdaMode : std::uint8_t { unknown, operational, maintenance, test };
 
-// One of up to 14 entries: an alarm has been raised or, `cleared`, is over (table IV-A).
+// One of up to 14 entries: an alarm has been raised or, if `cleared`, has ended (table IV-A).
 struct RdaAlarm {
     std::uint16_t code = 0;
     bool cleared = false;
 };
 
 struct RdaStatus {
-    bool legacy = false;  // from an RDA before the open one
+    bool legacy = false;  // from an RDA before the Open RDA
     RdaState state = RdaState::operate;
     std::uint16_t operability = 0;                // rda_operability
     std::uint16_t control = 0;                    // 2 local only, 4 RPG only, 8 either
@@ -101,8 +104,8 @@ struct RdaStatus {
     std::uint16_t rms_control = 0;       // 0 no RMS, 2 RMS, 4 RDA
 };
 
-// What is wrong, one short phrase each, the worst first: "standby", "maintenance required",
-// "alarm 206". Empty for a radar that operates without trouble.
+// Returns what is wrong in short phrases, the worst first: "standby", "maintenance required",
+// "alarm 206". The result is empty for a radar that operates without trouble.
 [[nodiscard]] std::vector<std::string> rda_troubles(const RdaStatus& status);
 
 }  // namespace stormcellar::level2

@@ -1,7 +1,9 @@
-// stormcellar/level2/selection.h -- which moments and cuts of a volume are asked for.
+// stormcellar/level2/selection.h -- which moments and cuts of a volume to decode.
 //
-// What is decoded of them is what a whole decode gives, but for the limit that record_plan.h
-// states. Thread contract: plain data.
+// The selected parts are decoded as in a whole decode, but for the limit that record_plan.h states.
+//
+// Threads   Plain data.
+// Errors    None.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +16,7 @@ namespace stormcellar::level2 {
 
 struct Selection {
     std::vector<Moment> moments;         // empty: all
-    std::vector<int> elevation_numbers;  // the VCP's cuts, from 1; empty: all
+    std::vector<int> elevation_numbers;  // cuts of the VCP, from 1; empty: all
 
     [[nodiscard]] bool wants(Moment moment) const {
         return moments.empty() ||

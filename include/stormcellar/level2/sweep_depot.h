@@ -1,5 +1,8 @@
-// stormcellar/level2/sweep_depot.h -- where sweeps, or parts of them, lie until they are wanted
-// again.
+// stormcellar/level2/sweep_depot.h -- an interface for storing sweeps, or parts of them, until they
+// are wanted again.
+//
+// Threads   Each implementation states its own contract.
+// Errors    See each function.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +13,6 @@
 
 namespace stormcellar::level2 {
 
-// Thread contract: that of its user.
 class SweepDepot {
   public:
     SweepDepot() = default;
@@ -18,9 +20,9 @@ class SweepDepot {
     SweepDepot& operator=(const SweepDepot&) = delete;
     virtual ~SweepDepot() = default;
 
-    // None where there is no room: the caller keeps it.
+    // Stores a sweep and returns its place, or none if there is no room; the caller then keeps it.
     [[nodiscard]] virtual std::optional<std::uint64_t> put(const Sweep& sweep) = 0;
-    // Bit for bit what was put there. Errors: io, corrupt.
+    // Returns, bit for bit, the sweep that was stored there. Errors: io, corrupt.
     [[nodiscard]] virtual Result<Sweep> get(std::uint64_t place) const = 0;
 };
 

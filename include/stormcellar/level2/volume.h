@@ -1,10 +1,12 @@
 // stormcellar/level2/volume.h -- what a Level II file says, as decoded and nothing more.
 //
-// Codes are kept as they came (8 or 16 bit) with their scale and offset; a value is computed when
-// asked for. Arrays are contiguous, one row a radial. Nothing here is interpreted beyond the ICDs
-// (RDA/RPG 2620002, Archive II/User 2620010).
-// Units: metres, degrees, m/s, dBZ, dB; ranges are slant ranges to the CENTRE of a gate.
-// Thread contract: plain data; const access from many threads is safe.
+// Codes are kept as they came (8 or 16 bits) with their scale and offset; a value is computed when
+// it is asked for. Arrays are contiguous, with one row for each radial. Nothing is interpreted
+// beyond the ICDs (RDA/RPG 2620002, Archive II/User 2620010).
+//
+// Units     Meters, degrees, m/s, dBZ, dB. Ranges are slant ranges to the CENTER of a gate.
+// Threads   Plain data and pure functions; any thread may read it while no thread writes it.
+// Errors    None.
 #pragma once
 
 #include <array>
@@ -29,8 +31,9 @@ inline constexpr std::array<Moment, moment_count> all_moments = {
 [[nodiscard]] std::string_view moment_units(Moment moment);  // "dBZ", "m/s", "dB", "degree", "1"
 [[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);  // upper case
 
-// What a gate's code stands for. Code 0 is below threshold, code 1 range folded (for CFP: codes 0
-// to 7 are flags and give no_data); a gate beyond the radial's last is no_data.
+// What the code of a gate stands for. Code 0 is below threshold and code 1 is range folded. For
+// CFP, codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial is
+// no_data.
 enum class GateStatus : std::uint8_t { valid, below_threshold, range_folded, no_data };
 
 enum class RadialStatus : std::uint8_t {
@@ -46,9 +49,9 @@ struct Radial {
     UtcTime time;
     float azimuth_deg = 0;
     float elevation_deg = 0;  // as measured; may be negative
-    float nyquist_mps = 0;    // 0 where the radar does not say (TDWR, surveillance cuts)
+    float nyquist_mps = 0;    // 0 if the radar does not say (TDWR, surveillance cuts)
     float unambiguous_range_m = 0;
-    // Reflectivity of the noise at 1 km as the radar is calibrated (dBZ0); none in message 1.
+    // The reflectivity of the noise at 1 km by the radar's calibration (dBZ0); none in message 1.
     std::optional<float> calibration_dbz;
     std::optional<float> horizontal_noise_dbm;
     std::optional<float> vertical_noise_dbm;
@@ -63,12 +66,12 @@ struct Radial {
     std::optional<float> vertical_calibration_dbz;
 };
 
-// One moment of one sweep: rows of `gate_stride` codes, one row for each radial of the sweep.
-// A sweep whose radials differ in gate geometry, word size, scale or offset has one SweepMoment
-// for each kind; gate_counts says which radials belong to it.
+// One moment of one sweep: rows of `gate_stride` codes, one row for each radial of the sweep. If
+// the radials of a sweep differ in gate geometry, word size, scale or offset, there is one
+// SweepMoment for each kind, and gate_counts says which radials belong to it.
 struct SweepMoment {
     Moment moment = Moment::ref;
-    std::int32_t first_gate_m = 0;  // to the centre of gate 0; negative in some legacy volumes
+    std::int32_t first_gate_m = 0;  // to the center of gate 0; negative in some legacy volumes
     std::int32_t gate_spacing_m = 0;
     std::int32_t gate_stride = 0;  // codes in a row: the largest gate count of any radial
     int word_size_bits = 8;        // 8 or 16; says which of the two code arrays is in use
@@ -81,15 +84,16 @@ struct SweepMoment {
     std::vector<std::uint8_t> codes8;
     std::vector<std::uint16_t> codes16;
 
-    // No bounds check: radial < gate_counts.size(), 0 <= gate < gate_stride.
+    // Returns a code without a bounds check: radial < gate_counts.size(), 0 <= gate < gate_stride.
     [[nodiscard]] std::uint16_t code(std::size_t radial, std::int32_t gate) const {
         const std::size_t at =
             radial * static_cast<std::size_t>(gate_stride) + static_cast<std::size_t>(gate);
         return word_size_bits == 8 ? codes8[at] : codes16[at];
     }
-    // What the gate holds; safe for any gate number, no_data outside the radial's gates.
+    // Returns what the gate holds. Any gate number is allowed; beyond the radial's gates it is
+    // no_data.
     [[nodiscard]] GateStatus status(std::size_t radial, std::int32_t gate) const;
-    // The physical value of a valid code.
+    // Returns the physical value of a valid code.
     [[nodiscard]] float value_of(std::uint16_t code) const {
         const auto number = static_cast<float>(code);
         return scale == 0 ? number : (number - offset) / scale;
@@ -99,18 +103,18 @@ struct SweepMoment {
     }
 };
 
-// Radials in file order that share an elevation number: a new sweep begins where the number
+// The radials, in file order, that share an elevation number. A new sweep begins where the number
 // changes or a radial has status 0, 3 or 5.
 struct Sweep {
-    int elevation_number = 0;                // the VCP's cut, from 1
+    int elevation_number = 0;                // the cut of the VCP, from 1
     int message_type = 31;                   // 1 or 31
-    float azimuth_spacing_deg = 0;           // 0.5 or 1; 0 where the message does not say
+    float azimuth_spacing_deg = 0;           // 0.5 or 1; 0 if the message does not say
     std::optional<float> vcp_elevation_deg;  // the cut's fixed angle, from message 5
     std::vector<Radial> radials;
     std::vector<SweepMoment> moments;
 
-    [[nodiscard]] const SweepMoment* find(Moment moment) const;  // the first; null when absent
-    [[nodiscard]] double mean_elevation_deg() const;             // NaN for no radials
+    [[nodiscard]] const SweepMoment* find(Moment moment) const;  // the first; null if absent
+    [[nodiscard]] double mean_elevation_deg() const;             // NaN if there are no radials
 };
 
 // One cut of the volume coverage pattern, message 5 or 7 (ICD 2620002 table XI).
@@ -182,7 +186,7 @@ struct VolumeHeader {
     std::string icao;        // empty in ARCHIVE2 files
 
     [[nodiscard]] UtcTime time() const { return time_from_nexrad(date, ms); }
-    // The number after the dot, 0-999, or none.
+    // Returns the number after the dot, 0-999, or none.
     [[nodiscard]] std::optional<int> volume_number() const;
 };
 
@@ -197,37 +201,39 @@ struct Volume {
     VcpSource vcp_source = VcpSource::none;
     std::vector<Sweep> sweeps;  // file order
 
-    // Start of the volume: the header's time, else the first radial's, of those that are plausible
-    // and that others of the sweep bear out. A header that is more than an hour off its radials is
-    // not believed.
+    // Returns the start of the volume: the time of the header, else that of the first radial. Only
+    // plausible times count that the other radials of the sweep confirm. A header that is more than
+    // an hour off its radials is not believed.
     [[nodiscard]] std::optional<UtcTime> start_time() const;
     [[nodiscard]] std::size_t radial_count() const;
 };
 
-// Whether a radar can have meant this time: 1970 to 2149, the years that messages can say. A day
-// number of 0 stands for no time.
+// Returns true if a radar can have meant this time: 1970 to 2149, the years that messages can
+// express. Day number 0 stands for no time.
 [[nodiscard]] bool is_plausible(UtcTime time);
-// Whether a radial's time is possible in a volume that starts then. A volume takes minutes, but a
-// single radial may carry any time, or that of another day.
+// Returns true if a radial can have this time in a volume that starts at `start`. A volume takes
+// minutes, but a damaged radial may carry any time, or the time of another day.
 [[nodiscard]] bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start);
 
-// Without the top bit, which marks bad data.
+// Returns the status without its top bit, which marks bad data.
 [[nodiscard]] RadialStatus status_of(const Radial& radial);
-// The last radial is marked as the volume's last.
+// Return true if the last radial is marked as the last of the volume.
 [[nodiscard]] bool has_ended(const Volume& volume);
 [[nodiscard]] bool has_ended(std::span<const Sweep> sweeps);
 
-// Where the antenna stands (DESIGN section 5): altitude = site height + tower height of message
-// 31; where the two are equal (TDWR) the site height alone. Where the radar stands within 0.01
-// degrees of the station table and its height is more than 30 m off, the height is the table's; a
-// site that moved by up to 1 degree has its own position and height; farther off, or without a
-// position, the table wins. None when neither knows the site.
+// Where the antenna stands. Message 31 gives its altitude as site height + tower height, or as the
+// site height alone where the two are equal (TDWR). The station table corrects it:
+// - The radar stands within 0.01 degrees of the table, but its height is more than 30 m off: the
+//   height is that of the table.
+// - The radar moved by up to 1 degree: it has its own position and height.
+// - It is farther off, or the file has no position: position and height are those of the table.
+// antenna_position() returns none if neither the file nor the table knows the site.
 struct AntennaPosition {
     double latitude_deg = 0;
     double longitude_deg = 0;
     double altitude_m = 0;  // above mean sea level
     bool from_table = false;
-    // Set when message 31 and the table differ by more than 30 m in altitude or 0.01 degrees.
+    // Set if message 31 and the table differ by more than 30 m in altitude or 0.01 degrees.
     std::optional<std::string> disagreement;
 };
 [[nodiscard]] std::optional<AntennaPosition> antenna_position(const Volume& volume);

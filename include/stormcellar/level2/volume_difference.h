@@ -1,5 +1,7 @@
-// stormcellar/level2/volume_difference.h -- whether two volumes are the same to the bit.
-// Thread contract: a pure function.
+// stormcellar/level2/volume_difference.h -- compares two volumes to the bit.
+//
+// Threads   A pure function.
+// Errors    None.
 #pragma once
 
 #include <string>
@@ -8,8 +10,9 @@
 
 namespace stormcellar::level2 {
 
-// Where the volumes first differ, as "sweep 3, radial 17: azimuth"; empty when they do not. Numbers
-// are compared as bits, so a NaN equals itself and 0 does not equal -0. Indices count from 0.
+// Returns where the volumes first differ, as "sweep 3, radial 17: azimuth", or an empty text if
+// they are equal. Numbers are compared as bits: a NaN equals itself, and 0 does not equal -0.
+// Indices count from 0.
 [[nodiscard]] std::string difference(const Volume& a, const Volume& b);
 
 }  // namespace stormcellar::level2

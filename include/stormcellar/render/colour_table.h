@@ -1,14 +1,18 @@
-// stormcellar/render/colour_table.h -- what values look like: colours, and how opaque echo is.
+// stormcellar/render/colour_table.h -- what values look like: colors, and how opaque echo is.
 //
-// A table is a list of stops that rise in value. From one stop to the next the colour goes from
-// `colour` to `until`: one colour in a stepped table, which shows classes; a blend in a smooth one.
-// Colours blend in sRGB, as drawn. A value below the first stop has no colour, one above the last
-// has the last stop's first colour. A class holds its lower bound.
+// A table is a list of stops that rise in value. From one stop to the next the color goes from
+// `colour` to `until`. In a stepped table, which shows classes, both are the same; in a smooth
+// table they differ. Colors blend in sRGB, as drawn. A value below the first stop has no color. A
+// value above the last stop has that stop's first color. A class includes its lower bound.
 //
-// Alpha of a colour counts in flat products (a composite over a map). How opaque echo is in a
-// volume is `extinction`: points of optical depth per kilometre of the drawn scene, straight
-// between two points; none below the first, the last one's above the last.
-// Thread contract: plain data; functions are pure.
+// The alpha of a color counts in flat products (a composite over a map). In a volume, `extinction`
+// says how opaque echo is: points of optical depth per kilometer of the drawn scene, with straight
+// lines between them. It is zero below the first point and constant above the last.
+//
+// Units     Values are in the unit of the moment; extinction is per kilometer or per meter, as
+//           named.
+// Threads   Plain data and pure functions.
+// Errors    See validate().
 #pragma once
 
 #include <cstddef>
@@ -38,10 +42,10 @@ struct ExtinctionPoint {
 struct ColourTable {
     std::string name;  // "nws-reflectivity"
     level2::Moment moment = level2::Moment::ref;
-    std::string unit;               // "dBZ"; empty: a number without one
+    std::string unit;               // "dBZ"; empty: no unit
     std::vector<ColourStop> stops;  // at least one
     float end = 0;  // where the last class ends in a colour bar; above the last stop
-    // Where a colour bar begins, if not with the first class, which reaches down far.
+    // Where a color bar begins, if not with the first class, which may reach far down.
     std::optional<float> bar_begin;
     Rgba8 range_folded{};
     std::vector<ExtinctionPoint> extinction;  // at least one, values rise strictly
@@ -50,23 +54,25 @@ struct ColourTable {
     bool operator==(const ColourTable&) const = default;
 };
 
-// More than any display shows apart; bounds what files may ask for.
+// A table may have no more stops than this. No display shows more apart, and it bounds files.
 inline constexpr std::size_t most_stops = 4096;
 
-// bad_argument, in words that follow the name of a table, unless there are 1 to most_stops stops
-// that rise strictly, the bar's ends lie about them, there is an extinction of values that rise
-// strictly, and all numbers are finite and no extinction is negative.
+// Checks a table. Returns bad_argument, with a message that follows the name of a table, unless
+// there are 1 to most_stops stops that rise strictly, the ends of the bar enclose them, there are
+// extinction points that rise strictly, all numbers are finite, and no extinction is negative.
 [[nodiscard]] Status validate(const ColourTable& table);
 
-// Whether no colour blends: the table shows classes.
+// Returns true if no color blends, so that the table shows classes.
 [[nodiscard]] bool is_stepped(const ColourTable& table);
 
-// None below the first stop and for NaN.
+// Returns the color of a value; none below the first stop and for NaN.
 [[nodiscard]] std::optional<Rgba8> colour_of(const ColourTable& table, float value);
-// Per metre of the drawn scene, times `opacity`; 0 for what has no colour.
+// Returns the extinction per meter of the drawn scene, times `opacity`; 0 for a value without a
+// color.
 [[nodiscard]] double extinction_per_m(const ColourTable& table, double value, double opacity);
 
-// The colours of the National Weather Service for reflectivity (render/colour/built_in_tables.h).
+// Returns the colors of the National Weather Service for reflectivity
+// (render/colour/built_in_tables.h).
 [[nodiscard]] const ColourTable& nws_reflectivity();
 
 }  // namespace stormcellar::render

@@ -1,6 +1,6 @@
-// stormcellar/render/frame_facts.h -- what a picture's labels say about its grid.
+// stormcellar/render/frame_facts.h -- the facts that the labels of a picture give about its grid.
 //
-// Thread contract: plain data.
+// Threads   Plain data.
 #pragma once
 
 #include <chrono>
@@ -20,13 +20,13 @@ struct FrameFacts {
     UtcTime time;
     std::vector<grid::SitePosition> sites;
     bool partial = false;
-    // The rest may be left empty. The time where somebody is, "1999-05-03 18:56:21 CDT".
+    // The members below may be left empty. The time at some place: "1999-05-03 18:56:21 CDT".
     std::string local_time = {};
-    // From the newest radial to now, of a picture made while it is news.
+    // The time from the newest radial to now, for a picture that is made while its data are new.
     std::optional<std::chrono::seconds> antenna_to_picture = {};
-    // What radars say is wrong with them, "KTLX: standby, maintenance required".
+    // The faults that radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles = {};
-    bool interpolated = false;  // between volumes, as it was called for
+    bool interpolated = false;  // the grid was interpolated between volumes, as requested
 };
 
 }  // namespace stormcellar::render

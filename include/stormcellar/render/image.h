@@ -1,4 +1,7 @@
-// stormcellar/render/image.h -- pixels.
+// stormcellar/render/image.h -- an image as pixels.
+//
+// Threads   Plain data; any thread may read it while no thread writes it.
+// Errors    None; pixels must be within the image.
 #pragma once
 
 #include <array>
@@ -8,12 +11,12 @@
 
 namespace stormcellar::render {
 
-using Rgba8 = std::array<std::uint8_t, 4>;  // not premultiplied, sRGB
+using Rgba8 = std::array<std::uint8_t, 4>;  // sRGB; alpha is not premultiplied
 
-// A colour over an opaque one.
+// Returns the color that results from drawing `colour` over the opaque color `below`.
 [[nodiscard]] Rgba8 over(const Rgba8& colour, const Rgba8& below);
 
-// Row 0 is the top. Opaque unless stated otherwise.
+// Row 0 is the top. All pixels are opaque unless stated otherwise.
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;  // width * height * 4, R G B A

@@ -1,17 +1,20 @@
-// stormcellar/render/integration.h -- how the values between two slices make up a step.
+// stormcellar/render/integration.h -- how the values between two slices make up a step of a ray.
+//
+// Threads   Plain values.
+// Errors    None.
 #pragma once
 
 #include <string_view>
 
 namespace stormcellar::render {
 
-//   riemann       the nearer value alone. First order in the step
-//   first_order   all values between the two ends, mixed by their extinction: what the near part of
-//                 the step hides of its far part is left out
-//   second_order  all values between, in their order: the integral over a straight change from
-//                 one end to the other (Engel, Kraus, Ertl 2001). Second order
+//   riemann       Uses the nearer value alone. The error is of first order in the step.
+//   first_order   Mixes all values between the two ends, each weighted by its extinction. It
+//                 ignores what the near part of the step hides of the far part.
+//   second_order  Uses all values in their order: the integral over a straight change from one end
+//                 to the other (Engel, Kraus, Ertl 2001). The error is of second order.
 enum class Integration { riemann, first_order, second_order };
-// "riemann", "pre-integrated", "pre-integrated-2".
+// Returns "riemann", "pre-integrated" or "pre-integrated-2".
 [[nodiscard]] std::string_view integration_name(Integration integration);
 
 }  // namespace stormcellar::render

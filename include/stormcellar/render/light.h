@@ -1,14 +1,18 @@
-// stormcellar/render/light.h -- how echo is lit, where a scene asks for it.
+// stormcellar/render/light.h -- how echo is lit, if a scene asks for it.
 //
-// Light makes colours darker and never changes their hue: a sample's colour is multiplied by one
-// factor of 0 to 1. Off, echo has exactly the table's colours.
-//   gradient    surfaces turned away from the sun are darker. By the gradient of the values, so
-//   much
-//               as it is steep; cells without a value count as none
-//   shadow      what lies between a place and the sun takes light from it, and what lies about it
-//               takes light from the sky (ambient occlusion)
-//   scattering  as shadow, but brightest where one looks towards the sun through echo: single
-//               scattering, Henyey and Greenstein's phase function with g = 0.4
+// Light darkens colors and never changes their hue: the color of a sample is multiplied by one
+// factor of 0 to 1. With the light off, echo has exactly the colors of the table.
+//   gradient    Surfaces turned away from the sun are darker. The effect follows the gradient of
+//               the values, as far as it is steep; a cell without a value counts as one without
+//               echo.
+//   shadow      Whatever lies between a place and the sun takes light from it, and whatever
+//               surrounds the place takes light from the sky (ambient occlusion).
+//   scattering  As shadow, but brightest toward the sun through echo: single scattering by the
+//               phase function of Henyey and Greenstein with g = 0.4.
+//
+// Units     Degrees.
+// Threads   Plain data and pure functions.
+// Errors    See set_light().
 #pragma once
 
 #include <string>
@@ -21,16 +25,17 @@ struct Light {
     bool gradient = false;
     bool shadow = false;
     bool scattering = false;
-    double sun_azimuth_deg = 225;   // where it stands, clockwise from north
+    double sun_azimuth_deg = 225;   // direction of the sun, clockwise from north
     double sun_elevation_deg = 40;  // 5..90
 
     [[nodiscard]] bool any() const { return gradient || shadow || scattering; }
     [[nodiscard]] bool needs_volume() const { return shadow || scattering; }
 };
 
-// "none", or of gradient, shadow and scattering those that it names, with commas; bad_argument.
+// Sets the light from a list of names, separated by commas: "none", or some of gradient, shadow and
+// scattering. Returns bad_argument for any other name.
 [[nodiscard]] Status set_light(const std::string& names, Light& light);
-// As set_light() takes them.
+// Returns the names as set_light() takes them.
 [[nodiscard]] std::string light_names(const Light& light);
 
 }  // namespace stormcellar::render

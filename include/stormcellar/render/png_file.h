@@ -1,4 +1,7 @@
-// stormcellar/render/png_file.h -- an Image as PNG bytes.
+// stormcellar/render/png_file.h -- encodes an Image as PNG.
+//
+// Threads   A pure function.
+// Errors    See encode_png().
 #pragma once
 
 #include <cstddef>
@@ -13,9 +16,10 @@ namespace stormcellar::render {
 
 enum class PngAlpha { when_needed, always };
 
-// 8 bits, sRGB; RGB when every pixel is opaque and alpha is not always wanted, else RGBA. `texts`
-// become tEXt chunks (keyword of 1 to 79 characters, Latin-1 text). bad_argument for an image whose
-// bytes do not fit its size, or a text with a zero byte.
+// Returns the bytes of a PNG file with 8 bits in sRGB. It is RGB if every pixel is opaque and alpha
+// is only kept when needed, else RGBA. `texts` become tEXt chunks: a keyword of 1 to 79 characters
+// and a text in Latin-1. Errors: bad_argument for an image whose bytes do not fit its size, or a
+// text with a zero byte.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(
     const Image& image, const std::vector<std::pair<std::string, std::string>>& texts = {},
     PngAlpha alpha = PngAlpha::when_needed);

@@ -1,7 +1,12 @@
-// stormcellar/render/render.h -- one grid and a scene -> one picture, with its labels.
+// stormcellar/render/render.h -- draws one grid and a scene as one picture, with its labels.
 //
-// Draws the product (volume, map or section), then range rings, site marks, colour bar, title and
-// time over it. The same input gives the same pixels for any number of threads.
+// The product (volume, map or section) is drawn first; range rings, site marks, color bar, title
+// and time are drawn over it. The same input gives the same pixels for any number of threads.
+//
+// Units     Those of stormcellar/render/scene.h.
+// Threads   Any thread may call; render_frame() uses `threads` threads of its own. A FrameKeeper
+//           may be used by one call at a time.
+// Errors    See each function.
 #pragma once
 
 #include "stormcellar/base/result.h"
@@ -15,19 +20,20 @@ namespace stormcellar::render {
 
 struct FrameKeeper;  // render/frame/frame_keeper.h
 
-// A loop hands the same keeper to each of its frames: map and colours are then prepared once, and
-// room is taken once. The pixels are the same with it or without.
-// bad_argument when the grid's moment is not the scene's, and for heights beyond the grid's,
-// or a section outside it.
+// Draws a picture. If a loop hands the same keeper to all its frames, the map and the colors are
+// prepared only once and memory is allocated only once; the pixels are the same with or without it.
+// Errors: bad_argument if the moment of the grid is not that of the scene, for heights beyond those
+// of the grid, and for a section outside the grid; those of check_frame().
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameKeeper* keeper = nullptr);
 
-// What render_frame() asks of them before it draws; unsupported for a volume of more than 2^31
-// codes.
+// Checks, before anything is drawn, what render_frame() requires. Also returns unsupported for a
+// volume of more than 2^31 codes.
 [[nodiscard]] Status check_frame(const grid::BrickView& view, const FrameFacts& facts,
                                  const Scene& scene);
-// How a volume or a map is seen in a picture of this size; a map straight down with north up.
+// Returns how a volume or a map is seen in a picture of this size. A map is seen from straight
+// above, with north up.
 [[nodiscard]] ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene,
                                             int width, int height);
 

@@ -1,4 +1,9 @@
-// stormcellar/render/scene.h -- what is to be shown: product, camera, colours, labels.
+// stormcellar/render/scene.h -- what to show: product, camera, colors, labels.
+//
+// Units     Each member names its unit in its name or its comment; heights are above mean sea
+//           level.
+// Threads   Plain data and pure functions.
+// Errors    See validate() and product_from_name().
 #pragma once
 
 #include <optional>
@@ -14,20 +19,22 @@
 
 namespace stormcellar::render {
 
-// render/products/flat_field.h says what each is; section: render/products/section.h.
+// render/products/flat_field.h describes each product; render/products/section.h the section.
 enum class Product { volume, composite, cappi, section, echo_top, vil, lowest_seen, highest_seen };
 [[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
 [[nodiscard]] std::string_view product_name(Product product);
-// A map of the grid's columns, seen from above: all but volume and section.
+// Returns true for a map of the grid's columns, seen from above: every product except volume and
+// section.
 [[nodiscard]] bool is_map(Product product);
 
-// Where a camera stands: metres east and north of the grid's middle, height above sea level.
+// The place of a camera: meters east and north of the middle of the grid, and a height above sea
+// level.
 struct Eye {
     double x_m = 0, y_m = 0, height_m = 0;
 };
 
-// Looks at the middle of the box of the cells and the ground under them, from outside, unless it
-// has a place of its own.
+// Without a place of its own, the camera looks from outside at the middle of the box that holds the
+// cells and the ground under them.
 struct Camera {
     double azimuth_deg = 180;  // from where it looks: 180 is from the south, north is up; finite
     double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground; 0..90,
@@ -37,7 +44,7 @@ struct Camera {
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
 };
 
-// A vertical section goes along the geodesic between two places.
+// A vertical section along the geodesic between two places.
 struct SectionLine {
     grid::GeoPoint from, to;  // latitudes -90..90, longitudes -180..360; 1..5000 km apart
 };
@@ -63,12 +70,14 @@ struct Scene {
     double range_ring_spacing_m = 50e3;  // 1..1000 km
     bool labels = true;                  // colour bar, title, time, rings
 };
-// bad_argument names the first field that is outside its range; NaN is outside every range.
+// Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
+// outside every range.
 [[nodiscard]] Status validate(const Scene& scene);
 
-// The scene's table, or else the product's, or else the moment's.
+// Returns the table of the scene, or else that of the product, or else that of the moment.
 [[nodiscard]] const ColourTable& colours_of(const Scene& scene);
-// Of what the product shows: "dBZ", "km"; empty for a number without one.
+// Returns the unit of what the product shows ("dBZ", "km"), or an empty text for a number without a
+// unit.
 [[nodiscard]] std::string unit_shown(const Scene& scene);
 
 }  // namespace stormcellar::render
