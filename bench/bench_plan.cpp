@@ -30,7 +30,7 @@
 #include "bench/measure.h"
 #include "bench/request.h"
 #include "bench/table.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"

@@ -7,7 +7,7 @@
 
 #include "stormcellar/level2/decode.h"
 #include "synth/observe.h"
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::bench {
 namespace {

@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "bench/measure.h"
 #include "bench/restamp.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "pipeline/mosaic/mosaic_frame.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/store.h"

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "stormcellar/grid/gridder.h"
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::bench {
 

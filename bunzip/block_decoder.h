@@ -10,7 +10,7 @@
 #include "bunzip/bit_reader.h"
 #include "bunzip/block_tables.h"
 #include "bunzip/byte_runs.h"
-#include "bunzip/format.h"
+#include "bunzip/bzip2_format.h"
 #include "bunzip/link_walk.h"
 #include "bunzip/paths.h"
 #include "bunzip/row_links.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bunzip/bit_reader.h"
-#include "bunzip/format.h"
+#include "bunzip/bzip2_format.h"
 #include "bunzip/prefix_code.h"
 
 namespace stormcellar::bunzip {

@@ -7,8 +7,8 @@
 
 #include "bunzip/bit_reader.h"
 #include "bunzip/block_decoder.h"
-#include "bunzip/checksum.h"
-#include "bunzip/format.h"
+#include "bunzip/bzip2_checksum.h"
+#include "bunzip/bzip2_format.h"
 #include "bunzip/library_stream.h"
 #include "bunzip/run_expander.h"
 

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bunzip/format.h"
+#include "bunzip/bzip2_format.h"
 #include "bunzip/paths.h"
 
 namespace stormcellar::bunzip {

@@ -18,7 +18,7 @@
 #include <memory>
 #include <span>
 
-#include "bunzip/format.h"
+#include "bunzip/bzip2_format.h"
 #include "bunzip/row_links.h"
 
 namespace stormcellar::bunzip {

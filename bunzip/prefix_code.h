@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bunzip/format.h"
+#include "bunzip/bzip2_format.h"
 
 namespace stormcellar::bunzip {
 

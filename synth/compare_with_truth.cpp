@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "grid/plan/ladder.h"
+#include "grid/plan/grid_ladder.h"
 #include "synth/sampled_truth.h"
 
 namespace stormcellar::synth {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_scene.h"
 #include "stormcellar/accuracy/error_statistics.h"
 #include "stormcellar/base/result.h"
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::synth {
 

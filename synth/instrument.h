@@ -1,7 +1,7 @@
 // synth/instrument.h -- what a simulated radar does to the truth; every effect is off by default.
 //
 // Plain data, read from the scene's [instrument] table (docs/scenes.md). The formulas stand with
-// the code: synth/beam_quadrature.h (beam width, pulse) and synth/effects.h (the rest).
+// the code: synth/beam_quadrature.h (beam width, pulse) and synth/synth_effects.h (the rest).
 #pragma once
 
 #include <cstdint>

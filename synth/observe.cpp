@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "stormcellar/grid/beam_geometry.h"
-#include "synth/effects.h"
 #include "synth/radial_observer.h"
+#include "synth/synth_effects.h"
 
 namespace stormcellar::synth {
 namespace {

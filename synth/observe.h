@@ -15,7 +15,7 @@
 #pragma once
 
 #include "stormcellar/level2/volume.h"
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::synth {
 

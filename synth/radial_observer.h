@@ -11,8 +11,8 @@
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/level2/volume.h"
 #include "synth/beam_quadrature.h"
-#include "synth/effects.h"
-#include "synth/scene.h"
+#include "synth/synth_effects.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::synth {
 

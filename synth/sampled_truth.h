@@ -16,7 +16,7 @@
 
 #include <optional>
 
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::synth {
 

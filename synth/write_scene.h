@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stormcellar/base/file_system.h"
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::synth {
 

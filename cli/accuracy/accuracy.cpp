@@ -8,10 +8,10 @@
 
 #include "accuracy/plot.h"
 #include "base/stopwatch.h"
-#include "cli/accuracy/held_out.h"
+#include "cli/accuracy/held_out_accuracy.h"
 #include "cli/accuracy/ladder_markdown.h"
 #include "cli/accuracy/mosaic_accuracy.h"
-#include "cli/accuracy/site_pairs.h"
+#include "cli/accuracy/site_pairs_accuracy.h"
 #include "cli/accuracy/truth_errors.h"
 #include "cli/grid/grid_notes.h"
 #include "cli/grid/grid_request.h"
@@ -19,7 +19,7 @@
 #include "cli/picture/picture_ladder.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/effect_options.h"
-#include "grid/plan/ladder.h"
+#include "grid/plan/grid_ladder.h"
 #include "stormcellar/base/file_system.h"
 #include "synth/observe.h"
 

@@ -16,7 +16,7 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/effect_options.h"
 #include "cli/shared/output_file.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "grid/plan/position_error.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/export/grid_netcdf.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/accuracy/budget.h"
 #include "stormcellar/accuracy/chain.h"
 #include "stormcellar/base/result.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "accuracy/timing.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/grid/projection.h"
 #include "stormcellar/grid/site_frame.h"
 

@@ -12,10 +12,10 @@
 // Accuracy  meant to be within 1.5 of the time that gridding then takes; measured over real volumes
 //           by bench/bench_plan.cpp (docs/performance.md). No test holds it: it is a clock's word.
 //           Of one thread it is time of the processor, as it passes where nobody else needs it.
-// Threads   as the scene (grid/plan/scene.h).
+// Threads   as the scene (grid/plan/grid_scene.h).
 #pragma once
 
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_scene.h"
 #include "stormcellar/accuracy/chain.h"
 
 namespace stormcellar::grid {

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "accuracy/governor.h"
-#include "grid/plan/effects.h"
 #include "grid/plan/grid_cost.h"
+#include "grid/plan/grid_effects.h"
 #include "grid/plan/position_error.h"
 #include "stormcellar/accuracy/candidate.h"
 

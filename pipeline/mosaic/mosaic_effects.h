@@ -1,5 +1,5 @@
 // pipeline/mosaic/mosaic_effects.h -- the steps, rungs and effects of a frame of several sites:
-// those of gridding (grid/plan/effects.h), for all volumes alike, and then
+// those of gridding (grid/plan/grid_effects.h), for all volumes alike, and then
 //
 //   step      rungs, from cheap to exact                     effects that reach them
 //   time      nearest, blend, advected                       time_blend, echo_motion
@@ -12,7 +12,7 @@
 #pragma once
 
 #include "grid/mosaic/time_interpolation.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "pipeline/mosaic/mosaic_frame.h"
 #include "stormcellar/accuracy/chain.h"
 #include "stormcellar/grid/mosaic.h"

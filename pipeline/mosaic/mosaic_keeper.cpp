@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "pipeline/keep/keep_rule.h"
 #include "pipeline/keep/site_grids.h"
 #include "pipeline/mosaic/open_partials.h"

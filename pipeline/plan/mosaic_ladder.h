@@ -1,5 +1,6 @@
 // pipeline/plan/mosaic_ladder.h -- what accuracy costs in time when volumes become one frame, rung
-// by rung: the steps of pipeline/mosaic/mosaic_effects.h that grid/plan/ladder.h does not have.
+// by rung: the steps of pipeline/mosaic/mosaic_effects.h that grid/plan/grid_ladder.h does not
+// have.
 //
 // For each of them a row a rung: its error with every other step exact, against the frame by the
 // exact chain, over all cells valued in both; its time as a frame from partials of the default

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "pipeline/plan/mosaic_plan.h"
 #include "stormcellar/grid/brick_grid.h"
 

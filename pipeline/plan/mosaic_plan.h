@@ -1,5 +1,5 @@
 // pipeline/plan/mosaic_plan.h -- the cheapest frame of several sites that holds a budget, and how
-// large each effect is in it: what grid/plan/effects.h does for one volume's grid.
+// large each effect is in it: what grid/plan/grid_effects.h does for one volume's grid.
 //
 // Sizes   gridding      the largest of all volumes', each predicted by itself (grid::predict()):
 //                       a frame's cell is a mean of its volumes' cells, or one of them

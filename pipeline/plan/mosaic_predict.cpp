@@ -5,14 +5,14 @@
 #include "accuracy/timing.h"
 #include "base/parallel.h"
 #include "grid/cells/compare_bricks.h"
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_scene.h"
 #include "pipeline/plan/mosaic_plan.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
 // Times of a site between two of its volumes, and of merging, in units of gridding one volume by
-// nearest gates (grid/plan/effects.cpp; docs/accuracy.md).
+// nearest gates (grid/plan/grid_effects.cpp; docs/accuracy.md).
 constexpr double blend_effort = 2.5;
 constexpr double motion_effort = 4.5;
 constexpr double sweep_times_effort = 3;

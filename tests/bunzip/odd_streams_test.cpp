@@ -4,7 +4,7 @@
 #include <random>
 
 #include "bunzip/bunzip.h"
-#include "bunzip/format.h"
+#include "bunzip/bzip2_format.h"
 #include "tests/bunzip/each_path.h"
 #include "tests/bunzip/stream_maker.h"
 

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 #include "tests/cli/scene_file_fixture.h"
 #include "tests/testing/data.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "tests/grid/volume_maker.h"
 
 namespace stormcellar::grid {

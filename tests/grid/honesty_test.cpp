@@ -12,7 +12,7 @@
 
 #include "grid/judge/oracle.h"
 #include "grid/plan/cell_circle.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/accuracy/planner.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"

@@ -1,11 +1,11 @@
 // Sampling a scene, and what the planner makes of it.
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_scene.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
 #include "tests/grid/volume_maker.h"

@@ -17,8 +17,8 @@
 #include "base/checksum.h"
 #include "stormcellar/base/file_system.h"
 #include "tests/hard_cases/container_mutants.h"
+#include "tests/hard_cases/hard_oracle.h"
 #include "tests/hard_cases/message_mutants.h"
-#include "tests/hard_cases/oracle.h"
 #include "tests/testing/data.h"
 #include "tests/testing/test_name.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/level2/decode.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"

@@ -1,6 +1,4 @@
 // Each effect by itself against its closed form.
-#include "synth/effects.h"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "synth/counter_random.h"
+#include "synth/synth_effects.h"
 
 namespace stormcellar::synth {
 namespace {

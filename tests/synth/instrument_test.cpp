@@ -8,8 +8,8 @@
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/encode.h"
-#include "synth/effects.h"
 #include "synth/observe.h"
+#include "synth/synth_effects.h"
 #include "tests/synth/degree.h"
 #include "tests/testing/data.h"
 

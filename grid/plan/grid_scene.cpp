@@ -1,4 +1,4 @@
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_scene.h"
 
 #include <algorithm>
 #include <cmath>

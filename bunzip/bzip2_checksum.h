@@ -1,5 +1,5 @@
-// bunzip/checksum.h -- the checksum of bzip2: CRC-32 with the polynomial 04C11DB7, the highest bit
-// first, begun with and at the end combined with FFFFFFFF.
+// bunzip/bzip2_checksum.h -- the checksum of bzip2: CRC-32 with the polynomial 04C11DB7, the
+// highest bit first, begun with and at the end combined with FFFFFFFF.
 //
 // Thread contract: pure.
 #pragma once

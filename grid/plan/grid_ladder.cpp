@@ -1,4 +1,4 @@
-#include "grid/plan/ladder.h"
+#include "grid/plan/grid_ladder.h"
 
 #include <algorithm>
 #include <cmath>

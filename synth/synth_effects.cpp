@@ -1,4 +1,4 @@
-#include "synth/effects.h"
+#include "synth/synth_effects.h"
 
 #include <algorithm>
 #include <cmath>

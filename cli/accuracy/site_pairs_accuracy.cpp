@@ -1,4 +1,4 @@
-#include "cli/accuracy/site_pairs.h"
+#include "cli/accuracy/site_pairs_accuracy.h"
 
 #include <algorithm>
 

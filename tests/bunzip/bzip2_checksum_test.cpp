@@ -1,4 +1,4 @@
-#include "bunzip/checksum.h"
+#include "bunzip/bzip2_checksum.h"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-// bunzip/format.h -- the numbers of the bzip2 format, and how a part of a stream can end.
+// bunzip/bzip2_format.h -- the numbers of the bzip2 format, and how a part of a stream can end.
 //
 // A stream: "BZh", a digit (blocks of so many times 100,000 bytes at most), blocks, an end. A
 // block: a mark (48 bits), a checksum (32), whether it is randomised (1), the origin (24), its

@@ -1,4 +1,4 @@
-#include "bunzip/checksum.h"
+#include "bunzip/bzip2_checksum.h"
 
 #include <array>
 #include <bit>
@@ -7,7 +7,7 @@
 #include "bunzip/targets-inl.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bunzip/checksum.cpp"
+#define HWY_TARGET_INCLUDE "bunzip/bzip2_checksum.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which compiles this file once for each target.
 #include <hwy/highway.h>

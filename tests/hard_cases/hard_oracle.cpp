@@ -1,4 +1,4 @@
-#include "tests/hard_cases/oracle.h"
+#include "tests/hard_cases/hard_oracle.h"
 
 #include <cstdlib>
 #include <stdexcept>

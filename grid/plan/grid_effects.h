@@ -1,4 +1,4 @@
-// grid/plan/effects.h -- the steps, rungs and effects of a grid, as the accuracy planner knows
+// grid/plan/grid_effects.h -- the steps, rungs and effects of a grid, as the accuracy planner knows
 // them.
 //
 //   step           rungs, from cheap to exact                           effects that reach them
@@ -13,13 +13,13 @@
 //   phase_folding
 // The chain's exact form is the last rung of every step; a budget bounds the difference from it on
 // the same gates. Which of two forms is nearer to the truth is another question: docs/accuracy.md.
-// Threads: pure functions, but for those that take a scene (grid/plan/scene.h).
+// Threads: pure functions, but for those that take a scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include <span>
 #include <string_view>
 
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_scene.h"
 #include "stormcellar/accuracy/budget.h"
 #include "stormcellar/accuracy/chain.h"
 #include "stormcellar/accuracy/plan.h"

@@ -1,4 +1,4 @@
-// tests/hard_cases/oracle.h -- decodes mutants and compares with the undamaged volume.
+// tests/hard_cases/hard_oracle.h -- decodes mutants and compares with the undamaged volume.
 //
 // Claims, for every mutant: radials come out as their fates say, in the order of the file, and no
 // others; sweeps begin only where a radial says so; what is lost is named by a problem that the

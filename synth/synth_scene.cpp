@@ -1,4 +1,4 @@
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// cli/accuracy/held_out.h -- `stormcellar accuracy` over time: what each way of making a grid for
-// an instant errs by, scored on volumes, or repeated cuts, that were held out
+// cli/accuracy/held_out_accuracy.h -- `stormcellar accuracy` over time: what each way of making a
+// grid for an instant errs by, scored on volumes, or repeated cuts, that were held out
 // (grid/judge/held_out_sequence.h).
 #pragma once
 
@@ -13,7 +13,7 @@
 #include "cli/grid/grid_request.h"
 #include "grid/judge/held_out_sequence.h"
 #include "stormcellar/base/result.h"
-#include "synth/scene.h"
+#include "synth/synth_scene.h"
 
 namespace stormcellar::cli {
 

@@ -1,5 +1,5 @@
-// cli/accuracy/site_pairs.h -- `stormcellar accuracy A B... --compare-sites`: what sites that
-// overlap say otherwise than each other (pipeline/mosaic/pair_comparison.h).
+// cli/accuracy/site_pairs_accuracy.h -- `stormcellar accuracy A B... --compare-sites`: what sites
+// that overlap say otherwise than each other (pipeline/mosaic/pair_comparison.h).
 #pragma once
 
 #include <string>

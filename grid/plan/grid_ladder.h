@@ -1,4 +1,4 @@
-// grid/plan/ladder.h -- what accuracy costs in time, rung by rung, on one scene.
+// grid/plan/grid_ladder.h -- what accuracy costs in time, rung by rung, on one scene.
 //
 // For each step a row a rung: its error with every other step exact, against the chain's exact
 // form, over sampled columns; its time as a whole grid with the other steps at their default, since
@@ -10,8 +10,8 @@
 
 #include <vector>
 
-#include "grid/plan/effects.h"
-#include "grid/plan/scene.h"
+#include "grid/plan/grid_effects.h"
+#include "grid/plan/grid_scene.h"
 #include "stormcellar/accuracy/ladder.h"
 #include "stormcellar/base/result.h"
 

@@ -1,4 +1,4 @@
-// synth/effects.h -- instrument effects one at a time: noise, folding, clutter, jitter, loss.
+// synth/synth_effects.h -- instrument effects one at a time: noise, folding, clutter, jitter, loss.
 //
 // Units    dBZ, dB, m/s, metres, degrees, seconds. Minus infinity dBZ is no echo.
 // Accuracy the formulas in double.

@@ -1,4 +1,4 @@
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/accuracy/held_out.h"
+#include "cli/accuracy/held_out_accuracy.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/grid/volume_source.h"
-#include "grid/plan/effects.h"
+#include "grid/plan/grid_effects.h"
 #include "stormcellar/grid/gridder.h"
 #include "synth/observe.h"
 

@@ -1,4 +1,4 @@
-// synth/scene.h -- what a simulated radar is to see: one site, its schedule and the weather.
+// synth/synth_scene.h -- what a simulated radar is to see: one site, its schedule and the weather.
 //
 // Read from TOML; docs/scenes.md has every key, with units and defaults. Errors are bad_argument
 // (or what reading the file gives) and name the file, the line and the key.

@@ -1,4 +1,4 @@
-// grid/plan/scene.h -- one volume over one grid spec, gridded in any way, whole or in sampled
+// grid/plan/grid_scene.h -- one volume over one grid spec, gridded in any way, whole or in sampled
 // columns: what the accuracy planner measures on.
 //
 // What several ways share (geometries, prepared sweeps) is made once and kept as long as the scene.
