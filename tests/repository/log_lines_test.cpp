@@ -26,7 +26,8 @@ std::string read(const fs::path& path) {
 
 std::map<std::string, std::string> daemon_sources() {
     std::map<std::string, std::string> sources;
-    for (const auto& entry : fs::directory_iterator(testing::source_directory() / "daemon")) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(testing::source_directory() / "daemon")) {
         const auto ending = entry.path().extension();
         if (ending == ".h" || ending == ".cpp")
             sources[entry.path().filename().string()] = read(entry.path());
@@ -56,7 +57,7 @@ std::vector<std::string> events() {
 }
 
 std::string chapter() {
-    const std::string manual = read(testing::source_directory() / "docs/operations.md");
+    const std::string manual = read(testing::source_directory() / "docs/reference/log.md");
     return between(manual, "\n## What the log lines mean", "\n## ");
 }
 
