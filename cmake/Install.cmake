@@ -11,7 +11,11 @@ install(FILES ${PROJECT_BINARY_DIR}/stormcellarConfig.cmake
   ${PROJECT_BINARY_DIR}/stormcellarConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
   DESTINATION ${STORMCELLAR_CMAKE_DIR} COMPONENT development)
-install(FILES README.md docs/operations.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Every document, so that each link from one to another leads somewhere
+# (tests/repository/documents_test.cpp).
+install(FILES README.md CONTRIBUTING.md GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES bunzip/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/bunzip)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The Debian package says it in its copyright file.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 # Scenes of pictures, for stormcellar frame and loop.

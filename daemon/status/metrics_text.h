@@ -1,5 +1,5 @@
-// daemon/status/metrics_text.h -- the status as Prometheus metrics; docs/operations.md explains
-// each.
+// daemon/status/metrics_text.h -- the status as Prometheus metrics; docs/reference/metrics.md
+// explains each.
 //
 // Names begin with stormcellar_ and end with their unit, counters with _total. Labels: station,
 // domain, loop, result, reason, state: bounded by the configuration, by our own words, or by what

@@ -22,7 +22,7 @@ struct Codec {
     std::array<std::pair<const char*, const char*>, 6> settings;  // unused ones are null
 };
 
-// In order of preference. Why these settings: docs/decisions.md.
+// In order of preference. Why these settings: docs/decisions/animation-formats.md.
 constexpr std::array codecs{
     Codec{VideoContainer::mp4,
           "libx264",

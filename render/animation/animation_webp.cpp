@@ -1,5 +1,6 @@
 // WebP through libwebp's animation encoder. Lossless: the colours are data, and lossy WebP halves
-// their resolution. Method 1 and effort 50 were measured to be the knee (docs/decisions.md).
+// their resolution. Method 1 and effort 50 were measured to be the knee
+// (docs/decisions/animation-formats.md).
 #include <climits>
 #include <cmath>
 #include <span>

@@ -22,7 +22,7 @@ namespace stormcellar::render {
 class CornerTable {
   public:
     // For grids of up to 2^24 cells with codes of one byte, each sampled 12 times or more if
-    // nothing were skipped (docs/decisions.md has what was measured).
+    // nothing were skipped (docs/decisions/slicer.md).
     [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
     // Takes over the codes of a grid that it serves; quicker for one of the same size as before.

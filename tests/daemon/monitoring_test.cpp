@@ -103,7 +103,7 @@ TEST(Monitoring, TheAlertsNameWhatIsExported) {
 }
 
 TEST(Monitoring, TheManualExplainsEveryMetricAndEveryAlert) {
-    const std::string manual = contents(testing::source_directory() / "docs/operations.md");
+    const std::string manual = contents(testing::source_directory() / "docs/reference/metrics.md");
     check_names(manual, "the manual");
     for (const auto& [name, family] : all_families())
         EXPECT_NE(manual.find("`" + name), std::string::npos) << name << " is not explained";

@@ -57,7 +57,7 @@ std::vector<std::string> events() {
 }
 
 std::string chapter() {
-    const std::string manual = read(testing::source_directory() / "docs/operations.md");
+    const std::string manual = read(testing::source_directory() / "docs/reference/log.md");
     return between(manual, "\n## What the log lines mean", "\n## ");
 }
 

@@ -28,7 +28,7 @@ std::vector<std::string> split(const std::string& line) {
 
 // Two lines each: feed, pattern; then, after a tab, the action.
 std::vector<Entry> entries() {
-    std::ifstream file(testing::source_directory() / "docs/operations.md");
+    std::ifstream file(testing::source_directory() / "docs/guides/ldm.md");
     std::vector<Entry> found;
     for (std::string line; std::getline(file, line);) {
         if (!line.starts_with("NEXRAD2\t")) continue;

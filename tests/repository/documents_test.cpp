@@ -1,0 +1,244 @@
+// Documents lead somewhere: links resolve, what they name is there, and what the installed tree
+// names is installed.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What cmake/Install.cmake installs as documents, in the same places below one directory.
+bool is_installed(const fs::path& path) {
+    static const std::set<fs::path> single = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
+                                              "bunzip/README.md"};
+    return *path.begin() == "docs" || single.contains(path);
+}
+
+// Every document, from the root of the source tree.
+std::vector<fs::path> documents() {
+    std::vector<fs::path> found = {"README.md", "CONTRIBUTING.md", "GLOSSARY.md",
+                                   "bunzip/README.md"};
+    const fs::path root = testing::source_directory();
+    for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
+        if (entry.path().extension() == ".md") found.push_back(fs::relative(entry.path(), root));
+    return found;
+}
+
+// A document without its blocks of code, which hold no links.
+std::string without_code(const std::string& text) {
+    std::string rest;
+    bool is_code = false;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_fence = line.starts_with("```");
+        if (!is_fence && !is_code) rest += line + "\n";
+        is_code = is_code != is_fence;
+    }
+    return rest;
+}
+
+std::vector<std::string> found_in(const std::string& text, const std::regex& what) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
+        found.push_back((*at)[1]);
+    return found;
+}
+
+struct Link {
+    fs::path file;  // from the root of the source tree
+    std::string heading;
+};
+
+// The links of a document within the repository.
+std::vector<Link> links_of(const fs::path& document) {
+    static const std::regex link(R"(\]\(([^)\s]+)\))");
+    std::vector<Link> links;
+    const std::string text = without_code(text_of(testing::source_directory() / document));
+    for (const std::string& target : found_in(text, link)) {
+        if (target.find("://") != std::string::npos) continue;
+        const std::size_t hash = target.find('#');
+        const std::string file = target.substr(0, hash);
+        links.push_back(
+            {file.empty() ? document : (document.parent_path() / file).lexically_normal(),
+             hash == std::string::npos ? "" : target.substr(hash + 1)});
+    }
+    return links;
+}
+
+// As pages of Markdown name their headings: lower case, blanks as "-", without other signs.
+std::set<std::string> headings_of(const fs::path& document) {
+    static const std::regex heading(R"(\n#+ ([^\n]*))");
+    std::set<std::string> names;
+    const std::string text = "\n" + without_code(text_of(testing::source_directory() / document));
+    for (const std::string& title : found_in(text, heading)) {
+        std::string name;
+        for (const char letter : title) {
+            const auto sign = static_cast<unsigned char>(letter);
+            if (std::isalnum(sign) != 0 || letter == '-' || letter == '_')
+                name += static_cast<char>(std::tolower(sign));
+            if (letter == ' ') name += '-';
+        }
+        names.insert(name);
+    }
+    return names;
+}
+
+TEST(Documents, EveryLinkLeadsSomewhere) {
+    std::size_t checked = 0;
+    for (const fs::path& document : documents()) {
+        for (const Link& link : links_of(document)) {
+            ++checked;
+            ASSERT_TRUE(fs::exists(testing::source_directory() / link.file))
+                << document << " links to " << link.file;
+            if (link.heading.empty() || link.file.extension() != ".md") continue;
+            EXPECT_TRUE(headings_of(link.file).contains(link.heading))
+                << document << " links to " << link.file << "#" << link.heading;
+        }
+    }
+    EXPECT_GT(checked, 100U);
+}
+
+// Beside the program the documents lie as they do here, and nothing else does.
+TEST(Documents, WhatTheInstalledOnesLinkToIsInstalled) {
+    for (const fs::path& document : documents()) {
+        ASSERT_TRUE(is_installed(document)) << document;
+        for (const Link& link : links_of(document))
+            EXPECT_TRUE(is_installed(link.file)) << document << " links to " << link.file;
+    }
+    const std::string rules = text_of(testing::source_directory() / "cmake/Install.cmake");
+    EXPECT_NE(rules.find("install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})"),
+              std::string::npos);
+    for (const char* file : {"README.md", "CONTRIBUTING.md", "GLOSSARY.md", "bunzip/README.md"})
+        EXPECT_NE(rules.find(file), std::string::npos) << file << " is not installed";
+}
+
+// The manual pages, the units and the configuration name documents by where they are installed.
+TEST(Documents, WhatManualPagesUnitsAndConfigurationNameIsThere) {
+    static const std::regex installed(R"(@STORMCELLAR_DOCDIR@/([A-Za-z0-9_/-]+\.md))");
+    static const std::regex named(R"(\b(docs/[A-Za-z0-9_/-]+\.md))");
+    std::size_t checked = 0;
+    for (const char* file :
+         {"packaging/man/stormcellar.1.in", "packaging/man/stormcellard.8.in",
+          "packaging/man/stormcellard.toml.5.in", "systemd/stormcellard.service.in",
+          "systemd/stormcellar-loops.service.in", "daemon/stormcellard.toml",
+          "daemon/monitoring/stormcellar-alerts.yml"}) {
+        const std::string text = text_of(testing::source_directory() / file);
+        for (const std::regex* what : {&installed, &named}) {
+            for (const std::string& document : found_in(text, *what)) {
+                ++checked;
+                EXPECT_TRUE(is_installed(document)) << file << " names " << document;
+                EXPECT_TRUE(fs::exists(testing::source_directory() / document))
+                    << file << " names " << document;
+            }
+        }
+    }
+    EXPECT_GT(checked, 5U);
+}
+
+// The sources of the tree, without what is built.
+std::vector<fs::path> sources() {
+    static const std::set<std::string> kinds = {".h",   ".cpp",  ".md", ".cmake", ".in",
+                                                ".txt", ".toml", ".py", ".yml",   ".awk"};
+    const fs::path root = testing::source_directory();
+    std::vector<fs::path> found;
+    for (const auto& top : fs::directory_iterator(root)) {
+        const std::string name = top.path().filename();
+        if (name.starts_with(".") || name.starts_with("build") || name == "out") continue;
+        if (!top.is_directory()) {
+            found.push_back(top.path());
+            continue;
+        }
+        for (const auto& entry : fs::recursive_directory_iterator(top.path()))
+            if (entry.is_regular_file() && (kinds.contains(entry.path().extension()) ||
+                                            *fs::relative(entry.path(), root).begin() == "scripts"))
+                found.push_back(entry.path());
+    }
+    return found;
+}
+
+// The documents that a text names by their place in the tree; not those of another tree or folder.
+std::vector<std::string> documents_named_in(const std::string& text) {
+    const std::string folder = "docs/";
+    const auto belongs = [](char sign) {
+        return std::isalnum(static_cast<unsigned char>(sign)) != 0 || sign == '_' || sign == '/' ||
+               sign == '-' || sign == '.';
+    };
+    std::vector<std::string> found;
+    for (std::size_t at = text.find(folder); at != std::string::npos;
+         at = text.find(folder, at + 1)) {
+        if (at > 0 && belongs(text[at - 1])) continue;
+        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at);
+        const std::string path(begin, std::find_if_not(begin, text.end(), belongs));
+        const std::size_t ending = path.find(".md");
+        if (ending != std::string::npos) found.push_back(path.substr(0, ending + 3));
+    }
+    return found;
+}
+
+// In comments and documents alike.
+TEST(Documents, NobodyRefersToADocumentThatIsNotThere) {
+    const fs::path root = testing::source_directory();
+    std::size_t checked = 0;
+    for (const fs::path& source : sources()) {
+        for (const std::string& document : documents_named_in(text_of(source))) {
+            ++checked;
+            EXPECT_TRUE(fs::exists(root / document)) << source << " names " << document;
+        }
+    }
+    EXPECT_GT(checked, 100U);
+}
+
+// docs/find-it.md: the last column of each row is a path, and there are thirty rows at least.
+TEST(Documents, FindItNamesFilesThatAreThere) {
+    static const std::regex row(R"(\n\|[^\n]*\| `([^`\n]+)` \|(?=\n))");
+    static const std::regex question(R"(\n(\| [A-Z][^\n|]*\? )\|)");
+    const fs::path root = testing::source_directory();
+    const std::string page = text_of(root / "docs/find-it.md");
+    const std::vector<std::string> files = found_in(page, row);
+    EXPECT_GE(files.size(), 30U);
+    EXPECT_EQ(files.size(), found_in(page, question).size()) << "a question without a file";
+    for (const std::string& file : files)
+        EXPECT_TRUE(fs::is_regular_file(root / file)) << file;
+    // So are all others that it names, and folders.
+    static const std::regex path(R"(`([a-z_0-9]+/[A-Za-z0-9_./-]*)`)");
+    for (const std::string& named : found_in(page, path))
+        EXPECT_TRUE(fs::exists(root / named)) << named;
+}
+
+// Paths of sources that documents name, from the root: `grid/beam/sounding.h`. Tables of results
+// are of their day.
+TEST(Documents, SourcesThatTheyNameAreThere) {
+    static const std::regex path(R"(`((?:[a-z_0-9]+/)+[a-z_0-9-]+\.(?:h|cpp|toml|yml|cmake))`)");
+    const fs::path root = testing::source_directory();
+    std::size_t checked = 0;
+    for (const fs::path& document : documents()) {
+        if (document.parent_path() == "docs/results") continue;
+        for (const std::string& named : found_in(text_of(root / document), path)) {
+            ++checked;
+            EXPECT_TRUE(fs::exists(root / named) || fs::exists(root / "include" / named))
+                << document << " names " << named;
+        }
+    }
+    EXPECT_GT(checked, 100U);
+}
+
+}  // namespace
+}  // namespace stormcellar
