@@ -26,10 +26,10 @@ BeamMixture beam_over(const PolarSweep& sweep, const Method& method, float azimu
                       ArcPlace place) {
     const int position =
         method.radial_elevations ? sweep.radial_at(azimuth_deg) : AzimuthTable::none;
-    const PolarSweep::BeamHeights heights = sweep.heights_at(position, place);
-    const PolarSweep::BeamHeights seen = sweep.without_lost_edges(place, heights);
+    const BeamHeights heights = sweep.heights_at(position, place);
+    const BeamHeights seen = sweep.beam().without_lost_edges(place, heights);
     BeamMixture beam;
-    beam.rise_m_per_deg = sweep.rise_m_per_deg(heights);
+    beam.rise_m_per_deg = sweep.beam().rise_m_per_deg(heights);
     beam.height_m = seen.center_m;
     beam.lower_edge_m = seen.lower_m;
     beam.upper_edge_m = seen.upper_m;

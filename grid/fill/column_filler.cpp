@@ -133,7 +133,7 @@ void fill_grid(const SweepStack& stack, const ColumnGeometry& geometry, std::spa
         stack,
         geometry,
         method,
-        stack.sweeps.front().blending(),
+        stack.sweeps.front().gates().blending(),
         LevelTable(std::move(levels_m)),
         std::move(heights_m),
         reach_of(stack, method),

@@ -113,7 +113,7 @@ class DetailColumns {
           facts_(facts),
           grid_(grid),
           mixed_(method_.interpolation, work.stack.beam_width_deg,
-                 work.stack.sweeps[0].blending()) {
+                 work.stack.sweeps[0].gates().blending()) {
         for (const double level_m : grid.spec.levels_m)
             levels_m_.push_back(static_cast<float>(level_m));
         heights_m_ = heights_of_levels(levels_m_, method_.cell);
@@ -179,17 +179,18 @@ class DetailColumns {
                                                     const ColumnPlace& column,
                                                     ArcPlace place) const {
         const PolarSweep& sweep = work_.stack.sweeps[at];
-        const auto* const kind = sweep.moment_of(position);
+        const auto* const kind = sweep.gates().moment_of(position);
         for (const auto& [moment, places] : facts_[at].places) {
             if (moment != kind) continue;
-            const auto gate =
-                static_cast<std::int32_t>(sweep.gate_place(position, place).number_and_half);
+            const auto gate = static_cast<std::int32_t>(
+                sweep.gates().gate_place(position, place).number_and_half);
             const float offset_deg =
-                method_.radial_elevations ? sweep.elevation_offset_deg(position) : 0;
+                method_.radial_elevations ? sweep.gates().elevation_offset_deg(position) : 0;
             const auto center = places.at(gate, static_cast<double>(offset_deg));
             if (!center) return std::nullopt;
             const level2::Sweep& radials = work_.volume.sweeps[work_.chosen[at].sweep_index];
-            const float azimuth_deg = radials.radials[sweep.radial_index(position)].azimuth_deg;
+            const float azimuth_deg =
+                radials.radials[sweep.gates().radial_index(position)].azimuth_deg;
             const double turn = static_cast<double>(azimuth_deg - column.azimuth_deg) * degree;
             const auto arc_m = static_cast<double>(column.arc_m);
             // The across distance follows from the law of cosines, in a form in which nothing

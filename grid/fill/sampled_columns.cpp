@@ -17,17 +17,17 @@ void SampledColumns<radial_elevations, nearest, circular>::look_at(
         const TileColumn& column = columns[at];
         const int position =
             sampled || radial_elevations ? sweep.radial_at(column.azimuth_deg) : AzimuthTable::none;
-        const PolarSweep::BeamAtArc over = sweep.beam_at(column.place);
-        PolarSweep::BeamHeights heights = over.heights;
+        const BeamAtArc over = sweep.beam().at(column.place);
+        BeamHeights heights = over.heights;
         if (radial_elevations && position != AzimuthTable::none)
-            heights = sweep.offset(heights, sweep.elevation_offset_deg(position));
+            heights = sweep.beam().offset(heights, sweep.gates().elevation_offset_deg(position));
         open_[still_open] = at;
         // All higher sweeps pass even higher here, unless the stack is out of order; so the column
         // is finished.
         const bool above_top = heights.center_m > top_m && heights.center_m < highest_beam_m;
         still_open += above_top && work_.stack.in_order ? 0 : 1;
         if (!(heights.center_m < highest_beam_m)) continue;
-        heights = sweep.without_lost_edges(column.place, heights);
+        heights = sweep.beam().without_lost_edges(column.place, heights);
         BeamSample& beam = beams_[at * most_beams_ + beam_counts_[at]++];
         beam.sample =
             sampled ? sweep.sample(position, column.place, over) : Sample{planned.status, 0, 0, 0};

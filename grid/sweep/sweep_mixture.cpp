@@ -34,7 +34,7 @@ void narrow(float at_zero, float slope, float& from, float& to) {
 
 Mixture nearest_gate(const PolarSweep& sweep, float azimuth_deg, ArcPlace place) {
     Mixture mixture;
-    mixture.add(sweep.sample(azimuth_deg, place), 1, sweep.blending());
+    mixture.add(sweep.sample(azimuth_deg, place), 1, sweep.gates().blending());
     return mixture;
 }
 
@@ -42,9 +42,9 @@ Mixture four_gates(const PolarSweep& sweep, float azimuth_deg, ArcPlace place) {
     const AzimuthTable::Bracket radials = sweep.azimuths().bracket(azimuth_deg);
     if (radials.nearest == AzimuthTable::none) return unseen();
     Mixture mixture;
-    sweep.add_along_radial(radials.nearest, place, 1 - radials.other_weight, mixture);
+    sweep.gates().add_along_radial(radials.nearest, place, 1 - radials.other_weight, mixture);
     if (radials.other != AzimuthTable::none) {
-        sweep.add_along_radial(radials.other, place, radials.other_weight, mixture);
+        sweep.gates().add_along_radial(radials.other, place, radials.other_weight, mixture);
     }
     return mixture;
 }
@@ -74,11 +74,12 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
     // All radials may lie where the pattern is 0; then the first, which is the nearest, counts
     // alone.
     if (!(total > 0)) {
-        sweep.add_along_radial(radials[0].position, place, 1, mixture);
+        sweep.gates().add_along_radial(radials[0].position, place, 1, mixture);
         return mixture;
     }
     for (std::size_t i = 0; i < count; ++i)
-        sweep.add_along_radial(radials[i].position, place, radials[i].weight / total, mixture);
+        sweep.gates().add_along_radial(radials[i].position, place, radials[i].weight / total,
+                                       mixture);
     return mixture;
 }
 
@@ -88,7 +89,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
     const float reach_deg = footprint.arc_m > footprint.radius_m
                                 ? std::asin(footprint.radius_m / footprint.arc_m) / degree
                                 : 180;
-    const Blending blending = sweep.blending();
+    const Blending blending = sweep.gates().blending();
     Mixture gates;
     Mixture beyond;
     // The values of a moment that wraps are taken as differences from the gate at the center.
@@ -96,10 +97,10 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         const Sample center = sweep.sample(footprint.azimuth_deg, place);
         if (center.status == CellStatus::value) gates.refer_to(center);
     }
-    const float gates_a_m_of_arc = sweep.gates_per_m_of_arc(place);
+    const float gates_a_m_of_arc = sweep.gates().gates_per_m_of_arc(place);
     if (!(gates_a_m_of_arc > 0)) return gates;
     sweep.azimuths().visit_all(footprint.azimuth_deg, reach_deg, [&](int position, float turn_deg) {
-        const PolarSweep::GatePlace at = sweep.gate_place(position, place);
+        const SweepGates::GatePlace at = sweep.gates().gate_place(position, place);
         if (at.end == 0) return;
         const float sine = std::sin(turn_deg * degree);
         const float cosine = std::cos(turn_deg * degree);
@@ -119,7 +120,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         const float high = center + (to_m - footprint.arc_m) * gates_a_m_of_arc;
         const auto first = std::max(at.first, static_cast<std::int32_t>(std::ceil(low)));
         const auto last = static_cast<std::int32_t>(std::floor(high));
-        sweep.add_gates(position, first, last < at.end ? last + 1 : at.end, gates);
+        sweep.gates().add_gates(position, first, last < at.end ? last + 1 : at.end, gates);
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });

@@ -33,9 +33,9 @@ bool are_beams_in_order(const SweepStack& stack) {
         float below_m = 0, below_deg = 0, below_rise = 0;
         bool has_below = false;
         for (std::size_t at = 0; at < stack.sweeps.size(); ++at) {
-            const PolarSweep::BeamHeights heights = stack.sweeps[at].heights({i, 0});
+            const BeamHeights heights = stack.sweeps[at].beam().heights({i, 0});
             if (!(heights.center_m < highest_beam_m)) continue;
-            const float rise = stack.sweeps[at].rise_m_per_deg(heights);
+            const float rise = stack.sweeps[at].beam().rise_m_per_deg(heights);
             const float apart_m = heights.center_m - below_m;
             const float apart_deg = stack.elevations_deg[at] - below_deg;
             const float least_m = std::max(rise, below_rise) * apart_deg / even;

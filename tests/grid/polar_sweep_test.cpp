@@ -75,12 +75,12 @@ void expect_tables_of(const BeamModel& other, double elevation_deg, double ceili
         if (exact.height_m > ceiling_m) continue;
         ++compared;
         const ArcPlace place = place_at(arc_m);
-        const PolarSweep::BeamHeights heights = sweep.heights(place);
+        const BeamHeights heights = sweep.beam().heights(place);
         ASSERT_NEAR(heights.center_m, exact.height_m, 0.15) << elevation_deg << ' ' << arc_m;
         ASSERT_NEAR(heights.lower_m, lower.over(arc_m).height_m, 0.15) << elevation_deg;
         ASSERT_NEAR(heights.upper_m, upper.over(arc_m).height_m, 0.15) << elevation_deg;
         const double range_m =
-            250 * (static_cast<double>(sweep.gate_place(0, place).number_and_half) - 0.5);
+            250 * (static_cast<double>(sweep.gates().gate_place(0, place).number_and_half) - 0.5);
         ASSERT_NEAR(range_m, exact.range_m, 0.15) << elevation_deg << ' ' << arc_m;
     }
     EXPECT_GT(compared, 50) << elevation_deg;
@@ -116,7 +116,8 @@ TEST(PolarSweep, ARadialsOwnElevationIsWithin25CentimetresOfTheModel) {
                 const double arc_m = arc(random);
                 const double offset_deg = 0.475 * (static_cast<double>(i % 201) / 100 - 1);
                 const double own_deg = prepared.chosen[0].elevation_deg + offset_deg;
-                const auto heights = sweep.heights(place_at(arc_m), static_cast<float>(offset_deg));
+                const auto heights =
+                    sweep.beam().heights(place_at(arc_m), static_cast<float>(offset_deg));
                 ASSERT_NEAR(heights.center_m, exact.over(arc_m, own_deg).height_m, 0.25) << arc_m;
                 ASSERT_NEAR(heights.lower_m, exact.over(arc_m, own_deg - 0.475).height_m, 1);
                 ASSERT_NEAR(heights.upper_m, exact.over(arc_m, own_deg + 0.475).height_m, 1);
@@ -162,28 +163,28 @@ TEST(PolarSweep, StretchesOfGatesAreTheirGates) {
         PolarSweepOptions with = options(plan.moment);
         with.cell = cell;
         const PolarSweep sweep(prepared.volume.sweeps[0], prepared.chosen[0], model, with);
-        const std::int32_t gates = sweep.gate_place(0, place_at(0)).end;
+        const std::int32_t gates = sweep.gates().gate_place(0, place_at(0)).end;
         for (int i = 0; i < 2000; ++i) {
-            const int position = static_cast<int>(random() % sweep.radial_count());
+            const int position = static_cast<int>(random() % sweep.gates().radial_count());
             const auto first = static_cast<std::int32_t>(random() % static_cast<unsigned>(gates));
             const auto end = first + static_cast<std::int32_t>(
                                          random() % static_cast<unsigned>(gates - first + 1));
             Mixture together, one_by_one;
-            sweep.add_gates(position, first, end, together);
+            sweep.gates().add_gates(position, first, end, together);
             for (std::int32_t gate = first; gate < end; ++gate)
-                one_by_one.add(sweep.gate(position, gate), 1, sweep.blending());
+                one_by_one.add(sweep.gates().gate(position, gate), 1, sweep.gates().blending());
             EXPECT_EQ(together.weight(), one_by_one.weight());
             EXPECT_EQ(together.is_all_quiet(), one_by_one.is_all_quiet());
-            const CellResult a = together.result(sweep.blending());
-            const CellResult b = one_by_one.result(sweep.blending());
+            const CellResult a = together.result(sweep.gates().blending());
+            const CellResult b = one_by_one.result(sweep.gates().blending());
             EXPECT_EQ(a.status, b.status);
             if (b.status == CellStatus::value) {
                 EXPECT_NEAR(a.value, b.value, 2e-3);
             }
         }
         Mixture nothing;
-        sweep.add_gates(0, gates, gates, nothing);
-        sweep.add_gates(0, 2'000'000'000, gates, nothing);
+        sweep.gates().add_gates(0, gates, gates, nothing);
+        sweep.gates().add_gates(0, 2'000'000'000, gates, nothing);
         EXPECT_EQ(nothing.weight(), 0);
     }
 }
@@ -306,7 +307,7 @@ TEST(PolarSweep, ABeamThatLostAnEdgeRisesAsTheHalfThatIsThere) {
         for (double node_m = 500; node_m < 400e3; node_m += 500) {
             const double arc_m = node_m + 170;
             const auto [range_m, height_m] = center.over(arc_m);
-            const auto heights = sweep.heights(place_at(arc_m));
+            const auto heights = sweep.beam().heights(place_at(arc_m));
             if (std::isnan(center.over(node_m + 500).height_m)) {
                 EXPECT_GT(heights.center_m, highest_beam_m) << elevation_deg << ' ' << arc_m;
                 ++gone;
@@ -322,8 +323,9 @@ TEST(PolarSweep, ABeamThatLostAnEdgeRisesAsTheHalfThatIsThere) {
             if (edges.lower != edges.upper) rise = edges.lower ? down : up;
             ++(edges.lower ? (edges.upper ? both : lower_alone)
                            : (edges.upper ? upper_alone : neither));
-            ASSERT_NEAR(sweep.rise_m_per_deg(heights), rise, 1) << elevation_deg << ' ' << arc_m;
-            const auto seen = sweep.without_lost_edges(place_at(arc_m), heights);
+            ASSERT_NEAR(sweep.beam().rise_m_per_deg(heights), rise, 1)
+                << elevation_deg << ' ' << arc_m;
+            const auto seen = sweep.beam().without_lost_edges(place_at(arc_m), heights);
             EXPECT_EQ(seen.center_m, heights.center_m);
             EXPECT_EQ(seen.lower_m, edges.lower ? heights.lower_m : heights.center_m);
             EXPECT_EQ(seen.upper_m, edges.upper ? heights.upper_m : heights.center_m);

@@ -57,8 +57,8 @@ double worst_off_plane_m(double elevation_deg, double farthest_m, double latitud
     double worst_m = 0;
     for (double arc_m = corner_m; arc_m + corner_m < farthest_m; arc_m += 730) {
         const ArcPlace place = ArcTable::place_of(static_cast<float>(arc_m));
-        const double center = static_cast<double>(sweep.gate_place(0, place).number_and_half) - 0.5;
-        const auto gates_a_m = static_cast<double>(sweep.gates_per_m_of_arc(place));
+        const double center = static_cast<double>(sweep.gates().gate_place(0, place).number_and_half) - 0.5;
+        const auto gates_a_m = static_cast<double>(sweep.gates().gates_per_m_of_arc(place));
         for (const double off_m : {-corner_m, -5e3, 5e3, corner_m}) {
             const double planar_m = 1000 * (center + off_m * gates_a_m);
             const double exact_m = beam.over(arc_m + off_m, chosen[0].elevation_deg).range_m;

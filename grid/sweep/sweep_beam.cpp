@@ -1,0 +1,67 @@
+#include "grid/sweep/sweep_beam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace stormcellar::grid {
+namespace {
+
+// This stands for a beam that never passes over an arc: it is above everything, so far that the
+// line from the arc before does not pass any height that could be meant.
+constexpr float above_everything_m = 1e30F;
+
+constexpr double degree = std::numbers::pi / 180;
+
+// An edge is lost if it is on the wrong side of the beam's center. NaN: it never passes over the
+// arc.
+bool is_lost_lower(double edge_m, double center_m) {
+    return std::isnan(edge_m) || edge_m > center_m;
+}
+bool is_lost_upper(double edge_m, double center_m) {
+    return std::isnan(edge_m) || edge_m < center_m;
+}
+
+}  // namespace
+
+// Fills the table of the beam: for each step along the arc the heights of its center and of its
+// edges. Only this loop asks the beam model; sampling interpolates in the table.
+SweepBeam::SweepBeam(const BeamModel& beam, double elevation_deg, double half_beam_deg,
+                     std::size_t table_size, const ArcTable* gates)
+    : halves_per_deg_(static_cast<float>(1 / half_beam_deg)) {
+    const BeamPath center = beam.path(elevation_deg);
+    const BeamPath lower = beam.path(elevation_deg - half_beam_deg);
+    const BeamPath upper = beam.path(elevation_deg + half_beam_deg);
+    table_.reserve(table_size);
+    lost_edges_.assign(table_size, 0);
+    for (std::size_t i = 0; i < table_size; ++i) {
+        const double arc_m = ArcTable::step_m * static_cast<double>(i);
+        const float gate_and_half = gates == nullptr ? 0.0F : (*gates)[i];
+        const auto [range_m, height_m] = center.over(arc_m);
+        if (std::isnan(height_m)) {
+            table_.push_back(
+                {above_everything_m, above_everything_m, above_everything_m, gate_and_half});
+            continue;
+        }
+        double lower_m = lower.over(arc_m).height_m;
+        double upper_m = upper.over(arc_m).height_m;
+        const bool no_lower = is_lost_lower(lower_m, height_m);
+        const bool no_upper = is_lost_upper(upper_m, height_m);
+        // A missing edge is mirrored from the other edge. If both are missing, half the beam width
+        // at this range stands for each.
+        if (no_upper) {
+            const double free_m = range_m * half_beam_deg * degree;
+            upper_m = height_m + (no_lower ? free_m : height_m - lower_m);
+        }
+        if (no_lower) lower_m = height_m - (upper_m - height_m);
+        lost_edges_[i] =
+            static_cast<std::uint8_t>((no_lower ? lost_lower : 0) | (no_upper ? lost_upper : 0));
+        table_.push_back({static_cast<float>(height_m), static_cast<float>(lower_m),
+                          static_cast<float>(upper_m), gate_and_half});
+    }
+    const bool none = std::all_of(lost_edges_.begin(), lost_edges_.end(),
+                                  [](std::uint8_t lost) { return lost == 0; });
+    if (none) lost_edges_.clear();
+}
+
+}  // namespace stormcellar::grid
