@@ -35,7 +35,7 @@ inline constexpr std::string_view database_ending = ".sqlite";
 [[nodiscard]] Result<std::vector<std::string>> database_names(
     const std::filesystem::path& directory);
 
-struct Catalog::Impl {
+struct CatalogReader::Impl {
     Impl(std::filesystem::path its_directory, CatalogOptions its_options, bool is_writing)
         : directory(std::move(its_directory)),
           options(std::move(its_options)),

@@ -41,7 +41,7 @@ struct Plan {
 };
 
 // Stations of which nobody says where they stand are left out.
-std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
+std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                          const std::vector<std::string>& stations,
                                          std::vector<pipeline::LeftOut>& left_out) {
     std::vector<grid::SitePosition> sites;
@@ -65,7 +65,7 @@ std::string mosaic_name(const ArchiveCall& call, const std::vector<std::string>&
     return fmt::format("{}{}", fmt::join(stations, "-"), stations.size() == 1 ? "-alone" : "");
 }
 
-Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
+Result<Domain> mosaic_of(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                          std::vector<pipeline::LeftOut>& left_out) {
     const ArchiveRequest& request = call.request;
     Domain domain;
@@ -135,7 +135,7 @@ Result<fs::path> private_cache(const ArchiveCall& call, const Plan& plan) {
            fmt::format("{}-{}-{:016x}", name, level2::moment_name(call.moment), hash);
 }
 
-Result<Plan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
+Result<Plan> plan_of(const ArchiveCall& call, const catalog::CatalogReader& catalog) {
     Plan plan;
     plan.stations = call.request.stations;
     plan.fill.moment = call.moment;
@@ -192,7 +192,7 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
 }
 
 // A station that was named and is not there is a slip: `nothing` says so.
-Status check_stations(const ArchiveCall& call, const catalog::Catalog& catalog,
+Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();
     if (!known) return pass_on(known);
@@ -324,7 +324,7 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
 }
 
 // The grids at these times, as far as they stand.
-Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
+Result<std::vector<cache::StoreEntry>> entries_at(const cache::StoreReader& store,
                                                   const std::string& domain, level2::Moment moment,
                                                   const std::set<UtcTime>& times) {
     if (times.empty()) return std::vector<cache::StoreEntry>{};
@@ -336,14 +336,14 @@ Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
 }
 
 // A process that was just killed may hold the lock a moment longer.
-Result<cache::Store> open_cache(const fs::path& directory) {
-    auto store = cache::Store::open_rolling(real_file_system(), directory, {});
+Result<cache::RollingStore> open_cache(const fs::path& directory) {
+    auto store = cache::RollingStore::open(real_file_system(), directory, {});
     for (int tries = 1; tries < 20 && !store; ++tries) {
-        if (store.error().code != ErrorCode::bad_argument) break;
+        if (store.error().code != ErrorCode::busy) break;
         std::this_thread::sleep_for(glance);
-        store = cache::Store::open_rolling(real_file_system(), directory, {});
+        store = cache::RollingStore::open(real_file_system(), directory, {});
     }
-    if (!store && store.error().code == ErrorCode::bad_argument) {
+    if (!store && store.error().code == ErrorCode::busy) {
         return fail(ErrorCode::io, "{} (another loop of the same grids, or a daemon)",
                     store.error().message);
     }
@@ -354,7 +354,7 @@ Result<cache::Store> open_cache(const fs::path& directory) {
 
 Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, Interrupt& interrupt,
                                                       std::string& nothing) {
-    auto catalog = catalog::Catalog::open_for_reading(call.catalog);
+    auto catalog = catalog::CatalogReader::open(call.catalog);
     if (!catalog) return pass_on(catalog);
     if (auto known = check_stations(call, *catalog, nothing); !known) return pass_on(known);
     if (!nothing.empty()) return std::optional<ArchiveGrids>{};
@@ -413,13 +413,13 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
 }
 
 Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
-    const auto usage = grids.store->usage();
-    if (usage) grids.bytes = usage->bytes;
+    const cache::StoreUsage usage = grids.store->usage();
+    grids.bytes = usage.bytes;
     if (call.keep) {
-        if (!call.quiet && usage) {
+        if (!call.quiet) {
             fmt::print(stderr, "the grids stay in {} ({} in {} files)\n",
-                       printable(grids.directory.native()), format_byte_size(usage->bytes),
-                       usage->grids);
+                       printable(grids.directory.native()), format_byte_size(usage.bytes),
+                       usage.grids);
         }
         return {};
     }

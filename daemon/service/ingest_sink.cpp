@@ -17,7 +17,7 @@ bool is_known_group(std::string_view group, const StationRule& stations) {
 
 }  // namespace
 
-IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
+IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store, const Config& config,
                        std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors)
     : drop_(config.drop),
       stations_(std::move(stations)),
@@ -51,13 +51,13 @@ Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
     options.most_open = descriptors.databases;
     options.drop = config.drop;
     options.most_bytes = config.catalog_bytes.value_or(catalog::CatalogOptions::no_limit);
-    auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog", options);
+    auto catalog = catalog::CatalogWriter::open(config.state / "catalog", options);
     if (!catalog) return pass_on(catalog);
     cache::Surroundings surroundings;
     surroundings.is_known = [stations](std::string_view group) {
         return is_known_group(group, *stations);
     };
-    auto store = cache::Store::open_rolling(real_file_system(), config.cache, config.budgets,
+    auto store = cache::RollingStore::open(real_file_system(), config.cache, config.budgets,
                                             std::move(surroundings));
     if (!store) return pass_on(store);
     store->pack_with(config.packing);

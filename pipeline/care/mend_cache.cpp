@@ -52,7 +52,7 @@ std::string joined(const std::vector<std::string>& texts) {
 }
 
 // Whether the catalog knows the file as it stands there now. Its modification time; none if not.
-std::optional<std::int64_t> settled_as_it_is(catalog::Catalog& catalog, const fs::path& path) {
+std::optional<std::int64_t> settled_as_it_is(const catalog::CatalogReader& catalog, const fs::path& path) {
     const auto stamp = stamp_of(path);
     if (!stamp || !stamp->regular) return std::nullopt;
     const auto settled = catalog.is_settled(path, stamp->size_bytes, stamp->modified_ns);
@@ -66,7 +66,7 @@ bool may_have_a_grid(const CatalogEntry& entry) {
 }
 
 // The file whose grid is the one to stand, as pipeline/ingest/ingest.h has it.
-std::optional<fs::path> best_of(catalog::Catalog& catalog,
+std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
     using Rank = std::tuple<bool, std::int64_t>;
     std::optional<std::pair<Rank, fs::path>> best;
@@ -83,7 +83,7 @@ std::optional<fs::path> best_of(catalog::Catalog& catalog,
 
 }  // namespace
 
-CacheMender::CacheMender(catalog::Catalog& catalog, const cache::Store& store, Ingestor& ingestor,
+CacheMender::CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store, Ingestor& ingestor,
                          level2::Moment moment)
     : catalog_(catalog), store_(store), ingestor_(ingestor), moment_(moment) {}
 

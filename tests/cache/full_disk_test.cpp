@@ -17,8 +17,8 @@ using testing::noon;
 
 class FullDiskTest : public ::testing::Test {
   protected:
-    Store open(const Budgets& budgets) { return *Store::open_rolling(disk_, cache_, budgets); }
-    auto commit(const Store& store, int minute) {
+    RollingStore open(const Budgets& budgets) { return *RollingStore::open(disk_, cache_, budgets); }
+    auto commit(StoreWriter& store, int minute) {
         return testing::commit_sized(store, "A", noon + minutes{minute});
     }
     testing::TemporaryDirectory directory_;
@@ -29,7 +29,7 @@ class FullDiskTest : public ::testing::Test {
 
 TEST_F(FullDiskTest, TheOldestMakeRoomWhereABudgetLimitsSpace) {
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 8; ++minute)
         ASSERT_TRUE(commit(store, minute));
     disk_.set_capacity(testing::allocated_bytes(cache_) + 4096);
@@ -45,7 +45,7 @@ TEST_F(FullDiskTest, TheOldestMakeRoomWhereABudgetLimitsSpace) {
 
 TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
     budgets_.total.age = std::chrono::hours{1000};
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 4; ++minute)
         ASSERT_TRUE(commit(store, minute));
     const std::uint64_t before = testing::allocated_bytes(cache_);
@@ -62,7 +62,7 @@ TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
 
 TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
     budgets_.total.file_system_percent = 90;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     ASSERT_TRUE(commit(store, 0));
     disk_.set_capacity(testing::allocated_bytes(cache_) + 4096);
     const auto refused = commit(store, 1);
@@ -75,7 +75,7 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
 // stations that nobody knows while those that are known would find room.
 TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 8; ++minute)
         ASSERT_TRUE(commit(store, minute));
     const std::uint64_t before = testing::allocated_bytes(cache_);
@@ -120,7 +120,7 @@ class Unremovable final : public FileSystem {
 TEST_F(FullDiskTest, WhatABrokenDiskLeavesBehindIsCounted) {
     Unremovable disk;
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = *Store::open_rolling(disk, cache_, budgets_);
+    RollingStore store = *RollingStore::open(disk, cache_, budgets_);
     for (int minute = 0; minute < 3; ++minute)
         ASSERT_TRUE(commit(store, minute));
     disk.broken = true;

@@ -39,8 +39,8 @@ class RadarSet {
     [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
 
   private:
-    RadarSet(std::shared_ptr<Catalog> catalog, std::string station);
-    std::shared_ptr<Catalog> catalog_;
+    RadarSet(std::shared_ptr<const CatalogReader> catalog, std::string station);
+    std::shared_ptr<const CatalogReader> catalog_;
     std::string station_;
 };
 
