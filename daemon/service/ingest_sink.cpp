@@ -17,8 +17,9 @@ bool is_known_group(std::string_view group, const StationRule& stations) {
 
 }  // namespace
 
-IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store, const Config& config,
-                       std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors)
+IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store,
+                       const Config& config, std::shared_ptr<StationRule> stations,
+                       const DescriptorPlan& descriptors)
     : drop_(config.drop),
       stations_(std::move(stations)),
       growing_(descriptors.growing),
@@ -58,7 +59,7 @@ Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
         return is_known_group(group, *stations);
     };
     auto store = cache::RollingStore::open(real_file_system(), config.cache, config.budgets,
-                                            std::move(surroundings));
+                                           std::move(surroundings));
     if (!store) return pass_on(store);
     store->pack_with(config.packing);
     return std::unique_ptr<IngestSink>(new IngestSink(std::move(*catalog), std::move(*store),

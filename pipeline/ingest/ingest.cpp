@@ -105,7 +105,8 @@ Ingestor::Impl::Impl(catalog::CatalogWriter& its_catalog, cache::StoreWriter* it
     chunks.emplace(follow, limits);
 }
 
-Ingestor::Ingestor(catalog::CatalogWriter& catalog, cache::StoreWriter& store, IngestOptions options)
+Ingestor::Ingestor(catalog::CatalogWriter& catalog, cache::StoreWriter& store,
+                   IngestOptions options)
     : impl_(new Impl(catalog, &store, std::move(options))) {}
 Ingestor::Ingestor(catalog::CatalogWriter& catalog, IngestOptions options)
     : impl_(new Impl(catalog, nullptr, std::move(options))) {}

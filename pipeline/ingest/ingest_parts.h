@@ -79,7 +79,8 @@ class OpenArchives {
 };
 
 struct Ingestor::Impl {
-    Impl(catalog::CatalogWriter& its_catalog, cache::StoreWriter* its_store, IngestOptions its_options);
+    Impl(catalog::CatalogWriter& its_catalog, cache::StoreWriter* its_store,
+         IngestOptions its_options);
 
     catalog::CatalogWriter& catalog;
     cache::StoreWriter* store;  // none: files are only registered

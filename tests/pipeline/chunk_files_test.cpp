@@ -20,6 +20,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using catalog::CatalogReader;
 using catalog::CatalogWriter;
 using catalog::FileState;
 
@@ -35,7 +36,7 @@ class ChunkFiles : public ::testing::Test {
         ASSERT_EQ(paths_.size(), 55U);
     }
     // One volume, whole, in the first chunk's row, and every other chunk settled beside it.
-    void expect_one_volume(CatalogWriter& catalog) {
+    void expect_one_volume(const CatalogReader& catalog) {
         const auto volumes = catalog.list("KLOT", {});
         ASSERT_TRUE(volumes);
         ASSERT_EQ(volumes->size(), 1U);
@@ -56,8 +57,7 @@ class ChunkFiles : public ::testing::Test {
 
 TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
     CatalogWriter catalog = *CatalogWriter::open(directory_ / "catalog");
-    auto store =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+    auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     IngestOptions options;
     options.spacing_m = 4000;
     options.nx = options.ny = 115;
@@ -148,8 +148,7 @@ TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     coarse.nx = coarse.ny = 115;
     const std::atomic<bool> stop = false;
     const auto fill = [&](const std::string& name) {
-        auto store =
-            *cache::StoreWriter::open(real_file_system(), directory_ / name, true);
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / name, true);
         FillReport report;
         ArchiveFill filling(catalog, store, directory_ / (name + "-scratch"), coarse);
         EXPECT_TRUE(filling.fill(*volumes, {}, stop, report));

@@ -122,8 +122,7 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
     STORMCELLAR_NEED_DATA();
     cache::Budgets budgets;
     budgets.total.age = std::chrono::minutes{10};
-    auto store =
-        *cache::RollingStore::open(real_file_system(), directory_ / "rolling", budgets);
+    auto store = *cache::RollingStore::open(real_file_system(), directory_ / "rolling", budgets);
     Ingestor ingestor(catalog_, store, small_grid());
     EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_030830.gz"), false)->grids.size(),
               1U);
