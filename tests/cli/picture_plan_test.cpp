@@ -22,8 +22,8 @@ TEST(PlanPicture, ABudgetThatNothingKeepsIsUnmet) {
     const grid::BrickGrid bricks = small_grid();
     const auto planned = [&](const std::string& tolerance) {
         render::Scene scene;
-        scene.width = 320;
-        scene.height = 200;
+        scene.width = 400;
+        scene.height = 300;
         PicturePlanOptions options;
         options.tolerance = tolerance;
         return plan_picture(bricks.view(), {"KBGM", level2::Moment::ref, {}, {}}, options, false, 1,
