@@ -5,11 +5,13 @@
 // committed again for the same time replaces the old one; a reader keeps the file that it has open.
 // Symbolic links inside the store are not followed, and whatever has not such a name at such a
 // place is not ours: never listed or touched. Times are from 1970 to 9999.
+//
 // A store is opened in one of three roles, and each offers what the role before it does:
 //   StoreReader   lists grids and says where they stand; it never changes anything
 //   StoreWriter   commits and removes grids; it keeps no budget
 //   RollingStore  the one writer of a cache that keeps its budgets (stormcellar/cache/budget.h), at
 //                 each commit and at each roll()
+//
 // Thread contract: one store may be used by many threads; many processes may read and evict, one
 // writes. A StoreReader may be copied, also from a writer; a writer may only be moved.
 #pragma once

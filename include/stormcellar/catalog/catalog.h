@@ -19,9 +19,12 @@
 // where it could not be mended), unsupported (a later version's or another program's database),
 // not_a_file (a FIFO or directory in its place), not_found. A database that cannot be opened is the
 // trouble of its own station alone: what concerns another, or all, goes on without it, and
-// troubles() names it. A catalog is opened in one of two roles: a CatalogReader answers questions
-// and never creates or changes anything; a CatalogWriter answers the same questions, and registers
-// files. Thread contract: a catalog may be used by many threads (a mutex a database inside); many
+// troubles() names it.
+//
+// A catalog is opened in one of two roles: a CatalogReader answers questions and never creates or
+// changes anything; a CatalogWriter answers the same questions, and registers files.
+//
+// Thread contract: a catalog may be used by many threads (a mutex a database inside); many
 // processes may read while one writes.
 #pragma once
 
