@@ -22,7 +22,8 @@ std::size_t files_below(const fs::path& directory, const std::string& ending) {
 }
 
 Status check_site(const NationalFeed& feed, const NationalSite& site, int sent,
-                  catalog::Catalog& catalog, const DaemonProcess& daemon, SoakCheck& check) {
+                  const catalog::CatalogReader& catalog, const DaemonProcess& daemon,
+                  SoakCheck& check) {
     const auto rows = catalog.list(site.station.icao, {});
     if (!rows) return pass_on(rows);
     std::set<UtcTime> known;
@@ -67,7 +68,7 @@ double memory_slope_mib_h(std::span<const MemorySample> samples) {
 Result<SoakCheck> check_soak(const NationalFeed& feed, const std::vector<int>& volumes_sent,
                              const DaemonProcess& daemon) {
     SoakCheck check;
-    auto catalog = catalog::Catalog::open_for_reading(daemon.catalog());
+    auto catalog = catalog::CatalogReader::open(daemon.catalog());
     if (!catalog) return pass_on(catalog);
     check.files = files_below(daemon.drop(), "");
     check.grids = files_below(daemon.cache(), ".scg");

@@ -41,7 +41,7 @@ pipeline::PartialOptions partial_options(const grid::GridSpec& domain, const std
 
 class Runner {
   public:
-    Runner(int sites, int threads, cache::Store store)
+    Runner(int sites, int threads, cache::StoreWriter store)
         : domain_(feed_domain(sites)),
           threads_(threads),
           store_(std::move(store)),
@@ -65,7 +65,7 @@ class Runner {
 
     const grid::GridSpec domain_;
     const int threads_;
-    const cache::Store store_;
+    cache::StoreWriter store_;
     pipeline::GeometryCache geometries_;
     std::list<pipeline::MadePartial> partials_;
     MosaicRun done_;
@@ -188,7 +188,7 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
 
 Result<MosaicRun> run_mosaic(int sites, int threads, const fs::path& feed, const fs::path& cache,
                              std::chrono::hours hours) {
-    auto store = cache::Store::open_for_writing(real_file_system(), cache, false);
+    auto store = cache::StoreWriter::open(real_file_system(), cache, false);
     if (!store) return pass_on(store);
     Runner runner(sites, threads, std::move(*store));
     const std::vector<FeedVolume> volumes = feed_of(sites, feed, hours);

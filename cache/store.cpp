@@ -20,19 +20,24 @@ namespace fs = std::filesystem;
 // that was made on a full disk may be taken by others.
 constexpr int most_tries = 4;
 
+// The directory stands afterwards, and so it does after a power cut.
+Status make_cache_directory(FileSystem& file_system, const fs::path& directory) {
+    std::error_code error;
+    const bool created = fs::create_directories(directory, error);
+    if (error) return directory_failure(directory, error);
+    if (!created) return {};
+    const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
+    return file_system.sync_directory(parent);
+}
+
 }  // namespace
 
-struct Store::DurableDirectories {
+struct StoreWriter::DurableDirectories {
     std::mutex mutex;
     std::set<fs::path> paths;  // guarded by mutex
 };
 
-Store::Store(FileSystem* file_system, fs::path directory)
-    : file_system_(file_system),
-      directory_(std::move(directory)),
-      durable_(std::make_shared<DurableDirectories>()) {}
-
-Result<Store> Store::open_for_reading(fs::path directory) {
+Result<StoreReader> StoreReader::open(fs::path directory) {
     std::error_code error;
     const fs::file_status status = fs::status(directory, error);
     if (status.type() == fs::file_type::not_found) {
@@ -42,7 +47,7 @@ Result<Store> Store::open_for_reading(fs::path directory) {
     if (status.type() != fs::file_type::directory) {
         return fail(ErrorCode::not_a_file, "{}: is not a directory", directory.native());
     }
-    return Store(nullptr, std::move(directory));
+    return StoreReader(std::move(directory));
 }
 
 void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now) {
@@ -51,35 +56,40 @@ void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now) {
     if (first != entries.begin()) entries.erase(first, entries.end());
 }
 
-Result<Store> Store::open_for_writing(FileSystem& file_system, fs::path directory,
+StoreWriter::StoreWriter(FileSystem& file_system, fs::path directory,
+                         std::unique_ptr<Roller> roller)
+    : StoreReader(std::move(directory)),
+      file_system_(&file_system),
+      durable_(std::make_unique<DurableDirectories>()),
+      roller_(std::move(roller)) {}
+StoreWriter::StoreWriter(StoreWriter&&) noexcept = default;
+StoreWriter& StoreWriter::operator=(StoreWriter&&) noexcept = default;
+StoreWriter::~StoreWriter() = default;
+
+Result<StoreWriter> StoreWriter::open(FileSystem& file_system, fs::path directory,
                                       bool sweep_temporary) {
-    std::error_code error;
-    const bool created = fs::create_directories(directory, error);
-    if (error) return directory_failure(directory, error);
-    if (created) {
-        const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
-        if (Status synced = file_system.sync_directory(parent); !synced) return pass_on(synced);
-    }
+    if (Status made = make_cache_directory(file_system, directory); !made) return pass_on(made);
     if (sweep_temporary) {
         if (Status swept = sweep_temporaries(file_system, directory); !swept) return pass_on(swept);
     }
-    return Store(&file_system, std::move(directory));
+    return StoreWriter(file_system, std::move(directory), nullptr);
 }
 
-Result<Store> Store::open_rolling(FileSystem& file_system, fs::path directory, Budgets budgets,
-                                  Surroundings surroundings) {
-    Result<Store> store = open_for_writing(file_system, std::move(directory), false);
-    if (!store) return store;
-    auto roller =
-        Roller::open(file_system, store->directory_, std::move(budgets), std::move(surroundings));
+RollingStore::RollingStore(FileSystem& file_system, fs::path directory,
+                           std::unique_ptr<Roller> roller)
+    : StoreWriter(file_system, std::move(directory), std::move(roller)) {}
+
+Result<RollingStore> RollingStore::open(FileSystem& file_system, fs::path directory,
+                                        Budgets budgets, Surroundings surroundings) {
+    if (Status made = make_cache_directory(file_system, directory); !made) return pass_on(made);
+    auto roller = Roller::open(file_system, directory, std::move(budgets), std::move(surroundings));
     if (!roller) return pass_on(roller);
-    store->roller_ = std::move(*roller);
-    return store;
+    return RollingStore(file_system, std::move(directory), std::move(*roller));
 }
 
 // A directory's name is durable once its parent was synced. The first use of a directory that
 // stands already syncs too: its maker may have been killed before it could.
-Status Store::make_directory(const fs::path& directory) const {
+Status StoreWriter::make_directory(const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directory(directory, error);
     if (error) return directory_failure(directory, error);
@@ -95,8 +105,8 @@ Status Store::make_directory(const fs::path& directory) const {
     return {};
 }
 
-Result<fs::path> Store::path_of(const std::string& domain, level2::Moment moment,
-                                UtcTime time) const {
+Result<fs::path> StoreReader::path_of(const std::string& domain, level2::Moment moment,
+                                      UtcTime time) const {
     if (!is_domain_name(domain)) {
         return fail(ErrorCode::bad_argument,
                     "domain '{}': a name is up to 64 letters, digits, _ and -, and begins with a "
@@ -107,19 +117,19 @@ Result<fs::path> Store::path_of(const std::string& domain, level2::Moment moment
         return fail(ErrorCode::bad_argument,
                     "a grid of {}: its time is beyond the years 1970 to 9999", domain);
     }
-    return directory_ / relative_path(GridName{domain, moment, time});
+    return directory() / relative_path(GridName{domain, moment, time});
 }
 
-Status Store::write(FileSystem& file_system, const fs::path& path,
-                    const GridDescription& description, const grid::BrickView& view,
-                    Durability durability) const {
+Status StoreWriter::write(FileSystem& file_system, const fs::path& path,
+                          const GridDescription& description, const grid::BrickView& view,
+                          Durability durability) {
     UnsyncedFiles unsynced(file_system);
     FileSystem& files = durability == Durability::power_cut ? file_system : unsynced;
     const fs::path day = path.parent_path();
     const fs::path& moment = day.parent_path();
     for (int tries = 1;; ++tries) {
         Status done;
-        for (const fs::path& directory : {directory_, moment.parent_path(), moment, day}) {
+        for (const fs::path& directory : {this->directory(), moment.parent_path(), moment, day}) {
             if (done) done = make_directory(directory);
         }
         if (done) {
@@ -133,10 +143,10 @@ Status Store::write(FileSystem& file_system, const fs::path& path,
     }
 }
 
-Result<fs::path> Store::commit_within_budgets(const GridName& name, const fs::path& path,
-                                              const GridDescription& description,
-                                              const grid::BrickView& view,
-                                              Durability durability) const {
+Result<fs::path> StoreWriter::commit_within_budgets(const GridName& name, const fs::path& path,
+                                                    const GridDescription& description,
+                                                    const grid::BrickView& view,
+                                                    Durability durability) {
     const std::uint64_t most = most_bytes_on_disk(description, view, roller_->block_bytes());
     const auto reserved = roller_->reserve(name, most);
     if (!reserved) return pass_on(reserved);
@@ -153,12 +163,8 @@ Result<fs::path> Store::commit_within_budgets(const GridName& name, const fs::pa
     }
 }
 
-Result<fs::path> Store::commit(const std::string& domain, const GridDescription& description,
-                               const grid::BrickView& view, Durability durability) const {
-    if (file_system_ == nullptr) {
-        return fail(ErrorCode::bad_argument, "{}: the cache was opened for reading only",
-                    directory_.native());
-    }
+Result<fs::path> StoreWriter::commit(const std::string& domain, const GridDescription& description,
+                                     const grid::BrickView& view, Durability durability) {
     Result<fs::path> path = path_of(domain, description.moment, description.time);
     if (!path) return path;
     if (roller_) {
@@ -171,44 +177,39 @@ Result<fs::path> Store::commit(const std::string& domain, const GridDescription&
     return path;
 }
 
-bool Store::would_keep(const std::string& domain, level2::Moment moment, UtcTime time) const {
+bool StoreWriter::would_keep(const std::string& domain, level2::Moment moment, UtcTime time) const {
     return !roller_ || roller_->would_keep({domain, moment, time});
 }
 
-RollReport Store::roll(const std::function<void()>& step) const {
-    return roller_ ? roller_->roll(step) : RollReport{};
+RollReport RollingStore::roll(const std::function<void()>& step) {
+    return roller().roll(step);
 }
 
-void Store::set_budgets(Budgets budgets) const {
-    if (roller_) roller_->set_budgets(std::move(budgets));
+void RollingStore::set_budgets(Budgets budgets) {
+    roller().set_budgets(std::move(budgets));
 }
 
-std::optional<StoreUsage> Store::usage() const {
-    if (!roller_) return std::nullopt;
-    return roller_->usage();
+StoreUsage RollingStore::usage() const {
+    return roller().usage();
 }
 
-Status Store::remove(const StoreEntry& entry) const {
-    if (file_system_ == nullptr) {
-        return fail(ErrorCode::bad_argument, "{}: the cache was opened for reading only",
-                    directory_.native());
-    }
+Status StoreWriter::remove(const StoreEntry& entry) {
     const auto path = path_of(entry.domain, entry.moment, entry.time);
     if (!path) return pass_on(path);
     if (Status removed = file_system_->remove(*path); !removed) return removed;
     return file_system_->sync_directory(path->parent_path());
 }
 
-Result<std::vector<std::string>> Store::domains() const {
-    return domains_in(directory_);
+Result<std::vector<std::string>> StoreReader::domains() const {
+    return domains_in(directory());
 }
 
-Result<std::vector<StoreEntry>> Store::list(const std::string& domain, level2::Moment moment,
-                                            std::optional<UtcTime> from,
-                                            std::optional<UtcTime> to) const {
+Result<std::vector<StoreEntry>> StoreReader::list(const std::string& domain, level2::Moment moment,
+                                                  std::optional<UtcTime> from,
+                                                  std::optional<UtcTime> to) const {
     std::vector<StoreEntry> entries;
     if (!is_domain_name(domain)) return entries;
-    const auto days = days_in(directory_ / domain / std::string(level2::moment_name(moment)));
+    const auto days = days_in(directory() / domain / std::string(level2::moment_name(moment)));
     if (!days) return pass_on(days);
     // Days are compared by their names, so a query reads the directories that it needs. Bounds
     // beyond the times of any grid are brought to them first.
@@ -218,11 +219,11 @@ Result<std::vector<StoreEntry>> Store::list(const std::string& domain, level2::M
     const std::string last_day = day_name(std::clamp(upper, UtcTime{}, last_possible_time));
     for (const auto& day : *days) {
         if (day < first_day || day > last_day) continue;
-        const auto contents = read_day(directory_, {domain, moment, day}, lower, upper);
+        const auto contents = read_day(directory(), {domain, moment, day}, lower, upper);
         if (!contents) return pass_on(contents);
         for (const FoundGrid& grid : contents->grids) {
             entries.push_back({domain, moment, grid.time,
-                               directory_ / relative_path(GridName{domain, moment, grid.time}),
+                               directory() / relative_path(GridName{domain, moment, grid.time}),
                                grid.bytes_on_disk, grid.pinned});
         }
     }

@@ -37,13 +37,15 @@ fs::file_time_type written_last(const fs::path& database) {
 
 }  // namespace
 
-Catalog::Catalog(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Catalog::Catalog(Catalog&&) noexcept = default;
-Catalog& Catalog::operator=(Catalog&&) noexcept = default;
-Catalog::~Catalog() = default;
+CatalogReader::CatalogReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CatalogReader::CatalogReader(CatalogReader&&) noexcept = default;
+CatalogReader& CatalogReader::operator=(CatalogReader&&) noexcept = default;
+CatalogReader::~CatalogReader() = default;
 
-const fs::path& Catalog::directory() const {
-    return impl_->directory;
+CatalogWriter::CatalogWriter(std::unique_ptr<Impl> impl) : CatalogReader(std::move(impl)) {}
+
+const fs::path& CatalogReader::directory() const {
+    return impl().directory;
 }
 
 Status admit_existing(const fs::path& directory, StationRule& rule) {
@@ -63,7 +65,7 @@ Status admit_existing(const fs::path& directory, StationRule& rule) {
     return {};
 }
 
-Result<Catalog> Catalog::open_for_writing(fs::path directory, CatalogOptions options) {
+Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions options) {
     std::error_code error;
     const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
@@ -86,32 +88,32 @@ Result<Catalog> Catalog::open_for_writing(fs::path directory, CatalogOptions opt
             return pass_on(admitted);
         }
     }
-    return Catalog(std::make_unique<Impl>(std::move(directory), std::move(options), true));
+    return CatalogWriter(std::make_unique<Impl>(std::move(directory), std::move(options), true));
 }
 
-Result<Catalog> Catalog::open_for_reading(fs::path directory) {
+Result<CatalogReader> CatalogReader::open(fs::path directory) {
     std::error_code ignored;
     if (!fs::is_directory(directory, ignored)) {
         return fail(ErrorCode::not_found, "{}: no such catalog directory", directory.native());
     }
     CatalogOptions options;
     options.most_open = CatalogOptions::most_open_of_reader;
-    return Catalog(std::make_unique<Impl>(std::move(directory), std::move(options), false));
+    return CatalogReader(std::make_unique<Impl>(std::move(directory), std::move(options), false));
 }
 
 // Called after the path was written into the database of that name. A database that is known to
 // have a row of it must let that be deleted; one that may have a row, and cannot be asked, is its
 // own station's trouble.
-Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) {
-    const auto home = impl_->homes.exchange(path, name);
+Status CatalogWriter::forget_elsewhere(const fs::path& path, const std::string& name) {
+    const auto home = impl().homes.exchange(path, name);
     if (home && (home->empty() || *home == name)) return {};
-    const auto names = impl_->names_that_may_have(path);
+    const auto names = impl().names_that_may_have(path);
     Status outcome = names ? Status{} : pass_on(names);
     bool is_alone = names.has_value();
     for (const std::string& other : names ? *names : std::vector<std::string>{}) {
         if (other == name) continue;
         bool has_row = home == other;
-        const auto forgotten = impl_->with_neighbor(other, [&](StationDatabase& database) {
+        const auto forgotten = impl().with_neighbor(other, [&](StationDatabase& database) {
             has_row = database.is_settled(path, 0, 0).has_value();
             if (has_row) database.forget(path);
             return true;
@@ -121,14 +123,14 @@ Status Catalog::forget_elsewhere(const fs::path& path, const std::string& name) 
             outcome = pass_on(forgotten);
         }
     }
-    if (!is_alone) impl_->homes.forget(path);
+    if (!is_alone) impl().homes.forget(path);
     return outcome;
 }
 
-Status Catalog::note_file(const FileFacts& facts) {
-    const std::string name = impl_->name_for(facts.station);
-    const auto noted = impl_->with(name, true, [&](StationDatabase& database) {
-        impl_->expect_row(facts.path, name);
+Status CatalogWriter::note_file(const FileFacts& facts) {
+    const std::string name = impl().name_for(facts.station);
+    const auto noted = impl().with(name, true, [&](StationDatabase& database) {
+        impl().expect_row(facts.path, name);
         if (database.is_settled(facts.path, 0, 0)) return Registered::unchanged;
         return database.register_file(facts);
     });
@@ -138,9 +140,9 @@ Status Catalog::note_file(const FileFacts& facts) {
             name == unknown_station && noted.error().code != ErrorCode::no_space;
         return is_other_trouble ? Status{} : pass_on(noted);
     }
-    if (*noted == Registered::left_out || impl_->homes.set_if_free(facts.path, name)) return {};
+    if (*noted == Registered::left_out || impl().homes.set_if_free(facts.path, name)) return {};
     // Somebody who has read it has put it where it belongs meanwhile.
-    const auto forgotten = impl_->with(name, false, [&](StationDatabase& database) {
+    const auto forgotten = impl().with(name, false, [&](StationDatabase& database) {
         database.forget(facts.path);
         return true;
     });
@@ -148,24 +150,25 @@ Status Catalog::note_file(const FileFacts& facts) {
     return {};
 }
 
-Result<Registered> Catalog::register_file(const FileFacts& facts) {
-    const std::string name = impl_->name_for(facts.station);
-    auto registered = impl_->with(name, true, [&](StationDatabase& database) {
-        impl_->expect_row(facts.path, name);
+Result<Registered> CatalogWriter::register_file(const FileFacts& facts) {
+    const std::string name = impl().name_for(facts.station);
+    auto registered = impl().with(name, true, [&](StationDatabase& database) {
+        impl().expect_row(facts.path, name);
         return database.register_file(facts);
     });
     if (!registered) return registered;
     // What stood there before may have been of another station, or of none that was known.
     if (Status alone = forget_elsewhere(facts.path, name); !alone) return pass_on(alone);
-    if (*registered == Registered::left_out) impl_->homes.forget(facts.path);
+    if (*registered == Registered::left_out) impl().homes.forget(facts.path);
     return registered;
 }
 
-Status Catalog::register_files(const std::string& station, const std::vector<FileFacts>& files) {
-    const std::string name = impl_->name_for(station);
-    const auto left_out = impl_->with(name, true, [&](StationDatabase& database) {
+Status CatalogWriter::register_files(const std::string& station,
+                                     const std::vector<FileFacts>& files) {
+    const std::string name = impl().name_for(station);
+    const auto left_out = impl().with(name, true, [&](StationDatabase& database) {
         for (const FileFacts& file : files)
-            impl_->expect_row(file.path, name);
+            impl().expect_row(file.path, name);
         return database.register_files(files);
     });
     if (!left_out) return pass_on(left_out);
@@ -173,16 +176,16 @@ Status Catalog::register_files(const std::string& station, const std::vector<Fil
         if (Status alone = forget_elsewhere(file.path, name); !alone) return alone;
     }
     for (const fs::path& path : *left_out)
-        impl_->homes.forget(path);
+        impl().homes.forget(path);
     return {};
 }
 
-Result<int> Catalog::mark_gone(const fs::path& path) {
-    const auto home = impl_->homes.of(path);
+Result<int> CatalogWriter::mark_gone(const fs::path& path) {
+    const auto home = impl().homes.of(path);
     if (home && home->empty()) return 0;
-    const std::string likely = home.value_or(std::string{impl_->home_of(path.native())});
+    const std::string likely = home.value_or(std::string{impl().home_of(path.native())});
     const auto names = home ? Result<std::vector<std::string>>{std::vector<std::string>{*home}}
-                            : impl_->names_that_may_have(path);
+                            : impl().names_that_may_have(path);
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
@@ -192,57 +195,58 @@ Result<int> Catalog::mark_gone(const fs::path& path) {
         };
         const bool is_its_own = name == likely && (home || name != unknown_station);
         const auto here =
-            is_its_own ? impl_->with(name, false, mark) : impl_->with_neighbor(name, mark);
+            is_its_own ? impl().with(name, false, mark) : impl().with_neighbor(name, mark);
         if (!here && is_its_own && here.error().code != ErrorCode::not_found) return pass_on(here);
         marked += here.value_or(0);
     }
     return marked;
 }
 
-Result<std::optional<bool>> Catalog::find_settled(const fs::path& path, std::uint64_t size_bytes,
-                                                  std::int64_t modified_ns) {
+Result<std::optional<bool>> CatalogReader::find_settled(const fs::path& path,
+                                                        std::uint64_t size_bytes,
+                                                        std::int64_t modified_ns) const {
     const auto ask = [&](StationDatabase& database) {
         return database.is_settled(path, size_bytes, modified_ns);
     };
-    const auto home = impl_->homes.of(path);
+    const auto home = impl().homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
-    const std::string guess = home.value_or(std::string{impl_->home_of(path.native())});
+    const std::string guess = home.value_or(std::string{impl().home_of(path.native())});
     // A name that says nothing is no reason to ask for the database of files without a station.
     const bool is_its_own = home || guess != unknown_station;
-    auto guessed = is_its_own ? impl_->with(guess, false, ask) : impl_->with_neighbor(guess, ask);
+    auto guessed = is_its_own ? impl().with(guess, false, ask) : impl().with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;
     const bool is_missing = !guessed && guessed.error().code == ErrorCode::not_found;
     if (!guessed && !is_missing && is_its_own) return guessed;
     if (home) return std::optional<bool>{};
 
-    const auto names = impl_->names_that_may_have(path);
+    const auto names = impl().names_that_may_have(path);
     if (!names) return pass_on(names);
     bool is_sure = guessed || is_missing;
     for (const std::string& name : *names) {
         if (name == guess) continue;
-        auto here = impl_->with_neighbor(name, ask);
+        auto here = impl().with_neighbor(name, ask);
         if (here && here->has_value()) return here;
         is_sure = is_sure && here;
     }
-    if (is_sure && impl_->writing) impl_->homes.set_none(path);
+    if (is_sure && impl().writing) impl().homes.set_none(path);
     return std::optional<bool>{};
 }
 
-Result<bool> Catalog::is_settled(const fs::path& path, std::uint64_t size_bytes,
-                                 std::int64_t modified_ns) {
+Result<bool> CatalogReader::is_settled(const fs::path& path, std::uint64_t size_bytes,
+                                       std::int64_t modified_ns) const {
     const auto found = find_settled(path, size_bytes, modified_ns);
     if (!found) return pass_on(found);
     return found->value_or(false);
 }
 
-Result<bool> Catalog::is_known(const fs::path& path) {
+Result<bool> CatalogReader::is_known(const fs::path& path) const {
     const auto found = find_settled(path, 0, 0);
     if (!found) return pass_on(found);
     return found->has_value();
 }
 
-Result<std::vector<std::string>> Catalog::station_names() const {
-    auto names = impl_->names();
+Result<std::vector<std::string>> CatalogReader::station_names() const {
+    auto names = impl().names();
     if (!names) return names;
     for (std::string& name : *names)
         name = station_of(name);
@@ -250,31 +254,30 @@ Result<std::vector<std::string>> Catalog::station_names() const {
     return names;
 }
 
-Result<LeftAlone> Catalog::left_alone() const {
+Result<LeftAlone> CatalogWriter::left_alone() const {
     LeftAlone found;
-    if (!impl_->writing) return found;
-    const auto all = database_names(impl_->directory);
+    const auto all = database_names(impl().directory);
     if (!all) return pass_on(all);
     for (const std::string& name : *all) {
-        if (name == unknown_station || impl_->knows(name)) continue;
+        if (name == unknown_station || impl().knows(name)) continue;
         if (found.count++ < most_left_alone_named) found.some.push_back(name);
     }
     return found;
 }
 
-std::vector<Trouble> Catalog::troubles() const {
-    return impl_->troubles();
+std::vector<Trouble> CatalogReader::troubles() const {
+    return impl().troubles();
 }
 
-Result<fs::path> Catalog::drop_directory() const {
-    return read_drop_directory(impl_->directory);
+Result<fs::path> CatalogReader::drop_directory() const {
+    return read_drop_directory(impl().directory);
 }
 
-std::size_t Catalog::open_databases() const {
-    return impl_->databases.open_count();
+std::size_t CatalogReader::open_databases() const {
+    return impl().databases.open_count();
 }
 
-Status Catalog::examine_all() {
+Status CatalogWriter::examine_all() {
     const auto stations = station_names();
     if (!stations) return pass_on(stations);
     Status outcome;
@@ -284,39 +287,39 @@ Status Catalog::examine_all() {
     return outcome;
 }
 
-Status Catalog::examine(std::string_view station) {
-    const auto names = impl_->names();
+Status CatalogWriter::examine(std::string_view station) {
+    const auto names = impl().names();
     if (!names) return pass_on(names);
     const auto name = std::find_if(names->begin(), names->end(), [&](const std::string& each) {
         return station_of(each) == station;
     });
     if (name == names->end()) return {};
     // What a crash left unfinished, only one who writes can finish.
-    const auto opened = impl_->with(*name, false, [](StationDatabase&) { return true; });
+    const auto opened = impl().with(*name, false, [](StationDatabase&) { return true; });
     if (!opened) return pass_on(opened);
-    const fs::path path = impl_->path_of(*name);
+    const fs::path path = impl().path_of(*name);
     const auto found = examine_database(path);
     if (!found) return pass_on(found);
     if (found->damage.empty()) return {};
-    const OpenDatabases::Lease place = impl_->databases.lease(*name);
+    const OpenDatabases::Lease place = impl().databases.lease(*name);
     const std::scoped_lock lock(place->mutex);
-    if (impl_->mend(*place, *name)) return {};
+    if (impl().mend(*place, *name)) return {};
     return fail(ErrorCode::corrupt, "{}: {}, and cannot be mended", path.native(),
                 found->damage.front());
 }
 
-std::vector<Repair> Catalog::take_repairs() {
-    const std::scoped_lock lock(impl_->repairs_mutex);
-    return std::exchange(impl_->repairs, {});
+std::vector<Repair> CatalogWriter::take_repairs() {
+    const std::scoped_lock lock(impl().repairs_mutex);
+    return std::exchange(impl().repairs, {});
 }
 
-Result<std::vector<StationSummary>> Catalog::stations() {
-    const auto names = impl_->names();
+Result<std::vector<StationSummary>> CatalogReader::stations() const {
+    const auto names = impl().names();
     if (!names) return pass_on(names);
     std::vector<StationSummary> summaries;
     for (const std::string& name : *names) {
         auto summary =
-            impl_->with(name, false, [](StationDatabase& database) { return database.summary(); });
+            impl().with(name, false, [](StationDatabase& database) { return database.summary(); });
         if (summary) summaries.push_back(std::move(*summary));
     }
     return summaries;
@@ -324,30 +327,31 @@ Result<std::vector<StationSummary>> Catalog::stations() {
 
 // Runs a query of a user on the database of that station.
 template <class Work>
-auto Catalog::ask(std::string_view station, Work work) {
-    using Answer = decltype(impl_->with(std::string{}, false, work));
+auto CatalogReader::ask(std::string_view station, Work work) const {
+    using Answer = decltype(impl().with(std::string{}, false, work));
     if (Status asked = check_asked_for(station); !asked) return Answer{pass_on(asked)};
-    if (!station.empty() && !impl_->knows(station)) {
+    if (!station.empty() && !impl().knows(station)) {
         return Answer{fail(ErrorCode::not_found, "{}: the catalog knows no station {}",
-                           impl_->directory.native(), station)};
+                           impl().directory.native(), station)};
     }
-    return impl_->with(impl_->name_for(station), false, std::move(work));
+    return impl().with(impl().name_for(station), false, std::move(work));
 }
 
-Result<std::vector<CatalogEntry>> Catalog::list(std::string_view station, const Query& query) {
+Result<std::vector<CatalogEntry>> CatalogReader::list(std::string_view station,
+                                                      const Query& query) const {
     return ask(station, [&](StationDatabase& database) { return database.list(query); });
 }
 
-Result<std::optional<CatalogEntry>> Catalog::latest(std::string_view station) {
+Result<std::optional<CatalogEntry>> CatalogReader::latest(std::string_view station) const {
     return ask(station, [](StationDatabase& database) { return database.first(true); });
 }
 
-Result<std::optional<CatalogEntry>> Catalog::oldest(std::string_view station) {
+Result<std::optional<CatalogEntry>> CatalogReader::oldest(std::string_view station) const {
     return ask(station, [](StationDatabase& database) { return database.first(false); });
 }
 
-Result<std::optional<CatalogEntry>> Catalog::find_file(std::string_view station,
-                                                       const fs::path& path) {
+Result<std::optional<CatalogEntry>> CatalogReader::find_file(std::string_view station,
+                                                             const fs::path& path) const {
     return ask(station, [&](StationDatabase& database) { return database.find_file(path); });
 }
 

@@ -53,11 +53,11 @@ Result<std::vector<std::string>> database_names(const fs::path& directory) {
     return found;
 }
 
-bool Catalog::Impl::knows(std::string_view station) const {
+bool CatalogReader::Impl::knows(std::string_view station) const {
     return options.stations ? options.stations->knows(station) : is_icao(station);
 }
 
-Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
+Status CatalogReader::Impl::open(Slot& place, const std::string& name, bool create) {
     const fs::path path = path_of(name);
     // It is looked at also where it was closed to make room: rows that are lost with a file that
     // somebody deleted must be made again.
@@ -93,7 +93,8 @@ Status Catalog::Impl::open(Slot& place, const std::string& name, bool create) {
     return {};
 }
 
-Result<std::unique_ptr<StationDatabase>> Catalog::Impl::open_database(const std::string& name) {
+Result<std::unique_ptr<StationDatabase>> CatalogReader::Impl::open_database(
+    const std::string& name) {
     const fs::path path = path_of(name);
     if (!writing) return StationDatabase::open_for_reading(path, station_of(name));
     auto opened = StationDatabase::open_for_writing(path, station_of(name));
@@ -104,7 +105,7 @@ Result<std::unique_ptr<StationDatabase>> Catalog::Impl::open_database(const std:
     return opened;
 }
 
-bool Catalog::Impl::mend(Slot& place, const std::string& name) {
+bool CatalogReader::Impl::mend(Slot& place, const std::string& name) {
     databases.close(place);
     place.file = {};
     place.strays = Strays::unknown;
@@ -118,8 +119,8 @@ bool Catalog::Impl::mend(Slot& place, const std::string& name) {
     return true;
 }
 
-void Catalog::Impl::note_outcome(const std::string& name, const Error* error,
-                                 std::chrono::steady_clock::time_point began) {
+void CatalogReader::Impl::note_outcome(const std::string& name, const Error* error,
+                                       std::chrono::steady_clock::time_point began) {
     // A full disk is no station's trouble, and a database that is not there is none.
     const bool is_trouble =
         error != nullptr && error->code != ErrorCode::not_found && !is_shortage(error->code);
@@ -134,7 +135,7 @@ void Catalog::Impl::note_outcome(const std::string& name, const Error* error,
     has_troubles_ = !troubles_.empty();
 }
 
-std::vector<Trouble> Catalog::Impl::troubles() const {
+std::vector<Trouble> CatalogReader::Impl::troubles() const {
     const std::scoped_lock lock(troubles_mutex_);
     std::vector<Trouble> found;
     for (const auto& [name, standing] : troubles_)
@@ -142,7 +143,7 @@ std::vector<Trouble> Catalog::Impl::troubles() const {
     return found;
 }
 
-std::optional<Catalog::Impl::Standing> Catalog::Impl::recently_tried(
+std::optional<CatalogReader::Impl::Standing> CatalogReader::Impl::recently_tried(
     const std::string& name) const {
     if (!has_troubles_) return std::nullopt;
     const std::scoped_lock lock(troubles_mutex_);
@@ -152,18 +153,18 @@ std::optional<Catalog::Impl::Standing> Catalog::Impl::recently_tried(
     return is_recent ? std::optional{found->second} : std::nullopt;
 }
 
-std::optional<Error> Catalog::Impl::recent_trouble(const std::string& name) const {
+std::optional<Error> CatalogReader::Impl::recent_trouble(const std::string& name) const {
     const auto standing = recently_tried(name);
     return standing ? std::optional{standing->error} : std::nullopt;
 }
 
-std::optional<Error> Catalog::Impl::slow_trouble(const std::string& name) const {
+std::optional<Error> CatalogReader::Impl::slow_trouble(const std::string& name) const {
     const auto standing = recently_tried(name);
     const bool was_slow = standing && standing->tried - standing->began > longest_try;
     return was_slow ? std::optional{standing->error} : std::nullopt;
 }
 
-Result<std::vector<std::string>> Catalog::Impl::names() {
+Result<std::vector<std::string>> CatalogReader::Impl::names() {
     auto found = database_names(directory);
     if (!found && is_out_of_descriptors() && databases.close_idle(closed_when_out) > 0) {
         found = database_names(directory);
@@ -178,7 +179,7 @@ Result<std::vector<std::string>> Catalog::Impl::names() {
 
 // A path that seemed to be of no known station may seem to be of one that was admitted since.
 // With listed_mutex_.
-void Catalog::Impl::look_for_admitted_stations() {
+void CatalogReader::Impl::look_for_admitted_stations() {
     if (!options.stations || options.stations->kind() != StationRule::Kind::any) return;
     const std::size_t admitted = options.stations->further().size();
     if (std::exchange(admitted_, admitted) == admitted) return;
@@ -188,7 +189,7 @@ void Catalog::Impl::look_for_admitted_stations() {
     place->strays = Strays::unknown;
 }
 
-Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::path& path) {
+Result<std::vector<std::string>> CatalogReader::Impl::names_that_may_have(const fs::path& path) {
     if (!writing) return names();
     std::vector<std::string> found;
     {
@@ -212,8 +213,9 @@ Result<std::vector<std::string>> Catalog::Impl::names_that_may_have(const fs::pa
     return found;
 }
 
-std::optional<Strays> Catalog::Impl::find_strays(StationDatabase& database, const std::string& name,
-                                                 std::int64_t most_rows) {
+std::optional<Strays> CatalogReader::Impl::find_strays(StationDatabase& database,
+                                                       const std::string& name,
+                                                       std::int64_t most_rows) {
     Strays found = Strays::none;
     const bool looked = database.look_at_paths(
         [&](std::string_view path) {
@@ -225,20 +227,20 @@ std::optional<Strays> Catalog::Impl::find_strays(StationDatabase& database, cons
     return looked ? std::optional{found} : std::nullopt;
 }
 
-void Catalog::Impl::expect_row(const fs::path& path, const std::string& name) {
+void CatalogReader::Impl::expect_row(const fs::path& path, const std::string& name) {
     if (home_of(path.native()) == name) return;
     if (strays_) strays_->add(path.native());
     databases.lease(name)->strays = Strays::some;
 }
 
-void Catalog::Impl::look_for_strays(StationDatabase& database, const std::string& name) {
+void CatalogReader::Impl::look_for_strays(StationDatabase& database, const std::string& name) {
     const OpenDatabases::Lease place = databases.lease(name);
     if (place->strays == Strays::unknown || place->strays == Strays::too_many_rows) {
         place->strays = *find_strays(database, name, std::numeric_limits<std::int64_t>::max());
     }
 }
 
-bool Catalog::Impl::may_have_stray(const std::string& name, bool is_likely) {
+bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely) {
     const OpenDatabases::Lease place = databases.lease(name);
     const auto may_have = [&] {
         return place->strays == Strays::some ? is_likely : place->strays != Strays::none;

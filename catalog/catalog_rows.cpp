@@ -30,15 +30,16 @@ bool is_missing(const fs::path& directory, const fs::path& path) {
 
 }  // namespace
 
-Result<int> Catalog::mark_missing(const fs::path& directory, const std::function<void()>& step) {
-    const auto names = impl_->names();
+Result<int> CatalogWriter::mark_missing(const fs::path& directory,
+                                        const std::function<void()>& step) {
+    const auto names = impl().names();
     if (!names) return pass_on(names);
     int marked = 0;
     for (const std::string& name : *names) {
         StationDatabase::Paths rows{.paths = {}, .last = 0, .are_all = false};
         while (!rows.are_all) {
-            auto next = impl_->with(name, false, [&](StationDatabase& database) {
-                impl_->look_for_strays(database, name);
+            auto next = impl().with(name, false, [&](StationDatabase& database) {
+                impl().look_for_strays(database, name);
                 return database.paths_below(directory, rows.last, files_a_step);
             });
             if (step) step();
@@ -54,30 +55,30 @@ Result<int> Catalog::mark_missing(const fs::path& directory, const std::function
 }
 
 // Of these files of one station.
-Result<int> Catalog::mark_missing_of(const std::string& name, const fs::path& directory,
-                                     const std::vector<fs::path>& paths) {
+Result<int> CatalogWriter::mark_missing_of(const std::string& name, const fs::path& directory,
+                                           const std::vector<fs::path>& paths) {
     std::vector<fs::path> gone;
     for (const fs::path& path : paths) {
         if (is_missing(directory, path)) gone.push_back(path);
     }
     if (gone.empty()) return 0;
-    return impl_->with(name, false,
+    return impl().with(name, false,
                        [&](StationDatabase& database) { return database.mark_gone(gone); });
 }
 
-Result<int> Catalog::forget_gone(UtcTime before, const std::function<void()>& step) {
-    const auto names = impl_->names();
+Result<int> CatalogWriter::forget_gone(UtcTime before, const std::function<void()>& step) {
+    const auto names = impl().names();
     if (!names) return pass_on(names);
     int forgotten = 0;
     for (const std::string& name : *names) {
-        const auto rows = impl_->with(
+        const auto rows = impl().with(
             name, false, [&](StationDatabase& database) { return database.gone_before(before); });
         if (step) step();
         // Others may write between two batches.
         for (std::size_t i = 0; rows && i < rows->size(); i += files_a_step) {
             const auto batch = std::span{*rows}.subspan(i).first(
                 std::min<std::size_t>(files_a_step, rows->size() - i));
-            const auto here = impl_->with(name, false, [&](StationDatabase& database) {
+            const auto here = impl().with(name, false, [&](StationDatabase& database) {
                 return database.forget_gone(batch, before);
             });
             if (step) step();
@@ -89,15 +90,15 @@ Result<int> Catalog::forget_gone(UtcTime before, const std::function<void()>& st
     return forgotten;
 }
 
-Result<Rolled> Catalog::roll(const std::function<void()>& step) {
-    const auto names = impl_->names();
+Result<Rolled> CatalogWriter::roll(const std::function<void()>& step) {
+    const auto names = impl().names();
     if (!names) return pass_on(names);
     Rolled rolled;
     std::map<std::string, std::uint64_t> used;
     // Deletes one batch; gives false where there was nothing to delete.
     const auto shrink = [&](const std::string& name) {
         std::int64_t deleted = 0;
-        const auto now = impl_->with(name, false, [&](StationDatabase& database) {
+        const auto now = impl().with(name, false, [&](StationDatabase& database) {
             deleted = database.forget_oldest_gone(rows_a_step);
             return database.used_bytes();
         });
@@ -109,21 +110,21 @@ Result<Rolled> Catalog::roll(const std::function<void()>& step) {
         return true;
     };
     for (const std::string& name : *names) {
-        const auto now = impl_->with(
+        const auto now = impl().with(
             name, false, [](StationDatabase& database) { return database.used_bytes(); });
         if (step) step();
         if (!now) continue;
         used[name] = *now;
         rolled.used_bytes += *now;
-        const std::uint64_t most = name == unknown_station ? impl_->options.most_unknown_bytes
-                                                           : impl_->options.most_station_bytes;
+        const std::uint64_t most = name == unknown_station ? impl().options.most_unknown_bytes
+                                                           : impl().options.most_station_bytes;
         while (used[name] >= most && shrink(name)) {
         }
     }
     // Rows that stand never go, so nobody's fill the place of another station's history: it keeps a
     // fair share.
-    const std::uint64_t share = impl_->options.most_bytes / std::max<std::size_t>(1, names->size());
-    while (rolled.used_bytes > impl_->options.most_bytes && !used.empty()) {
+    const std::uint64_t share = impl().options.most_bytes / std::max<std::size_t>(1, names->size());
+    while (rolled.used_bytes > impl().options.most_bytes && !used.empty()) {
         const auto largest =
             std::max_element(used.begin(), used.end(),
                              [](const auto& a, const auto& b) { return a.second < b.second; });

@@ -9,7 +9,7 @@ namespace stormcellar::catalog {
 namespace {
 
 // What the catalog has for a file name; the newest when several directories have it.
-Result<CatalogEntry> entry_of(Catalog& catalog, const std::string& station,
+Result<CatalogEntry> entry_of(const CatalogReader& catalog, const std::string& station,
                               const std::string& name) {
     auto entries = catalog.list(station, Query{});
     if (!entries) return pass_on(entries);
@@ -24,13 +24,13 @@ Result<CatalogEntry> entry_of(Catalog& catalog, const std::string& station,
 
 }  // namespace
 
-RadarSet::RadarSet(std::shared_ptr<Catalog> catalog, std::string station)
+RadarSet::RadarSet(std::shared_ptr<const CatalogReader> catalog, std::string station)
     : catalog_(std::move(catalog)), station_(std::move(station)) {}
 
 Result<std::vector<RadarSet>> RadarSet::open_all(const std::filesystem::path& catalog_directory) {
-    auto opened = Catalog::open_for_reading(catalog_directory);
+    auto opened = CatalogReader::open(catalog_directory);
     if (!opened) return pass_on(opened);
-    const auto catalog = std::make_shared<Catalog>(std::move(*opened));
+    const auto catalog = std::make_shared<const CatalogReader>(std::move(*opened));
     const auto stations = catalog->stations();
     if (!stations) return pass_on(stations);
     std::vector<RadarSet> sets;
@@ -42,12 +42,12 @@ Result<std::vector<RadarSet>> RadarSet::open_all(const std::filesystem::path& ca
 
 Result<RadarSet> RadarSet::open(const std::filesystem::path& catalog_directory,
                                 const std::string& station) {
-    auto opened = Catalog::open_for_reading(catalog_directory);
+    auto opened = CatalogReader::open(catalog_directory);
     if (!opened) return pass_on(opened);
     if (station.empty()) return fail(ErrorCode::bad_argument, "the station has no name");
     // Its own database is the only one that has to be sound.
     if (const auto newest = opened->latest(station); !newest) return pass_on(newest);
-    return RadarSet(std::make_shared<Catalog>(std::move(*opened)), station);
+    return RadarSet(std::make_shared<const CatalogReader>(std::move(*opened)), station);
 }
 
 Result<std::vector<std::string>> RadarSet::build_data_list(UtcTime from, UtcTime to) const {

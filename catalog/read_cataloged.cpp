@@ -54,7 +54,7 @@ bool has_final_hash(const CatalogEntry& entry) {
            entry.content_hash != 0;
 }
 
-Result<fs::path> root_of(const Catalog& catalog, const fs::path& path) {
+Result<fs::path> root_of(const CatalogReader& catalog, const fs::path& path) {
     auto drop = catalog.drop_directory();
     if (drop && lies_below(*drop, path)) return drop;
     if (!drop && drop.error().code != ErrorCode::not_found) return drop;
@@ -70,7 +70,7 @@ Status check_cataloged(const CatalogEntry& entry, std::uint64_t size_bytes,
                 entry.path.native());
 }
 
-Result<CatalogedBytes> read_cataloged(const Catalog& catalog, const CatalogEntry& entry) {
+Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const CatalogEntry& entry) {
     const auto root = root_of(catalog, entry.path);
     if (!root) return pass_on(root);
     const auto opened = open_beneath(*root, entry.path);

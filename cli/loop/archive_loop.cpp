@@ -33,7 +33,7 @@ std::string mosaic_name(const ArchiveCall& call, const std::vector<std::string>&
     return fmt::format("{}{}", fmt::join(stations, "-"), stations.size() == 1 ? "-alone" : "");
 }
 
-Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
+Result<Domain> mosaic_of(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                          std::vector<pipeline::LeftOut>& left_out) {
     const ArchiveRequest& request = call.request;
     Domain domain;
@@ -63,7 +63,8 @@ Result<Domain> mosaic_of(const ArchiveCall& call, catalog::Catalog& catalog,
     return domain;
 }
 
-Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
+Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call,
+                                      const catalog::CatalogReader& catalog) {
     pipeline::ArchivePlan plan;
     plan.stations = call.request.stations;
     plan.fill.moment = call.moment;
@@ -120,7 +121,7 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
 }
 
 // A station that was named and is not there is a slip: `nothing` says so.
-Status check_stations(const ArchiveCall& call, const catalog::Catalog& catalog,
+Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();
     if (!known) return pass_on(known);
@@ -230,15 +231,15 @@ Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
 }
 
 // A process that was just killed may hold the lock a moment longer.
-Result<cache::Store> open_cache(const fs::path& directory) {
-    auto store = cache::Store::open_rolling(real_file_system(), directory, {});
+Result<cache::RollingStore> open_cache(const fs::path& directory) {
+    auto store = cache::RollingStore::open(real_file_system(), directory, {});
     for (int tries = 1; tries < 20 && !store; ++tries) {
-        if (store.error().code != ErrorCode::bad_argument) break;
+        if (store.error().code != ErrorCode::busy) break;
         std::this_thread::sleep_for(glance);
-        store = cache::Store::open_rolling(real_file_system(), directory, {});
+        store = cache::RollingStore::open(real_file_system(), directory, {});
     }
-    if (!store && store.error().code == ErrorCode::bad_argument) {
-        return fail(ErrorCode::io, "{} (another loop of the same grids, or a daemon)",
+    if (!store && store.error().code == ErrorCode::busy) {
+        return fail(ErrorCode::busy, "{} (another loop of the same grids, or a daemon)",
                     store.error().message);
     }
     return store;
@@ -248,7 +249,7 @@ Result<cache::Store> open_cache(const fs::path& directory) {
 
 Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, Interrupt& interrupt,
                                                       std::string& nothing) {
-    auto catalog = catalog::Catalog::open_for_reading(call.catalog);
+    auto catalog = catalog::CatalogReader::open(call.catalog);
     if (!catalog) return pass_on(catalog);
     if (auto known = check_stations(call, *catalog, nothing); !known) return pass_on(known);
     if (!nothing.empty()) return std::optional<ArchiveGrids>{};
@@ -307,19 +308,20 @@ Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call, I
 }
 
 Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
-    const auto usage = grids.store->usage();
-    if (usage) grids.bytes = usage->bytes;
+    const cache::StoreUsage usage = grids.store->usage();
+    grids.bytes = usage.bytes;
     if (call.keep) {
-        if (!call.quiet && usage) {
+        if (!call.quiet) {
             fmt::print(stderr, "the grids stay in {} ({} in {} files)\n",
-                       printable(grids.directory.native()), format_byte_size(usage->bytes),
-                       usage->grids);
+                       printable(grids.directory.native()), format_byte_size(usage.bytes),
+                       usage.grids);
         }
         return {};
     }
-    grids.store.reset();
+    // It goes while it is still held, so that no other loop opens it meanwhile.
     std::error_code error;
     fs::remove_all(grids.directory, error);
+    grids.store.reset();
     if (error) return fail(ErrorCode::io, "{}: {}", grids.directory.native(), error.message());
     return {};
 }

@@ -39,7 +39,7 @@ struct ArchiveCall {
 };
 
 struct ArchiveGrids {
-    std::optional<cache::Store> store;  // holds the cache against other writers
+    std::optional<cache::RollingStore> store;  // holds the cache against other writers
     std::string domain;
     std::vector<cache::StoreEntry> entries;  // those of the range, rising in time
     std::optional<pipeline::Domain> mosaic;  // none: a station's own grids

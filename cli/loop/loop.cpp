@@ -165,15 +165,15 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
 }
 
 // None as long as there is no cache.
-Result<std::optional<cache::Store>> open_if_there(const std::string& cache) {
-    auto opened = cache::Store::open_for_reading(cache);
+Result<std::optional<cache::StoreReader>> open_if_there(const std::string& cache) {
+    auto opened = cache::StoreReader::open(cache);
     if (opened) return std::optional{std::move(*opened)};
     if (opened.error().code != ErrorCode::not_found) return pass_on(opened);
-    return std::optional<cache::Store>{};
+    return std::optional<cache::StoreReader>{};
 }
 
 // The grids that stand now; a cache that came meanwhile is opened.
-Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::Store>& store,
+Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::StoreReader>& store,
                                                   const LoopOptions& options,
                                                   level2::Moment moment) {
     if (const auto range = parse_time_range(options.range); !range) return pass_on(range);
@@ -190,7 +190,7 @@ Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::Store>& s
 int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
     auto opened = open_if_there(options.cache);
     if (!opened) return report_error(opened.error());
-    std::optional<cache::Store> store = std::move(*opened);
+    std::optional<cache::StoreReader> store = std::move(*opened);
     KeptFrames kept;
     options.kept = &kept;
     return follow({options.cache, options.domain, scene.moment,

@@ -113,7 +113,7 @@ Status take_from_archive(const LoopOptions& options, const render::Scene& scene,
 
 Status take_from_cache(const LoopOptions& options, const render::Scene& scene, LoopGrids& grids) {
     if (auto fine = parse_archive(options.archive); !fine) return pass_on(fine);
-    auto store = cache::Store::open_for_reading(options.cache);
+    auto store = cache::StoreReader::open(options.cache);
     if (!store) return pass_on(store);
     auto entries = store->list(options.domain, scene.moment, grids.range.from, grids.range.to);
     if (!entries) return pass_on(entries);
@@ -134,7 +134,7 @@ Status take_from_cache(const LoopOptions& options, const render::Scene& scene, L
 
 }  // namespace
 
-LoopGrids grids_of(const cache::Store& store, const std::string& domain,
+LoopGrids grids_of(const cache::StoreReader& store, const std::string& domain,
                    const std::vector<cache::StoreEntry>& entries) {
     LoopGrids grids;
     grids.store = store;
@@ -143,7 +143,7 @@ LoopGrids grids_of(const cache::Store& store, const std::string& domain,
     return grids;
 }
 
-Result<std::vector<cache::StoreEntry>> entries_now(const cache::Store& store,
+Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& store,
                                                    const LoopOptions& options,
                                                    level2::Moment moment) {
     const auto range = parse_time_range(options.range);

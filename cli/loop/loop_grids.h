@@ -23,7 +23,7 @@ struct LoopFrame {
 };
 
 struct LoopGrids {
-    std::optional<cache::Store> store;
+    std::optional<cache::StoreReader> store;
     std::string domain;
     TimeRange range;
     std::vector<LoopFrame> frames;  // rising in time; empty: nothing matched, which was said
@@ -34,10 +34,10 @@ struct LoopGrids {
 };
 
 // Of a cache's grids as they are.
-[[nodiscard]] LoopGrids grids_of(const cache::Store& store, const std::string& domain,
+[[nodiscard]] LoopGrids grids_of(const cache::StoreReader& store, const std::string& domain,
                                  const std::vector<cache::StoreEntry>& entries);
 // The grids of a cache that are asked for, as of now: relative times count from the call.
-[[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::Store& store,
+[[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& store,
                                                                  const LoopOptions& options,
                                                                  level2::Moment moment);
 

@@ -42,7 +42,7 @@ struct FrameOptions {
 };
 
 // The newest grid of the domain at or before the time; none when there is no such grid.
-Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
+Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
                                                    level2::Moment moment) {
     std::optional<UtcTime> until;
@@ -59,7 +59,8 @@ Result<std::optional<cache::StoreEntry>> find_grid(const cache::Store& store,
     return std::optional{entries->back()};
 }
 
-int report_nothing(const cache::Store& store, const FrameOptions& options, level2::Moment moment) {
+int report_nothing(const cache::StoreReader& store, const FrameOptions& options,
+                   level2::Moment moment) {
     return report_no_grid(
         store, options.domain, moment,
         options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));
@@ -221,7 +222,7 @@ int run_frame(FrameOptions options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
     options.plan = std::move(*plan);
-    const auto store = cache::Store::open_for_reading(options.cache);
+    const auto store = cache::StoreReader::open(options.cache);
     if (!store) return report_error(store.error());
     const auto entry = find_grid(*store, options, scene->moment);
     if (!entry) return report_error(entry.error());

@@ -11,7 +11,8 @@ namespace stormcellar::cli {
 namespace {
 
 // Of which the domain keeps grids, whenever they are from.
-std::vector<std::string_view> moments_kept(const cache::Store& store, const std::string& domain) {
+std::vector<std::string_view> moments_kept(const cache::StoreReader& store,
+                                           const std::string& domain) {
     std::vector<std::string_view> kept;
     for (const level2::Moment moment : level2::all_moments) {
         const auto entries = store.list(domain, moment, std::nullopt, std::nullopt);
@@ -22,8 +23,8 @@ std::vector<std::string_view> moments_kept(const cache::Store& store, const std:
 
 }  // namespace
 
-int report_no_grid(const cache::Store& store, const std::string& domain, level2::Moment moment,
-                   const std::string& when) {
+int report_no_grid(const cache::StoreReader& store, const std::string& domain,
+                   level2::Moment moment, const std::string& when) {
     const auto kept = moments_kept(store, domain);
     const std::string_view name = level2::moment_name(moment);
     std::string why;

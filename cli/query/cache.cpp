@@ -15,8 +15,8 @@
 namespace stormcellar::cli {
 namespace {
 
-using cache::Store;
 using cache::StoreEntry;
+using cache::StoreReader;
 
 struct CacheOptions {
     std::string directory;
@@ -29,7 +29,7 @@ struct CacheOptions {
 Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
-    const auto store = Store::open_for_reading(options.directory);
+    const auto store = StoreReader::open(options.directory);
     if (!store) return pass_on(store);
     auto domains = store->domains();
     if (!domains) return pass_on(domains);

@@ -15,8 +15,8 @@
 namespace stormcellar::cli {
 namespace {
 
-using cache::Store;
 using cache::StoreEntry;
+using cache::StoreReader;
 
 struct EvictOptions {
     std::string directory, domain;
@@ -88,7 +88,7 @@ void print_evicted(const EvictOptions& options, const cache::EvictionPlan& plan,
 int run_evict(const EvictOptions& options) {
     const auto order = order_of(options);
     if (!order) return report_error(order.error());
-    const auto store = Store::open_for_reading(options.directory);
+    const auto store = StoreReader::open(options.directory);
     if (!store) return report_error(store.error());
     const auto plan = cache::plan_eviction(*store, *order, now_utc());
     if (!plan) return report_error(plan.error());
@@ -118,7 +118,7 @@ struct PinOptions {
 int run_pin(const PinOptions& options, bool pin) {
     const auto range = parse_time_range(options.times);
     if (!range) return report_error(range.error());
-    const auto store = Store::open_for_reading(options.directory);
+    const auto store = StoreReader::open(options.directory);
     if (!store) return report_error(store.error());
     nlohmann::json changed = nlohmann::json::array();
     for (const level2::Moment moment : level2::all_moments) {

@@ -17,8 +17,8 @@ namespace stormcellar::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using catalog::Catalog;
 using catalog::CatalogEntry;
+using catalog::CatalogReader;
 
 struct CatalogOptions {
     std::string directory;
@@ -83,14 +83,14 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
 }
 
 // Databases that could not be read: each is its own station's trouble, the others were answered.
-int report_troubles(const Catalog& catalog, int status) {
+int report_troubles(const CatalogReader& catalog, int status) {
     for (const catalog::Trouble& trouble : catalog.troubles())
         status = report_error(trouble.error);
     return status;
 }
 
 int run_stations(const CatalogOptions& options) {
-    auto opened = Catalog::open_for_reading(options.directory);
+    auto opened = CatalogReader::open(options.directory);
     if (!opened) return report_error(opened.error());
     const auto stations = opened->stations();
     if (!stations) return report_error(stations.error());
@@ -124,7 +124,8 @@ bool is_part_of_a_volume(const CatalogEntry& entry) {
 }
 
 // The entries that the options name, of one station or of all whose databases can be read.
-Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options, Catalog& catalog) {
+Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
+                                           const CatalogReader& catalog) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
     const catalog::Query query{range->from, range->to, options.rejected};
@@ -153,7 +154,7 @@ int report_query_error(const Error& error, const CatalogOptions& options) {
 }
 
 int run_list(const CatalogOptions& options) {
-    auto opened = Catalog::open_for_reading(options.directory);
+    auto opened = CatalogReader::open(options.directory);
     if (!opened) return report_query_error(opened.error(), options);
     const auto entries = matching(options, *opened);
     if (!entries) return report_query_error(entries.error(), options);
@@ -165,7 +166,7 @@ int run_list(const CatalogOptions& options) {
 }
 
 int run_one(const CatalogOptions& options, bool latest) {
-    auto opened = Catalog::open_for_reading(options.directory);
+    auto opened = CatalogReader::open(options.directory);
     if (!opened) return report_error(opened.error());
     const auto entry = latest ? opened->latest(options.station) : opened->oldest(options.station);
     if (!entry) return report_query_error(entry.error(), options);
@@ -185,7 +186,7 @@ int run_one(const CatalogOptions& options, bool latest) {
 }
 
 int run_get(const CatalogOptions& options) {
-    auto opened = Catalog::open_for_reading(options.directory);
+    auto opened = CatalogReader::open(options.directory);
     if (!opened) return report_query_error(opened.error(), options);
     const auto entries = matching(options, *opened);
     if (!entries) return report_query_error(entries.error(), options);

@@ -80,7 +80,8 @@ std::string name_of_file(const CatalogEntry& entry) {
 }
 
 // With what is worth saying about it on stderr.
-Result<std::vector<std::byte>> read_raw(catalog::Catalog& catalog, const CatalogEntry& entry) {
+Result<std::vector<std::byte>> read_raw(const catalog::CatalogReader& catalog,
+                                        const CatalogEntry& entry) {
     auto volume = pipeline::read_cataloged_volume(catalog, entry);
     if (!volume) return pass_on(volume);
     for (const std::string& note : volume->notes)
@@ -88,7 +89,7 @@ Result<std::vector<std::byte>> read_raw(catalog::Catalog& catalog, const Catalog
     return std::move(volume->bytes);
 }
 
-Status copy_raw(catalog::Catalog& catalog, const MatchedFile& file, Targets& targets) {
+Status copy_raw(const catalog::CatalogReader& catalog, const MatchedFile& file, Targets& targets) {
     const auto to = targets.claim(name_of_file(file.entry));
     if (!to) return pass_on(to);
     const auto bytes = read_raw(catalog, file.entry);
@@ -107,7 +108,8 @@ std::string name_without_compression(const fs::path& path) {
     return (compressed ? path.stem() : path.filename()).string();
 }
 
-Result<level2::Decoded> decode_raw(catalog::Catalog& catalog, const CatalogEntry& entry) {
+Result<level2::Decoded> decode_raw(const catalog::CatalogReader& catalog,
+                                   const CatalogEntry& entry) {
     const auto bytes = read_raw(catalog, entry);
     if (!bytes) return pass_on(bytes);
     level2::DecodeOptions options;
@@ -132,7 +134,8 @@ std::vector<std::size_t> matched_volumes(const MatchedFile& file,
     return matched;
 }
 
-Status write_decoded(catalog::Catalog& catalog, const MatchedFile& file, Targets& targets) {
+Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& file,
+                     Targets& targets) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
@@ -152,7 +155,7 @@ Status write_decoded(catalog::Catalog& catalog, const MatchedFile& file, Targets
                 file.entry.path.native());
 }
 
-Status decode_to_stdout(catalog::Catalog& catalog, const MatchedFile& file) {
+Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile& file) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
@@ -170,7 +173,7 @@ Status decode_to_stdout(catalog::Catalog& catalog, const MatchedFile& file) {
 }
 
 // The one file that matched.
-Status get_to_stdout(catalog::Catalog& catalog, const std::vector<MatchedFile>& files,
+Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<MatchedFile>& files,
                      bool decode) {
     if (files.size() != 1) {
         return fail(ErrorCode::bad_argument, "-o - takes one file, and {} matched", files.size());
@@ -183,7 +186,7 @@ Status get_to_stdout(catalog::Catalog& catalog, const std::vector<MatchedFile>& 
 
 }  // namespace
 
-int get_files(catalog::Catalog& catalog, const std::vector<CatalogEntry>& entries,
+int get_files(const catalog::CatalogReader& catalog, const std::vector<CatalogEntry>& entries,
               const GetOptions& options) {
     if (is_stdout(options.output)) {
         const Status done = get_to_stdout(catalog, files_of(entries), options.decode);

@@ -18,7 +18,7 @@ struct GetOptions {
 // says that it is compressed, and as NAME_volumeN.nc when the file holds several. Prints the path
 // of each. Goes on after a failure; gives the exit status of the last one.
 // A file that is no longer the one that was cataloged is not copied and is a failure.
-[[nodiscard]] int get_files(catalog::Catalog& catalog,
+[[nodiscard]] int get_files(const catalog::CatalogReader& catalog,
                             const std::vector<catalog::CatalogEntry>& entries,
                             const GetOptions& options);
 

@@ -25,7 +25,7 @@ void log_problem(std::string_view what, const Error& error) {
 }
 
 // A database that cannot be used at all is named by the service.
-bool is_in_trouble(const catalog::Catalog& catalog, const std::string& station) {
+bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),
                        [&](const catalog::Trouble& trouble) { return trouble.station == station; });

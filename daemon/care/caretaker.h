@@ -31,8 +31,8 @@ struct CareTimes {
 
 // What it works on; all must outlive it.
 struct CareOf {
-    catalog::Catalog& catalog;
-    const cache::Store& store;
+    catalog::CatalogWriter& catalog;
+    const cache::StoreReader& store;
     pipeline::CacheMender& mender;
     pipeline::SiteWatch& sites;
 };

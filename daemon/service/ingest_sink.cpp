@@ -17,8 +17,9 @@ bool is_known_group(std::string_view group, const StationRule& stations) {
 
 }  // namespace
 
-IngestSink::IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
-                       std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors)
+IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store,
+                       const Config& config, std::shared_ptr<StationRule> stations,
+                       const DescriptorPlan& descriptors)
     : drop_(config.drop),
       stations_(std::move(stations)),
       growing_(descriptors.growing),
@@ -51,14 +52,14 @@ Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
     options.most_open = descriptors.databases;
     options.drop = config.drop;
     options.most_bytes = config.catalog_bytes.value_or(catalog::CatalogOptions::no_limit);
-    auto catalog = catalog::Catalog::open_for_writing(config.state / "catalog", options);
+    auto catalog = catalog::CatalogWriter::open(config.state / "catalog", options);
     if (!catalog) return pass_on(catalog);
     cache::Surroundings surroundings;
     surroundings.is_known = [stations](std::string_view group) {
         return is_known_group(group, *stations);
     };
-    auto store = cache::Store::open_rolling(real_file_system(), config.cache, config.budgets,
-                                            std::move(surroundings));
+    auto store = cache::RollingStore::open(real_file_system(), config.cache, config.budgets,
+                                           std::move(surroundings));
     if (!store) return pass_on(store);
     store->pack_with(config.packing);
     return std::unique_ptr<IngestSink>(new IngestSink(std::move(*catalog), std::move(*store),

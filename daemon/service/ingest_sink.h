@@ -37,13 +37,13 @@ class IngestSink final : public Sink {
     std::vector<std::string> take_repairs() override;
 
     // For the keeper of the cache, which works beside take().
-    [[nodiscard]] catalog::Catalog& catalog() { return catalog_; }
-    [[nodiscard]] const cache::Store& store() const { return store_; }
+    [[nodiscard]] catalog::CatalogWriter& catalog() { return catalog_; }
+    [[nodiscard]] const cache::StoreReader& store() const { return store_; }
     [[nodiscard]] pipeline::CacheMender& mender() { return mender_; }
     [[nodiscard]] pipeline::SiteWatch& site_watch() { return site_watch_; }
 
   private:
-    IngestSink(catalog::Catalog catalog, cache::Store store, const Config& config,
+    IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store, const Config& config,
                std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors);
 
     [[nodiscard]] pipeline::IngestOptions options_of(const Config& config) const;
@@ -53,8 +53,8 @@ class IngestSink final : public Sink {
     std::size_t growing_;  // descriptors for volumes that grow (descriptor_plan.h)
     catalog::LeftAlone left_alone_;
     std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
-    catalog::Catalog catalog_;
-    cache::Store store_;
+    catalog::CatalogWriter catalog_;
+    cache::RollingStore store_;
     pipeline::Ingestor ingestor_;
     pipeline::CacheMender mender_;
     pipeline::SiteWatch site_watch_;

@@ -101,7 +101,7 @@ std::string key_of(const std::filesystem::path& path) {
 // Whether files are those that the catalog has of these volumes.
 class CatalogedFiles {
   public:
-    CatalogedFiles(catalog::Catalog& catalog, const std::vector<ArchiveVolume>& volumes)
+    CatalogedFiles(const catalog::CatalogReader& catalog, const std::vector<ArchiveVolume>& volumes)
         : catalog_(catalog) {
         for (const ArchiveVolume& volume : volumes)
             stations_.emplace(key_of(volume.path), volume.station);
@@ -122,7 +122,7 @@ class CatalogedFiles {
                     path.native());
     }
 
-    catalog::Catalog& catalog_;
+    const catalog::CatalogReader& catalog_;
     std::map<std::string, std::string> stations_;
 };
 
@@ -145,7 +145,7 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, const std::filesys
 
 }  // namespace
 
-ArchiveFill::ArchiveFill(catalog::Catalog& catalog, const cache::Store& store,
+ArchiveFill::ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                          std::filesystem::path scratch, ArchiveOptions options)
     : catalog_(catalog),
       store_(store),
@@ -247,7 +247,7 @@ Result<std::filesystem::path> ArchiveFill::root_of(
 
 Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillProgress& progress,
                          const std::atomic<bool>& stop, FillReport& report) {
-    auto catalog = catalog::Catalog::open_for_writing(scratch_);
+    auto catalog = catalog::CatalogWriter::open(scratch_);
     if (!catalog) return pass_on(catalog);
     const auto root = root_of(missing);
     if (!root) return pass_on(root);

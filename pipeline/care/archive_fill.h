@@ -10,7 +10,7 @@
 // is not the file that was cataloged (stormcellar/catalog/read_cataloged.h): another that took its
 // place, or a link in its path.
 //
-// The store should have been opened so that nobody else writes to it (Store::open_rolling()).
+// The store should have been opened so that nobody else writes to it (RollingStore::open()).
 // Memory: as many decoded volumes as there are workers (at most most_workers), and their grids.
 // Thread contract: an ArchiveFill is for one thread; `progress` is called from its workers, one at
 // a time. `stop` may be set by any thread.
@@ -62,8 +62,8 @@ class ArchiveFill {
   public:
     // `catalog`: where the volumes were found. `scratch`: a directory for the chain's own catalog,
     // which is made there. All must outlive it.
-    ArchiveFill(catalog::Catalog& catalog, const cache::Store& store, std::filesystem::path scratch,
-                ArchiveOptions options);
+    ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
+                std::filesystem::path scratch, ArchiveOptions options);
 
     // The volumes of which no grid stands, to be made by fill().
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(
@@ -97,8 +97,8 @@ class ArchiveFill {
     [[nodiscard]] Result<std::filesystem::path> root_of(
         const std::vector<ArchiveVolume>& volumes) const;
 
-    catalog::Catalog& catalog_;
-    const cache::Store& store_;
+    const catalog::CatalogReader& catalog_;
+    cache::StoreWriter& store_;
     std::filesystem::path scratch_;
     ArchiveOptions options_;
 };

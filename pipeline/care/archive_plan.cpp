@@ -25,7 +25,7 @@ std::string recipe_of(const grid::GridSpec& spec) {
 
 }  // namespace
 
-std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
+std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                          const std::vector<std::string>& stations,
                                          std::vector<LeftOut>& left_out) {
     std::vector<grid::SitePosition> sites;
@@ -96,7 +96,7 @@ Status check_cache_directory(const fs::path& directory) {
     return {};
 }
 
-Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
+Result<std::vector<cache::StoreEntry>> entries_at(const cache::StoreReader& store,
                                                   const std::string& domain, level2::Moment moment,
                                                   const std::set<UtcTime>& times) {
     if (times.empty()) return std::vector<cache::StoreEntry>{};

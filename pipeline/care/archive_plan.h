@@ -28,7 +28,7 @@ struct ArchivePlan {
 
 // Where the stations stand, by their files or the station table. A station of which neither says so
 // is added to `left_out` with the reason.
-[[nodiscard]] std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
+[[nodiscard]] std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
@@ -44,8 +44,8 @@ struct ArchivePlan {
 // for a directory that holds anything else. One that does not exist is in order.
 [[nodiscard]] Status check_cache_directory(const std::filesystem::path& directory);
 
-// The grids at these times, as far as they are there. Errors: those of Store::list().
-[[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_at(const cache::Store& store,
+// The grids at these times, as far as they are there. Errors: those of StoreReader::list().
+[[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_at(const cache::StoreReader& store,
                                                                 const std::string& domain,
                                                                 level2::Moment moment,
                                                                 const std::set<UtcTime>& times);

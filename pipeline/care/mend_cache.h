@@ -57,8 +57,8 @@ enum class MendDepth {
 class CacheMender {
   public:
     // All must outlive it. `moment` is what the ingestor grids.
-    CacheMender(catalog::Catalog& catalog, const cache::Store& store, Ingestor& ingestor,
-                level2::Moment moment);
+    CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
+                Ingestor& ingestor, level2::Moment moment);
 
     // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
@@ -99,8 +99,8 @@ class CacheMender {
     Result<std::vector<MissingGrid>> missing_of(const std::string& station,
                                                 std::chrono::milliseconds newest);
 
-    catalog::Catalog& catalog_;
-    const cache::Store& store_;
+    const catalog::CatalogReader& catalog_;
+    cache::StoreWriter& store_;
     Ingestor& ingestor_;
     level2::Moment moment_;
     std::set<cache::GridName> failed_;  // not tried again

@@ -84,7 +84,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     catalog::CatalogOptions writing;
     writing.stations = options.stations;
     writing.drop = drop;
-    auto catalog = catalog::Catalog::open_for_writing(options.catalog, writing);
+    auto catalog = catalog::CatalogWriter::open(options.catalog, writing);
     if (!catalog) return pass_on(catalog);
     if (options.station.empty()) {
         // One that cannot be used is no reason to leave the others as they are.

@@ -50,7 +50,7 @@ void keep_taken(const ArchiveRange& range, std::vector<ArchiveVolume>& volumes) 
 
 }  // namespace
 
-Result<std::vector<ArchiveVolume>> archive_volumes(catalog::Catalog& catalog,
+Result<std::vector<ArchiveVolume>> archive_volumes(const catalog::CatalogReader& catalog,
                                                    const std::vector<std::string>& stations,
                                                    const ArchiveRange& range) {
     std::vector<ArchiveVolume> all;

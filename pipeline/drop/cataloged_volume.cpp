@@ -9,11 +9,11 @@
 namespace stormcellar::pipeline {
 namespace {
 
-using catalog::Catalog;
 using catalog::CatalogEntry;
+using catalog::CatalogReader;
 
 // Puts the bytes of a file behind those that were read before.
-Status append(const Catalog& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
+Status append(const CatalogReader& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
     auto read = catalog::read_cataloged(catalog, entry);
     if (!read) return pass_on(read);
     if (!read->is_compared) {
@@ -29,7 +29,7 @@ Status append(const Catalog& catalog, const CatalogEntry& entry, CatalogedVolume
     return {};
 }
 
-Result<CatalogedVolume> read_chunks(Catalog& catalog, const CatalogEntry& entry,
+Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogEntry& entry,
                                     const ChunkPath& first) {
     const auto root = catalog::root_of(catalog, entry.path);
     if (!root) return pass_on(root);
@@ -63,7 +63,8 @@ bool is_of_chunks(const CatalogEntry& entry) {
     return entry.volume.start_time && is_chunk_name(entry.path);
 }
 
-Result<CatalogedVolume> read_cataloged_volume(Catalog& catalog, const CatalogEntry& entry) {
+Result<CatalogedVolume> read_cataloged_volume(const CatalogReader& catalog,
+                                              const CatalogEntry& entry) {
     const auto chunk = ChunkPath::of(entry.path);
     if (chunk && is_of_chunks(entry)) return read_chunks(catalog, entry, *chunk);
     CatalogedVolume volume;

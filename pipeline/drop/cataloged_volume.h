@@ -26,7 +26,7 @@ struct CatalogedVolume {
 
 // Of chunks: in the order of their numbers, of each number one, as far as they lie there. Those
 // without a row are left out. Errors: those of read_cataloged().
-[[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(catalog::Catalog& catalog,
+[[nodiscard]] Result<CatalogedVolume> read_cataloged_volume(const catalog::CatalogReader& catalog,
                                                             const catalog::CatalogEntry& entry);
 
 }  // namespace stormcellar::pipeline

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_files = 4;  // that are looked into
 
-std::optional<grid::SitePosition> place_in(catalog::Catalog& catalog,
+std::optional<grid::SitePosition> place_in(const catalog::CatalogReader& catalog,
                                            const catalog::CatalogEntry& entry) {
     const auto raw = read_cataloged_volume(catalog, entry);
     if (!raw) return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<grid::SitePosition> place_in(catalog::Catalog& catalog,
 
 }  // namespace
 
-std::optional<grid::SitePosition> place_of_station(catalog::Catalog& catalog,
+std::optional<grid::SitePosition> place_of_station(const catalog::CatalogReader& catalog,
                                                    const std::string& icao) {
     if (const auto station = find_station(icao)) {
         return grid::SitePosition{icao, station->latitude_deg, station->longitude_deg,

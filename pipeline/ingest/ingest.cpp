@@ -77,7 +77,7 @@ std::string station_of_name(const fs::path& path) {
 
 }  // namespace
 
-Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_store,
+Ingestor::Impl::Impl(catalog::CatalogWriter& its_catalog, cache::StoreWriter* its_store,
                      IngestOptions its_options)
     : catalog(its_catalog),
       store(its_store),
@@ -105,9 +105,10 @@ Ingestor::Impl::Impl(catalog::Catalog& its_catalog, const cache::Store* its_stor
     chunks.emplace(follow, limits);
 }
 
-Ingestor::Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options)
+Ingestor::Ingestor(catalog::CatalogWriter& catalog, cache::StoreWriter& store,
+                   IngestOptions options)
     : impl_(new Impl(catalog, &store, std::move(options))) {}
-Ingestor::Ingestor(catalog::Catalog& catalog, IngestOptions options)
+Ingestor::Ingestor(catalog::CatalogWriter& catalog, IngestOptions options)
     : impl_(new Impl(catalog, nullptr, std::move(options))) {}
 Ingestor::~Ingestor() = default;
 

@@ -29,9 +29,9 @@ enum class Tries { more_follow, last };
 
 class Ingestor {
   public:
-    Ingestor(catalog::Catalog& catalog, const cache::Store& store, IngestOptions options);
+    Ingestor(catalog::CatalogWriter& catalog, cache::StoreWriter& store, IngestOptions options);
     // Without a cache: files are decoded and registered, and not gridded.
-    Ingestor(catalog::Catalog& catalog, IngestOptions options);
+    Ingestor(catalog::CatalogWriter& catalog, IngestOptions options);
     ~Ingestor();
     Ingestor(const Ingestor&) = delete;
     Ingestor& operator=(const Ingestor&) = delete;

@@ -79,10 +79,11 @@ class OpenArchives {
 };
 
 struct Ingestor::Impl {
-    Impl(catalog::Catalog& its_catalog, const cache::Store* its_store, IngestOptions its_options);
+    Impl(catalog::CatalogWriter& its_catalog, cache::StoreWriter* its_store,
+         IngestOptions its_options);
 
-    catalog::Catalog& catalog;
-    const cache::Store* store;  // none: files are only registered
+    catalog::CatalogWriter& catalog;
+    cache::StoreWriter* store;  // none: files are only registered
     IngestOptions options;
     MosaicKeeper mosaics;
     std::optional<SiteGrids> site_grids;  // where there is a cache

@@ -42,7 +42,7 @@ std::optional<std::string> reason_to_keep(const std::filesystem::path& path,
     return std::nullopt;
 }
 
-void keep_to_an_hours_volumes(const cache::Store& store, const std::string& domain,
+void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time) {
     constexpr std::chrono::minutes around{30};
     auto near = store.list(domain, moment, time - around, time + around);
@@ -60,7 +60,7 @@ void keep_to_an_hours_volumes(const cache::Store& store, const std::string& doma
     if (oldest != near->end()) (void)store.remove(*oldest);
 }
 
-void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
+void remove_other_times(cache::StoreWriter& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file) {
     const auto chunk = level2::parse_chunk_name(source_file);
     if (!chunk || !volume.header) return;

@@ -30,7 +30,7 @@ inline constexpr std::size_t most_volumes_an_hour = 120;
 // Where more stand within half an hour of this grid, the one that was written longest ago goes, so
 // that files which claim to be of one station push out little of the others' history. Pinned grids
 // and this one stay.
-void keep_to_an_hours_volumes(const cache::Store& store, const std::string& domain,
+void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time);
 
 // Takes away what stands under another time of the same volume: a volume of chunks is named by its
@@ -38,7 +38,7 @@ void keep_to_an_hours_volumes(const cache::Store& store, const std::string& doma
 // away, as its beginning may have been deleted since. The source must be named as a chunk
 // (stormcellar/level2/chunk_name.h), as that of the grid that goes; pinned grids stay. A grid that
 // cannot be read or removed stays too.
-void remove_other_times(const cache::Store& store, const std::string& domain, level2::Moment moment,
+void remove_other_times(cache::StoreWriter& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file);
 
 }  // namespace stormcellar::pipeline

@@ -30,7 +30,7 @@ struct GridSource {
 
 class SiteGrids {
   public:
-    SiteGrids(const cache::Store& store, const IngestOptions& options)
+    SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
         : store_(store), options_(options) {}
 
     // Whether somebody knows where the radar stands; if not the outcome says so.
@@ -54,7 +54,7 @@ class SiteGrids {
     Result<std::filesystem::path> commit(Made& made, const level2::Volume& volume, bool is_living,
                                          IngestOutcome& outcome);
 
-    const cache::Store& store_;
+    cache::StoreWriter& store_;
     const IngestOptions& options_;
     // A geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;

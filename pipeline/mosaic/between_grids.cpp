@@ -26,7 +26,8 @@ PartialView view_of(const cache::GridFile& file) {
 
 }  // namespace
 
-BetweenGrids::BetweenGrids(const cache::Store& store, level2::Moment moment, BetweenOptions options)
+BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment moment,
+                           BetweenOptions options)
     : store_(store),
       moment_(moment),
       options_(options),
@@ -57,7 +58,7 @@ Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
                 "of its own?), so none can be made between them");
 }
 
-Result<BetweenGrids> BetweenGrids::open(const cache::Store& store, const std::string& domain,
+Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const std::string& domain,
                                         level2::Moment moment, const BetweenOptions& options,
                                         std::vector<std::string>& problems) {
     BetweenGrids all(store, moment, options);

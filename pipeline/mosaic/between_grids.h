@@ -49,7 +49,7 @@ class BetweenGrids {
     // Keeps a copy of the store. Grids that cannot be read are named in `problems` and left out.
     // Errors: not_found where no grid stands, or a mosaic's sites have none; unsupported for a
     // mosaic that was made by rules other than the defaults can be.
-    static Result<BetweenGrids> open(const cache::Store& store, const std::string& domain,
+    static Result<BetweenGrids> open(const cache::StoreReader& store, const std::string& domain,
                                      level2::Moment moment, const BetweenOptions& options,
                                      std::vector<std::string>& problems);
 
@@ -70,13 +70,13 @@ class BetweenGrids {
         grid::GridSpec spec;
         bool dated = false;
     };
-    BetweenGrids(const cache::Store& store, level2::Moment moment, BetweenOptions options);
+    BetweenGrids(const cache::StoreReader& store, level2::Moment moment, BetweenOptions options);
     Status learn_rules(const cache::GridDescription& newest);
     [[nodiscard]] Result<std::optional<MosaicFrame>> of_volumes(UtcTime instant);
     [[nodiscard]] Result<std::optional<MosaicFrame>> of_partials(UtcTime instant);
     [[nodiscard]] std::optional<std::size_t> before(UtcTime instant) const;
 
-    cache::Store store_;
+    cache::StoreReader store_;
     level2::Moment moment_;
     BetweenOptions options_;
     std::vector<Stored> grids_;     // by their middles; a mosaic's frames by their instants

@@ -20,7 +20,7 @@ auto no_domain(const cache::GridName& frame) {
 }
 
 // When the volumes began whose partials stand.
-Result<std::set<UtcTime>> starts_of(const cache::Store& store, const Domain& domain,
+Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domain& domain,
                                     level2::Moment moment) {
     std::set<UtcTime> starts;
     const auto domains = partial_domains(store, domain.name);
@@ -44,7 +44,7 @@ bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
     return any_before && any_after;
 }
 
-Result<bool> is_due(const cache::Store& store, const Domain& domain, level2::Moment moment,
+Result<bool> is_due(const cache::StoreReader& store, const Domain& domain, level2::Moment moment,
                     UtcTime instant) {
     std::vector<std::string> ignored;
     const auto partials = OpenPartials::open(store, domain, moment, instant, instant, ignored);

@@ -104,7 +104,7 @@ std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::sec
     return instants;
 }
 
-MosaicKeeper::MosaicKeeper(const cache::Store* store, std::vector<Domain> domains,
+MosaicKeeper::MosaicKeeper(cache::StoreWriter* store, std::vector<Domain> domains,
                            FramesWhen frames)
     : store_(store),
       domains_(std::move(domains)),

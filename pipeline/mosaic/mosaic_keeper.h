@@ -77,7 +77,7 @@ class OpenPartials;
 class MosaicKeeper {
   public:
     // Without a store, or without domains, it does nothing.
-    MosaicKeeper(const cache::Store* store, std::vector<Domain> domains,
+    MosaicKeeper(cache::StoreWriter* store, std::vector<Domain> domains,
                  FramesWhen frames = FramesWhen::volume_comes);
 
     // Does nothing for volumes that no domain takes. `threads` work on it. Errors: what may pass,
@@ -123,7 +123,7 @@ class MosaicKeeper {
     Status refresh(const Domain& domain, level2::Moment moment,
                    const cache::GridDescription& changed, int threads, Kept& kept);
 
-    const cache::Store* store_;
+    cache::StoreWriter* store_;
     std::vector<Domain> domains_;
     FramesWhen frames_when_;
     GeometryCache geometries_;

@@ -11,7 +11,7 @@ constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
 
 }  // namespace
 
-Result<std::vector<std::string>> partial_domains(const cache::Store& store,
+Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                  const std::string& domain) {
     auto domains = store.domains();
     if (!domains) return domains;
@@ -20,7 +20,7 @@ Result<std::vector<std::string>> partial_domains(const cache::Store& store,
     return domains;
 }
 
-Result<OpenPartials> OpenPartials::open(const cache::Store& store, const Domain& domain,
+Result<OpenPartials> OpenPartials::open(const cache::StoreReader& store, const Domain& domain,
                                         level2::Moment moment, UtcTime from, UtcTime to,
                                         std::vector<std::string>& problems) {
     OpenPartials all;

@@ -19,7 +19,7 @@ namespace stormcellar::pipeline {
 inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minutes{10};
 
 // Names of a domain's partials: "NAME.ICAO". Errors: the cache cannot be read.
-[[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::Store& store,
+[[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
 class OpenPartials {
@@ -27,7 +27,7 @@ class OpenPartials {
     // Those that count for an instant between `from` and `to`. What cannot be opened is named in
     // `problems`; partials of a configuration that has changed since are left out.
     // Errors: the cache cannot be read.
-    static Result<OpenPartials> open(const cache::Store& store, const Domain& domain,
+    static Result<OpenPartials> open(const cache::StoreReader& store, const Domain& domain,
                                      level2::Moment moment, UtcTime from, UtcTime to,
                                      std::vector<std::string>& problems);
 

@@ -17,7 +17,7 @@ bool has_reflectivity(const Domain& domain) {
 
 }  // namespace
 
-SiteWatch::SiteWatch(const cache::Store& store, std::vector<Domain> domains)
+SiteWatch::SiteWatch(const cache::StoreReader& store, std::vector<Domain> domains)
     : store_(store), domains_(std::move(domains)) {
     std::erase_if(domains_, [](const Domain& domain) { return !has_reflectivity(domain); });
 }

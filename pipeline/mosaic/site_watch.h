@@ -31,7 +31,7 @@ class SiteWatch {
     static constexpr std::chrono::milliseconds period = std::chrono::hours{1};
 
     // The store must outlive it.
-    SiteWatch(const cache::Store& store, std::vector<Domain> domains);
+    SiteWatch(const cache::StoreReader& store, std::vector<Domain> domains);
 
     // Compares the next pair that is due; none: nothing is. A pair of which a partial is gone or
     // damaged, or that cannot be compared, waits for its next turn.
@@ -49,7 +49,7 @@ class SiteWatch {
     [[nodiscard]] std::optional<PairReport> compare(const CompleteFrame& frame,
                                                     const Pair& pair) const;
 
-    const cache::Store& store_;
+    const cache::StoreReader& store_;
     std::vector<Domain> domains_;  // those that have reflectivity
     // By domain and pair: the instant of the frame that it was compared by.
     std::map<std::pair<std::string, Pair>, UtcTime> compared_;

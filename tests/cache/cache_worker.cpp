@@ -21,7 +21,7 @@ int write(const fs::path& cache, std::uint64_t bytes, unsigned seed, const fs::p
     cache::Budgets budgets;
     budgets.total.bytes = bytes;
     budgets.low_watermark = 0.8;
-    const auto store = cache::Store::open_rolling(real_file_system(), cache, budgets);
+    auto store = cache::RollingStore::open(real_file_system(), cache, budgets);
     if (!store) {
         std::fprintf(stderr, "%s\n", store.error().message.c_str());
         return 1;
@@ -44,7 +44,7 @@ int write(const fs::path& cache, std::uint64_t bytes, unsigned seed, const fs::p
 int read(const fs::path& cache, const fs::path& stop) {
     std::size_t whole = 0;
     while (!fs::exists(stop)) {
-        const auto store = cache::Store::open_for_reading(cache);
+        const auto store = cache::StoreReader::open(cache);
         if (!store) return 1;
         for (const cache::StoreEntry& entry : testing::all_grids(*store)) {
             const auto file = cache::GridFile::open(entry.path);

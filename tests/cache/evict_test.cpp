@@ -39,7 +39,7 @@ class EvictTest : public ::testing::Test {
     }
     testing::TemporaryDirectory directory_;
     testing::MeteredFileSystem disk_{directory_.path()};
-    Store store_ = *Store::open_for_writing(disk_, directory_.path(), false);
+    StoreWriter store_ = *StoreWriter::open(disk_, directory_.path(), false);
     std::uint64_t grid_bytes_ = 0;
 };
 

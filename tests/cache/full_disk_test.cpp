@@ -17,8 +17,10 @@ using testing::noon;
 
 class FullDiskTest : public ::testing::Test {
   protected:
-    Store open(const Budgets& budgets) { return *Store::open_rolling(disk_, cache_, budgets); }
-    auto commit(const Store& store, int minute) {
+    RollingStore open(const Budgets& budgets) {
+        return *RollingStore::open(disk_, cache_, budgets);
+    }
+    auto commit(StoreWriter& store, int minute) {
         return testing::commit_sized(store, "A", noon + minutes{minute});
     }
     testing::TemporaryDirectory directory_;
@@ -29,7 +31,7 @@ class FullDiskTest : public ::testing::Test {
 
 TEST_F(FullDiskTest, TheOldestMakeRoomWhereABudgetLimitsSpace) {
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 8; ++minute)
         ASSERT_TRUE(commit(store, minute));
     disk_.set_capacity(testing::allocated_bytes(cache_) + 4096);
@@ -40,12 +42,12 @@ TEST_F(FullDiskTest, TheOldestMakeRoomWhereABudgetLimitsSpace) {
     EXPECT_GE(grids.size(), 6U);
     for (const StoreEntry& entry : grids)
         EXPECT_EQ(testing::trouble_in(entry), "");
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
 }
 
 TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
     budgets_.total.age = std::chrono::hours{1000};
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 4; ++minute)
         ASSERT_TRUE(commit(store, minute));
     const std::uint64_t before = testing::allocated_bytes(cache_);
@@ -57,12 +59,12 @@ TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
     EXPECT_THAT(refused.error().message, HasSubstr("No space left on device"));
     EXPECT_EQ(testing::all_grids(store).size(), 4U);
     EXPECT_EQ(testing::allocated_bytes(cache_), before);
-    EXPECT_EQ(store.usage()->bytes, before);
+    EXPECT_EQ(store.usage().bytes, before);
 }
 
 TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
     budgets_.total.file_system_percent = 90;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     ASSERT_TRUE(commit(store, 0));
     disk_.set_capacity(testing::allocated_bytes(cache_) + 4096);
     const auto refused = commit(store, 1);
@@ -75,7 +77,7 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
 // stations that nobody knows while those that are known would find room.
 TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 8; ++minute)
         ASSERT_TRUE(commit(store, minute));
     const std::uint64_t before = testing::allocated_bytes(cache_);
@@ -85,8 +87,8 @@ TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     EXPECT_TRUE(path->empty());
     EXPECT_EQ(testing::all_grids(store).size(), 8U);
     EXPECT_EQ(testing::allocated_bytes(cache_), before);
-    EXPECT_EQ(store.usage()->bytes, before);
-    EXPECT_EQ(store.usage()->not_kept, 1U);
+    EXPECT_EQ(store.usage().bytes, before);
+    EXPECT_EQ(store.usage().not_kept, 1U);
     ASSERT_TRUE(commit(store, 9)) << "a known one takes the oldest's place";
 }
 
@@ -120,26 +122,26 @@ class Unremovable final : public FileSystem {
 TEST_F(FullDiskTest, WhatABrokenDiskLeavesBehindIsCounted) {
     Unremovable disk;
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = *Store::open_rolling(disk, cache_, budgets_);
+    RollingStore store = *RollingStore::open(disk, cache_, budgets_);
     for (int minute = 0; minute < 3; ++minute)
         ASSERT_TRUE(commit(store, minute));
     disk.broken = true;
     EXPECT_EQ(commit(store, 3).error().code, ErrorCode::io);
     EXPECT_GT(testing::allocated_bytes(cache_), 0U);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     Budgets smaller;
     smaller.total.bytes = 100;
     store.set_budgets(smaller);
     const RollReport report = store.roll();
     EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("cannot evict: ")));
     EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("more than its budget")));
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     store.set_budgets(budgets_);
     disk.broken = false;
     store.roll();
     EXPECT_EQ(testing::all_grids(store).size(), 3U);
     EXPECT_EQ(std::distance(fs::directory_iterator(cache_ / "A/REF/20241122"), {}), 3);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
 }
 
 }  // namespace

@@ -31,27 +31,27 @@ std::string invented(int number) {
 
 class OthersGridsTest : public ::testing::Test {
   protected:
-    Store open(const fs::path& cache, const Budgets& budgets) {
+    RollingStore open(const fs::path& cache, const Budgets& budgets) {
         Surroundings surroundings;
         surroundings.now = [this] { return now_utc() + later_; };
         surroundings.filling = [this](const fs::path& directory) -> Result<Filling> {
             return Filling{beside_ + testing::allocated_bytes(directory), capacity_};
         };
-        auto store = Store::open_rolling(real_file_system(), cache, budgets, surroundings);
+        auto store = RollingStore::open(real_file_system(), cache, budgets, surroundings);
         EXPECT_TRUE(store) << store.error().message;
-        return *store;
+        return std::move(*store);
     }
-    static Result<fs::path> commit(const Store& store, const std::string& domain, int minute,
+    static Result<fs::path> commit(StoreWriter& store, const std::string& domain, int minute,
                                    int stored = 4) {
         return testing::commit_sized(store, domain, noon + minutes{minute}, stored);
     }
-    static std::vector<std::string> grids_of(const Store& store, bool known) {
+    static std::vector<std::string> grids_of(const StoreReader& store, bool known) {
         std::vector<std::string> names;
         for (const StoreEntry& entry : testing::all_grids(store))
             if (is_known_group(entry.domain) == known) names.push_back(entry.path.filename());
         return names;
     }
-    static std::uint64_t bytes_of_others(const Store& store) {
+    static std::uint64_t bytes_of_others(const StoreReader& store) {
         std::uint64_t bytes = 0;
         for (const StoreEntry& entry : testing::all_grids(store))
             if (!is_known_group(entry.domain)) bytes += entry.bytes_on_disk;
@@ -59,7 +59,7 @@ class OthersGridsTest : public ::testing::Test {
     }
     // A cache as an older version left it: the newest grids of `count` invented stations.
     void leave_behind(int count) {
-        const auto store = *Store::open_for_writing(real_file_system(), cache_, false);
+        auto store = *StoreWriter::open(real_file_system(), cache_, false);
         for (int site = 0; site < count; ++site)
             ASSERT_TRUE(commit(store, invented(site), site));
     }
@@ -74,8 +74,8 @@ class OthersGridsTest : public ::testing::Test {
 // grids that nothing removed, real history went for them, and real grids were refused.
 TEST_F(OthersGridsTest, TwoHundredInventedStationsTakeNothingFromThoseThatAreKnown) {
     budgets_.total.bytes = 20'000'000;
-    const Store attacked = open(cache_, budgets_);
-    const Store quiet = open(directory_ / "quiet", budgets_);
+    RollingStore attacked = open(cache_, budgets_);
+    RollingStore quiet = open(directory_ / "quiet", budgets_);
     for (int site = 0; site < 200; ++site)
         ASSERT_TRUE(commit(attacked, invented(site), site));
     EXPECT_LE(bytes_of_others(attacked), 2'000'000U);
@@ -84,8 +84,8 @@ TEST_F(OthersGridsTest, TwoHundredInventedStationsTakeNothingFromThoseThatAreKno
     const std::vector<std::string> real = {"KTLX", "KINX", "northeast", "northeast.KBOX"};
     for (int step = 0; step < 360; ++step) {
         const std::string& domain = real[static_cast<std::size_t>(step) % real.size()];
-        for (const Store& store : {attacked, quiet}) {
-            const auto path = commit(store, domain, step, 5 + step % 4);
+        for (RollingStore* store : {&attacked, &quiet}) {
+            const auto path = commit(*store, domain, step, 5 + step % 4);
             ASSERT_TRUE(path) << path.error().message;
             ASSERT_FALSE(path->empty());
         }
@@ -97,10 +97,10 @@ TEST_F(OthersGridsTest, TwoHundredInventedStationsTakeNothingFromThoseThatAreKno
             ASSERT_EQ(grids_of(attacked, true), grids_of(quiet, true)) << step;
         }
     }
-    EXPECT_GT(quiet.usage()->evicted, 0U) << "the real stations never filled the cache";
+    EXPECT_GT(quiet.usage().evicted, 0U) << "the real stations never filled the cache";
     EXPECT_LE(bytes_of_others(attacked), 2'000'000U);
     EXPECT_LE(testing::allocated_bytes(cache_), *budgets_.total.bytes);
-    EXPECT_GT(attacked.usage()->not_kept, 0U);
+    EXPECT_GT(attacked.usage().not_kept, 0U);
 
     later_ = hours{169};
     attacked.roll();
@@ -110,7 +110,7 @@ TEST_F(OthersGridsTest, TwoHundredInventedStationsTakeNothingFromThoseThatAreKno
 // The newest grids of all stations alone are more than the budget; all of them are of known ones.
 TEST_F(OthersGridsTest, KnownStationsFindRoomEvenWhereTheirNewestAloneExceedTheBudget) {
     budgets_.total.bytes = 1'500'000;
-    const Store store = open(cache_, budgets_);
+    RollingStore store = open(cache_, budgets_);
     for (int round = 0; round < 2; ++round) {
         for (const Station& station : all_stations().subspan(0, 80)) {
             const auto path = commit(store, std::string(station.icao), round, 1 + round * 3);
@@ -135,7 +135,7 @@ TEST_F(OthersGridsTest, KnownStationsFindRoomEvenWhereTheirNewestAloneExceedTheB
 TEST_F(OthersGridsTest, WhatAnAttackLeftGoesWhenItIsOld) {
     leave_behind(40);
     budgets_.total.bytes = 1'000'000'000;
-    const Store store = open(cache_, budgets_);
+    RollingStore store = open(cache_, budgets_);
     EXPECT_EQ(grids_of(store, false).size(), 40U) << "they fit, and are young";
     const StoreEntry kept = testing::all_grids(store).front();
     ASSERT_TRUE(pin_grid(real_file_system(), kept.path));
@@ -151,7 +151,7 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftGoesWhenItIsOld) {
 TEST_F(OthersGridsTest, TheyGoByAgeWithoutAnyBudget) {
     leave_behind(3);
     later_ = hours{169};
-    const Store store = open(cache_, budgets_);
+    RollingStore store = open(cache_, budgets_);
     EXPECT_THAT(testing::all_grids(store), IsEmpty());
 }
 
@@ -159,7 +159,7 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftIsBroughtDownToItsShareAtTheStart) {
     leave_behind(50);
     const std::uint64_t left = testing::allocated_bytes(cache_);
     budgets_.total.bytes = left;  // full, as they left it
-    const Store store = open(cache_, budgets_);
+    RollingStore store = open(cache_, budgets_);
     EXPECT_LE(bytes_of_others(store), left / 10);
     EXPECT_GT(bytes_of_others(store), 0U);
     EXPECT_FALSE(grids_of(store, false).empty());
@@ -169,7 +169,7 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftIsBroughtDownToItsShareAtTheStart) {
 TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
     budgets_.total.file_system_percent = 80;
     budgets_.low_watermark = 0.5;
-    const Store store = open(cache_, budgets_);
+    RollingStore store = open(cache_, budgets_);
     for (int minute = 0; minute < 10; ++minute)
         ASSERT_TRUE(commit(store, "KTLX", minute));
     const std::uint64_t of_known = testing::allocated_bytes(cache_);
@@ -191,7 +191,7 @@ TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
 TEST_F(OthersGridsTest, TheirShareOfAFileSystemIsKept) {
     budgets_.total.file_system_percent = 50;
     capacity_ = 8'000'000;
-    const Store store = open(cache_, budgets_);
+    RollingStore store = open(cache_, budgets_);
     for (int site = 0; site < 30; ++site)
         ASSERT_TRUE(commit(store, invented(site), site));
     EXPECT_LE(bytes_of_others(store), 400'000U);
@@ -203,7 +203,7 @@ TEST_F(OthersGridsTest, TheOpenerSaysWhoIsKnown) {
     std::string known = "XAAA";
     Surroundings surroundings;
     surroundings.is_known = [&](std::string_view group) { return group == known; };
-    const auto store = Store::open_rolling(real_file_system(), cache_, budgets_, surroundings);
+    auto store = RollingStore::open(real_file_system(), cache_, budgets_, surroundings);
     ASSERT_TRUE(store);
     for (int minute = 0; minute < 10; ++minute) {
         ASSERT_TRUE(commit(*store, "XAAA", minute));

@@ -34,7 +34,7 @@ struct Promises {
 
 // Fills the cache beyond its budget over two days, replaces a grid, pins one, rolls.
 void live(FileSystem& disk, const fs::path& cache, Promises& promised) {
-    const auto store = Store::open_rolling(disk, cache, budgets());
+    auto store = RollingStore::open(disk, cache, budgets());
     if (!store) return;
     int number = 0;
     const auto commit = [&](int minute, int stored) {
@@ -65,15 +65,15 @@ void check(const fs::path& cache, const Promises& promised) {
     if (!fs::exists(cache)) return;
     EXPECT_LE(testing::allocated_bytes(cache), budget);
     {
-        const auto store = *Store::open_for_reading(cache);
+        const auto store = *StoreReader::open(cache);
         for (const StoreEntry& entry : testing::all_grids(store))
             EXPECT_EQ(testing::trouble_in(entry), "");
     }
     testing::MeteredFileSystem disk(cache);
-    const auto store = Store::open_rolling(disk, cache, budgets());
+    auto store = RollingStore::open(disk, cache, budgets());
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_LE(testing::allocated_bytes(cache), budget);
-    EXPECT_EQ(store->usage()->bytes, testing::allocated_bytes(cache));
+    EXPECT_EQ(store->usage().bytes, testing::allocated_bytes(cache));
     for (const auto& entry : fs::recursive_directory_iterator(cache)) {
         EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix));
     }

@@ -55,7 +55,7 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     const testing::TemporaryDirectory directory;
     const fs::path cache = directory / "cache";
     testing::MeteredFileSystem disk(cache);
-    const Store store = *Store::open_rolling(disk, cache, budgets());
+    RollingStore store = *RollingStore::open(disk, cache, budgets());
     ASSERT_TRUE(testing::commit_sized(store, "A", noon - minutes{1}));
     const pid_t reader = start({"read", cache, directory / "stop"});
 
@@ -99,7 +99,7 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     EXPECT_EQ(wait_for(reader), 0);
     EXPECT_GT(read, 0);
     EXPECT_GT(held, 0) << "no reader held a grid that was evicted";
-    EXPECT_GT(store.usage()->evicted, 150U);
+    EXPECT_GT(store.usage().evicted, 150U);
     EXPECT_LE(disk.most(), budget);
 }
 
@@ -133,15 +133,15 @@ TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
         ASSERT_EQ(wait_for(writer), -SIGKILL) << "it had ended by itself";
         if (!fs::exists(cache)) continue;
         EXPECT_LE(testing::allocated_bytes(cache), budget);
-        for (const StoreEntry& entry : testing::all_grids(*Store::open_for_reading(cache))) {
+        for (const StoreEntry& entry : testing::all_grids(*StoreReader::open(cache))) {
             EXPECT_EQ(testing::trouble_in(entry), "");
             ++seen;
         }
     }
     EXPECT_GT(seen, 0);
-    const Store store = *Store::open_rolling(real_file_system(), cache, budgets());
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache));
-    EXPECT_GT(store.usage()->grids, 0U);
+    RollingStore store = *RollingStore::open(real_file_system(), cache, budgets());
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache));
+    EXPECT_GT(store.usage().grids, 0U);
     for (const auto& entry : fs::recursive_directory_iterator(cache))
         EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix));
 }

@@ -24,29 +24,29 @@ using testing::noon;
 class RollingStoreTest : public ::testing::Test {
   protected:
     RollingStoreTest() {
-        auto store = Store::open_for_writing(disk_, directory_ / "one", false);
+        auto store = StoreWriter::open(disk_, directory_ / "one", false);
         EXPECT_TRUE(testing::commit_sized(*store, "A", noon));
         grid_bytes_ = testing::allocated_bytes(directory_ / "one");
     }
-    Store open(const Budgets& budgets) {
+    RollingStore open(const Budgets& budgets) {
         Surroundings surroundings;
         surroundings.now = [this] { return now_; };
         surroundings.filling = [this](const fs::path&) -> Result<Filling> {
             return Filling{others_ + testing::allocated_bytes(cache_), capacity_};
         };
-        auto store = Store::open_rolling(disk_, cache_, budgets, surroundings);
+        auto store = RollingStore::open(disk_, cache_, budgets, surroundings);
         EXPECT_TRUE(store) << store.error().message;
-        return *store;
+        return std::move(*store);
     }
     // A budget for so many grids of the usual size, and the small print of a reservation.
     [[nodiscard]] std::uint64_t room_for(int grids) const {
         return static_cast<std::uint64_t>(grids) * grid_bytes_ + 8 * 4096;
     }
-    Result<fs::path> commit(const Store& store, const std::string& domain, int minute) {
+    Result<fs::path> commit(StoreWriter& store, const std::string& domain, int minute) {
         return testing::commit_sized(store, domain, noon + minutes{minute});
     }
     // "A+5": domain and minutes after noon of each grid.
-    static std::vector<std::string> grids(const Store& store) {
+    static std::vector<std::string> grids(const StoreReader& store) {
         std::vector<std::string> names;
         for (const StoreEntry& entry : testing::all_grids(store)) {
             names.push_back(fmt::format("{}{:+}", entry.domain,
@@ -71,7 +71,7 @@ class RollingStoreTest : public ::testing::Test {
 TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheLowMark) {
     budgets_.total.bytes = room_for(10);
     budgets_.low_watermark = 0.5;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 10; ++minute)
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_EQ(store.roll().evicted, 0U) << "nothing is over";
@@ -84,9 +84,9 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
     EXPECT_EQ(report.evicted, 6U) << "that of the commit is among them";
     EXPECT_EQ(report.evicted_bytes, 6 * grid_bytes_);
     EXPECT_EQ(store.roll().evicted, 0U);
-    EXPECT_EQ(store.usage()->grids, 5U);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
-    EXPECT_EQ(store.usage()->evicted, 6U);
+    EXPECT_EQ(store.usage().grids, 5U);
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().evicted, 6U);
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
@@ -94,7 +94,7 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
 TEST_F(RollingStoreTest, ARollSaysThatItMovesOn) {
     budgets_.total.bytes = room_for(10);
     budgets_.low_watermark = 0.5;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const char* domain : {"A", "B", "C"})
         ASSERT_TRUE(commit(store, domain, 0));
     int steps = 0;
@@ -106,7 +106,7 @@ TEST_F(RollingStoreTest, EachDomainHasItsOwnBudgetAndAllHaveOne) {
     budgets_.domains["A"].bytes = room_for(2);
     budgets_.total.bytes = room_for(5);
     budgets_.low_watermark = 1;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {1, 2, 3})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_THAT(grids(store), ElementsAre("A+2", "A+3"));
@@ -122,7 +122,7 @@ TEST_F(RollingStoreTest, EachDomainHasItsOwnBudgetAndAllHaveOne) {
 
 TEST_F(RollingStoreTest, AFullCacheDoesNotKeepWhatWouldBeTheFirstToGo) {
     budgets_.total.bytes = room_for(3);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {10, 11, 12})
         ASSERT_TRUE(commit(store, "A", minute));
     const auto old = commit(store, "A", 5);
@@ -132,13 +132,13 @@ TEST_F(RollingStoreTest, AFullCacheDoesNotKeepWhatWouldBeTheFirstToGo) {
     EXPECT_TRUE(store.would_keep("A", level2::Moment::ref, noon + minutes{11}));
     EXPECT_TRUE(store.would_keep("B", level2::Moment::ref, noon + minutes{5}));
     EXPECT_THAT(grids(store), ElementsAre("A+10", "A+11", "A+12"));
-    EXPECT_EQ(store.usage()->not_kept, 1U);
-    EXPECT_EQ(store.usage()->evicted, 0U);
+    EXPECT_EQ(store.usage().not_kept, 1U);
+    EXPECT_EQ(store.usage().evicted, 0U);
 }
 
 TEST_F(RollingStoreTest, TheNewestStaysUntilANewerStandsWhereTheBudgetHoldsTwo) {
     budgets_.total.bytes = room_for(2);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     ASSERT_TRUE(commit(store, "A", 1));
     disk_.set_capacity(grid_bytes_ + 8192);
     EXPECT_EQ(commit(store, "A", 2).error().code, ErrorCode::no_space);
@@ -152,7 +152,7 @@ TEST_F(RollingStoreTest, TheNewestStaysUntilANewerStandsWhereTheBudgetHoldsTwo) 
 
 TEST_F(RollingStoreTest, InABudgetOfOneGridTheNewestGivesWayToANewerOne) {
     budgets_.total.bytes = room_for(1);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {1, 2, 3})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_THAT(grids(store), ElementsAre("A+3"));
@@ -162,14 +162,14 @@ TEST_F(RollingStoreTest, InABudgetOfOneGridTheNewestGivesWayToANewerOne) {
 
 TEST_F(RollingStoreTest, ABudgetBelowOneGridIsAnError) {
     budgets_.total.bytes = grid_bytes_ - 4096;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     const auto refused = commit(store, "A", 2);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::over_budget);
     EXPECT_TRUE(refused.error().message.starts_with(path("A", 2).native()))
         << refused.error().message;
     EXPECT_THAT(refused.error().message, HasSubstr("budget"));
-    EXPECT_EQ(store.usage()->bytes, 0U) << "the reservation was given back";
+    EXPECT_EQ(store.usage().bytes, 0U) << "the reservation was given back";
 
     Budgets larger = budgets_;
     larger.total.bytes = room_for(2);
@@ -181,18 +181,18 @@ TEST_F(RollingStoreTest, ABudgetBelowOneGridIsAnError) {
 
 TEST_F(RollingStoreTest, OldAndNewOfAReplacedGridAreBothCounted) {
     budgets_.total.bytes = room_for(2);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     ASSERT_TRUE(commit(store, "A", 1));
     ASSERT_TRUE(commit(store, "A", 2));
     ASSERT_TRUE(commit(store, "A", 2)) << "the other one went for it";
     EXPECT_THAT(grids(store), ElementsAre("A+2"));
-    EXPECT_EQ(store.usage()->bytes, grid_bytes_);
+    EXPECT_EQ(store.usage().bytes, grid_bytes_);
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
 TEST_F(RollingStoreTest, WhatStandsAtTheStartIsBroughtWithinTheBudgetAndLeftoversAreSwept) {
     {
-        const auto store = *Store::open_for_writing(disk_, cache_, false);
+        auto store = *StoreWriter::open(disk_, cache_, false);
         for (int minute = 0; minute < 8; ++minute)
             ASSERT_TRUE(commit(store, "A", minute));
     }
@@ -203,17 +203,17 @@ TEST_F(RollingStoreTest, WhatStandsAtTheStartIsBroughtWithinTheBudgetAndLeftover
         std::ofstream(file) << std::string(100'000, 'x');
     budgets_.total.bytes = room_for(4);
     budgets_.low_watermark = 0.99;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     EXPECT_FALSE(fs::exists(leftover));
     EXPECT_FALSE(fs::exists(above));
     EXPECT_THAT(grids(store), ElementsAre("A+4", "A+5", "A+6", "A+7"));
-    EXPECT_EQ(store.usage()->grids, 4U);
+    EXPECT_EQ(store.usage().grids, 4U);
 }
 
 TEST_F(RollingStoreTest, AgeCountsFromTheNewestVolumeAndNotFromTheClock) {
     budgets_.total.age = hours{1};
     now_ = noon + hours{24 * 3650};
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {0, 30, 60})
         ASSERT_TRUE(commit(store, "A", minute));
     ASSERT_TRUE(commit(store, "B", 0));
@@ -228,7 +228,7 @@ TEST_F(RollingStoreTest, AgeCountsFromTheNewestVolumeAndNotFromTheClock) {
 TEST_F(RollingStoreTest, AStampInTheFutureDoesNotEmptyTheCache) {
     budgets_.total.age = hours{1};
     now_ = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {-90, -50, 0, 60 * 24 * 365})
         ASSERT_TRUE(testing::commit_sized(store, "A", now_ + minutes{minute}));
     store.roll();
@@ -241,7 +241,7 @@ TEST_F(RollingStoreTest, GivesWayWhenOthersFillTheDisk) {
     budgets_.total.file_system_percent = 80;
     budgets_.low_watermark = 1;
     capacity_ = 10 * room_for(10);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 10; ++minute)
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_EQ(store.roll().evicted, 0U);
@@ -266,7 +266,7 @@ TEST_F(RollingStoreTest, TheLowMarkOfThePercentageIsAShareOfWhatTheCacheMayHold)
     budgets_.total.file_system_percent = 50;
     budgets_.low_watermark = 0.5;
     capacity_ = 1'000'000'000;
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 10; ++minute)
         ASSERT_TRUE(commit(store, "A", minute));
     others_ = capacity_ / 2 - 8 * grid_bytes_;
@@ -276,7 +276,7 @@ TEST_F(RollingStoreTest, TheLowMarkOfThePercentageIsAShareOfWhatTheCacheMayHold)
 
 TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     budgets_.total.bytes = room_for(3);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {0, 1, 2})
         ASSERT_TRUE(commit(store, "A", minute));
     // By another process: the store learns of it when it comes to take the grid.
@@ -285,7 +285,7 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     for (const int minute : {3, 4})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+3", "A+4"));
-    EXPECT_EQ(store.usage()->pinned, 1U);
+    EXPECT_EQ(store.usage().pinned, 1U);
     ASSERT_TRUE(commit(store, "A", 0)) << "replaced, it stays pinned";
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+4"));
     ASSERT_TRUE(commit(store, "A", 5));
@@ -293,13 +293,13 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     ASSERT_TRUE(*unpin_grid(real_file_system(), path("A", 0)));
     EXPECT_FALSE(*unpin_grid(real_file_system(), path("A", 0)));
     store.roll();
-    EXPECT_EQ(store.usage()->pinned, 0U) << "a roll sees that a pin went";
+    EXPECT_EQ(store.usage().pinned, 0U) << "a roll sees that a pin went";
     ASSERT_TRUE(commit(store, "A", 6));
     EXPECT_THAT(grids(store), ElementsAre("A+4", "A+5", "A+6"));
 }
 
 TEST_F(RollingStoreTest, APinNeedsAGrid) {
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     EXPECT_EQ(pin_grid(real_file_system(), path("A", 0)).error().code, ErrorCode::not_found);
     ASSERT_TRUE(commit(store, "A", 1));
     EXPECT_EQ(pin_grid(real_file_system(), path("A", 0)).error().code, ErrorCode::not_found);
@@ -311,7 +311,7 @@ TEST_F(RollingStoreTest, APinNeedsAGrid) {
 
 TEST_F(RollingStoreTest, AllThatIsHeldPinnedIsAnErrorForTheNewest) {
     budgets_.total.bytes = room_for(2);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (const int minute : {0, 1})
         ASSERT_TRUE(commit(store, "A", minute));
     for (const int minute : {0, 1})
@@ -329,21 +329,21 @@ TEST_F(RollingStoreTest, AllThatIsHeldPinnedIsAnErrorForTheNewest) {
 
 TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {
     budgets_.total.bytes = room_for(4);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 4; ++minute)
         ASSERT_TRUE(commit(store, "A", minute));
     fs::remove(path("A", 0));
     fs::remove(path("A", 1));
     store.roll();
-    EXPECT_EQ(store.usage()->grids, 2U);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().grids, 2U);
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     // Nothing has to go for these two.
     for (const int minute : {4, 5})
         ASSERT_TRUE(commit(store, "A", minute));
-    EXPECT_EQ(store.usage()->evicted, 0U);
+    EXPECT_EQ(store.usage().evicted, 0U);
     fs::remove_all(cache_ / "A");
     store.roll();
-    EXPECT_EQ(store.usage()->bytes, 0U);
+    EXPECT_EQ(store.usage().bytes, 0U);
     ASSERT_TRUE(commit(store, "A", 6)) << "directories are made again";
     fs::copy_file(path("A", 6), directory_ / "copy");
     fs::remove_all(cache_);
@@ -353,7 +353,7 @@ TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {
 
 TEST_F(RollingStoreTest, EmptyDirectoriesGo) {
     budgets_.total.bytes = room_for(2);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int day = 0; day < 4; ++day)
         ASSERT_TRUE(commit(store, "A", day * 24 * 60));
     std::vector<std::string> days;
@@ -364,7 +364,7 @@ TEST_F(RollingStoreTest, EmptyDirectoriesGo) {
 
 TEST_F(RollingStoreTest, AReaderKeepsTheFileThatItHasOpen) {
     budgets_.total.bytes = room_for(2);
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     ASSERT_TRUE(commit(store, "A", 0));
     const StoreEntry entry = testing::all_grids(store).front();
     const auto file = GridFile::open(entry.path);
@@ -378,16 +378,16 @@ TEST_F(RollingStoreTest, AReaderKeepsTheFileThatItHasOpen) {
 }
 
 TEST_F(RollingStoreTest, ASecondWriterIsRefusedAndReadersAreNot) {
-    const Store store = open(budgets_);
-    const auto second = Store::open_rolling(disk_, cache_, budgets_);
+    RollingStore store = open(budgets_);
+    auto second = RollingStore::open(disk_, cache_, budgets_);
     ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(second.error().code, ErrorCode::busy);
     EXPECT_THAT(second.error().message, HasSubstr("another process writes to this cache"));
-    EXPECT_TRUE(Store::open_for_reading(cache_));
+    EXPECT_TRUE(StoreReader::open(cache_));
 }
 
 TEST_F(RollingStoreTest, AnUnwrittenBudgetKeepsEverything) {
-    const Store store = open(budgets_);
+    RollingStore store = open(budgets_);
     for (int minute = 0; minute < 20; ++minute)
         ASSERT_TRUE(commit(store, "A", minute * 1000));
     EXPECT_EQ(store.roll().evicted, 0U);

@@ -65,12 +65,12 @@ cache::GridDescription sized_description(UtcTime time, int number) {
     return about;
 }
 
-Result<std::filesystem::path> commit_sized(const cache::Store& store, const std::string& domain,
+Result<std::filesystem::path> commit_sized(cache::StoreWriter& store, const std::string& domain,
                                            UtcTime time, int stored, int number) {
     return store.commit(domain, sized_description(time, number), sized_grid(stored).view());
 }
 
-std::vector<cache::StoreEntry> all_grids(const cache::Store& store) {
+std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store) {
     std::vector<cache::StoreEntry> all;
     for (const std::string& domain : store.domains().value_or(std::vector<std::string>{})) {
         const auto entries = store.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);

@@ -19,12 +19,12 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
 [[nodiscard]] cache::GridDescription sized_description(UtcTime time, int number = 0);
 
 // Commits such a grid.
-[[nodiscard]] Result<std::filesystem::path> commit_sized(const cache::Store& store,
+[[nodiscard]] Result<std::filesystem::path> commit_sized(cache::StoreWriter& store,
                                                          const std::string& domain, UtcTime time,
                                                          int stored = 4, int number = 0);
 
 // Every grid of a cache, by domain, moment and time.
-[[nodiscard]] std::vector<cache::StoreEntry> all_grids(const cache::Store& store);
+[[nodiscard]] std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store);
 
 // That each of them opens, verifies and has a sized grid's cells; "" or what is wrong.
 [[nodiscard]] std::string trouble_in(const cache::StoreEntry& entry);

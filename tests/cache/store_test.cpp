@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 class StoreTest : public ::testing::Test {
   protected:
-    Result<fs::path> commit(const Store& store, const std::string& domain, const char* time) {
+    Result<fs::path> commit(StoreWriter& store, const std::string& domain, const char* time) {
         GridDescription about = describe(testing::small_grid());
         about.time = *parse_utc(time, UtcTime{});
         const auto bricks = grid::BrickGrid::from(testing::small_grid(), grid::Quantization{});
@@ -25,7 +25,7 @@ class StoreTest : public ::testing::Test {
 };
 
 TEST_F(StoreTest, ListsWhatWasCommittedByTimeWithinInclusiveBounds) {
-    const auto store = Store::open_for_writing(real_file_system(), directory_ / "c", false);
+    auto store = StoreWriter::open(real_file_system(), directory_ / "c", false);
     ASSERT_TRUE(store);
     for (const char* time : {"2022-03-18T00:00", "2022-03-17T00:00:00.250Z", "2022-03-17T12:00"})
         ASSERT_TRUE(commit(*store, "KBGM", time));
@@ -45,14 +45,14 @@ TEST_F(StoreTest, ListsWhatWasCommittedByTimeWithinInclusiveBounds) {
 }
 
 TEST_F(StoreTest, CommitOfTheSameTimeReplaces) {
-    const auto store = *Store::open_for_writing(real_file_system(), directory_.path(), false);
+    auto store = *StoreWriter::open(real_file_system(), directory_.path(), false);
     EXPECT_EQ(*commit(store, "KBGM", "2022-03-17T00:00"), *commit(store, "KBGM", "2022-03-17"));
     EXPECT_EQ(store.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->size(), 1U);
 }
 
 TEST_F(StoreTest, WhatNeedNotSurviveAPowerCutIsNotWaitedFor) {
     testing::PowerCutFileSystem files;
-    const auto store = *Store::open_for_writing(files, directory_ / "c", false);
+    auto store = *StoreWriter::open(files, directory_ / "c", false);
     ASSERT_TRUE(commit(store, "KBGM", "2022-03-17T00:00"));  // makes the directories
     GridDescription about = describe(testing::small_grid());
     about.time = *parse_utc("2022-03-17T00:05", UtcTime{});
@@ -71,7 +71,7 @@ TEST_F(StoreTest, WhatNeedNotSurviveAPowerCutIsNotWaitedFor) {
 }
 
 TEST_F(StoreTest, DomainNamesThatCouldLeaveTheStoreAreRefused) {
-    const auto store = *Store::open_for_writing(real_file_system(), directory_.path(), false);
+    auto store = *StoreWriter::open(real_file_system(), directory_.path(), false);
     for (const char* name : {"", "..", "../x", "a/b", "-x", ".hidden", "a b"}) {
         const auto path = commit(store, name, "2022-03-17");
         ASSERT_FALSE(path) << name;
@@ -81,30 +81,46 @@ TEST_F(StoreTest, DomainNamesThatCouldLeaveTheStoreAreRefused) {
 }
 
 TEST_F(StoreTest, SweepTakesOurLeftoversAndNothingElse) {
-    const auto store = *Store::open_for_writing(real_file_system(), directory_.path(), false);
+    auto store = *StoreWriter::open(real_file_system(), directory_.path(), false);
     const fs::path grid = *commit(store, "KBGM", "2022-03-17");
     const fs::path leftover = grid.parent_path() / (std::string{temporary_prefix} + "123-4");
     const fs::path foreign = grid.parent_path() / ".somebody-else";
     std::ofstream(leftover) << "half";
     std::ofstream(foreign) << "theirs";
-    ASSERT_TRUE(Store::open_for_writing(real_file_system(), directory_.path(), false));
+    ASSERT_TRUE(StoreWriter::open(real_file_system(), directory_.path(), false));
     EXPECT_TRUE(fs::exists(leftover)) << "only the one writer may sweep";
-    ASSERT_TRUE(Store::open_for_writing(real_file_system(), directory_.path(), true));
+    ASSERT_TRUE(StoreWriter::open(real_file_system(), directory_.path(), true));
     EXPECT_FALSE(fs::exists(leftover));
     EXPECT_TRUE(fs::exists(foreign));
     EXPECT_TRUE(fs::exists(grid));
 }
 
-TEST_F(StoreTest, ReadersNeedADirectoryAndMayNotCommit) {
-    EXPECT_EQ(Store::open_for_reading(directory_ / "no").error().code, ErrorCode::not_found);
-    const auto store = *Store::open_for_reading(directory_.path());
-    EXPECT_EQ(commit(store, "KBGM", "2022-03-17").error().code, ErrorCode::bad_argument);
+// What a role may not do does not compile.
+template <class Store>
+concept Commits = requires(Store& store, const GridDescription& about, const grid::BrickView& view,
+                           const StoreEntry& entry) {
+    store.commit("KBGM", about, view);
+    store.remove(entry);
+};
+template <class Store>
+concept Rolls = requires(Store& store) {
+    store.roll();
+    store.set_budgets(Budgets{});
+};
+static_assert(Commits<StoreWriter> && Commits<RollingStore>);
+static_assert(!Commits<StoreReader> && !Commits<const StoreWriter>);
+static_assert(Rolls<RollingStore>);
+static_assert(!Rolls<StoreWriter> && !Rolls<const RollingStore>);
+
+TEST_F(StoreTest, ReadersNeedADirectory) {
+    EXPECT_EQ(StoreReader::open(directory_ / "no").error().code, ErrorCode::not_found);
+    const auto store = *StoreReader::open(directory_.path());
     EXPECT_TRUE(store.domains()->empty());
 }
 
 TEST_F(StoreTest, CommittedGridSurvivesAPowerCutWithItsDirectories) {
     testing::PowerCutFileSystem file_system;
-    const auto store = *Store::open_for_writing(file_system, directory_ / "c", false);
+    auto store = *StoreWriter::open(file_system, directory_ / "c", false);
     const auto path = commit(store, "KBGM", "2022-03-17");
     ASSERT_TRUE(path);
     file_system.power_cut();

@@ -26,7 +26,7 @@ int open_for_reading_alone(const char* path, int flags, int mode) {
 // start.
 TEST_F(CatalogTest, WhatCouldOnlyBeOpenedForReadingIsOpenedAgain) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
-    Catalog second = *Catalog::open_for_writing(directory_ / "catalog");
+    CatalogWriter second = *CatalogWriter::open(directory_ / "catalog");
     sqlite3_vfs* const vfs = sqlite3_vfs_find("unix");
     ASSERT_EQ(vfs->xSetSystemCall(vfs, "open",
                                   reinterpret_cast<sqlite3_syscall_ptr>(&open_for_reading_alone)),
@@ -99,7 +99,7 @@ TEST_F(CatalogTest, StationThatIsNoIcaoNeverBecomesAFileName) {
 
 TEST_F(CatalogTest, ReaderSeesWhatTheWriterWroteAndWritesNothing) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
-    auto reader = Catalog::open_for_reading(directory_ / "catalog");
+    auto reader = CatalogReader::open(directory_ / "catalog");
     ASSERT_TRUE(reader);
     EXPECT_EQ(reader->list("KTLX", {})->size(), 1U);
     EXPECT_EQ(reader->list("KOKX", {}).error().code, ErrorCode::not_found);
@@ -107,14 +107,14 @@ TEST_F(CatalogTest, ReaderSeesWhatTheWriterWroteAndWritesNothing) {
 }
 
 TEST(CatalogOpen, MissingDirectoryIsNotFoundForReaders) {
-    const auto catalog = Catalog::open_for_reading("/nonexistent/catalog");
+    const auto catalog = CatalogReader::open("/nonexistent/catalog");
     ASSERT_FALSE(catalog);
     EXPECT_EQ(catalog.error().code, ErrorCode::not_found);
 }
 
 TEST_F(CatalogTest, SomethingThatIsNoDatabaseIsNamedToAReader) {
     std::ofstream(directory_ / "catalog" / "KOKX.sqlite") << std::string(5000, 'x');
-    auto reader = *Catalog::open_for_reading(directory_ / "catalog");
+    auto reader = *CatalogReader::open(directory_ / "catalog");
     const auto entries = reader.list("KOKX", {});
     ASSERT_FALSE(entries);
     EXPECT_EQ(entries.error().code, ErrorCode::corrupt);
@@ -130,7 +130,7 @@ TEST_F(CatalogTest, LaterSchemaAndForeignDatabaseAreRefused) {
                                  SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         foreign.exec("CREATE TABLE other (x)");
     }
-    auto fresh = *Catalog::open_for_writing(directory_ / "catalog");
+    auto fresh = *CatalogWriter::open(directory_ / "catalog");
     EXPECT_EQ(fresh.list("KTLX", {}).error().code, ErrorCode::unsupported);
     EXPECT_EQ(fresh.list("KOKX", {}).error().code, ErrorCode::unsupported);
     EXPECT_TRUE(fresh.take_repairs().empty()) << "they are not ours to mend";
@@ -138,9 +138,9 @@ TEST_F(CatalogTest, LaterSchemaAndForeignDatabaseAreRefused) {
 
 // Two catalogs on one directory, as two processes would have, many threads, the same files.
 TEST_F(CatalogTest, ConcurrentWritersRegisterEachFileOnce) {
-    auto other = *Catalog::open_for_writing(directory_ / "catalog");
+    auto other = *CatalogWriter::open(directory_ / "catalog");
     constexpr int files = 40;
-    const auto work = [](Catalog& catalog) {
+    const auto work = [](CatalogWriter& catalog) {
         for (int i = 0; i < files; ++i) {
             FileFacts facts = file(fmt::format("/d/{}", i), {});
             VolumeFacts one = volume("2022-03-17T00:00", i);

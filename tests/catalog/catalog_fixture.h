@@ -46,7 +46,7 @@ inline FileFacts file(const std::string& path, std::vector<VolumeFacts> volumes,
 class CatalogTest : public ::testing::Test {
   protected:
     testing::TemporaryDirectory directory_;
-    Catalog catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    CatalogWriter catalog_ = *CatalogWriter::open(directory_ / "catalog");
 };
 
 }  // namespace stormcellar::catalog

@@ -147,7 +147,7 @@ TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
     for (const bool reopened : {false, true}) {
         SCOPED_TRACE(reopened);
         const auto reopen = [&] {
-            if (reopened) catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+            if (reopened) catalog_ = *CatalogWriter::open(directory_ / "catalog");
         };
         for (const bool asked : {false, true}) {
             for (const char* station : {"", "KTLX", "KOUN", "KTLX"}) {

@@ -28,7 +28,7 @@ class CheckCatalog : public ::testing::Test {
         file.modified_ns =
             std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec;
         file.state = FileState::complete;
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         EXPECT_TRUE(catalog.register_file(file));
         return path;
     }
@@ -54,7 +54,7 @@ TEST_F(CheckCatalog, FilesThatWentOrChangedAreNamedAndGoneOnesAreNot) {
     fs::remove(gone);
     std::ofstream(changed) << "other contents";
     {
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         ASSERT_TRUE(catalog.mark_gone(gone));
     }
     const auto check = check_catalog(catalog_, "KTLX");
@@ -74,7 +74,7 @@ TEST_F(CheckCatalog, DamageIsNamedAndNothingIsWritten) {
     EXPECT_TRUE(check->set_aside.empty());
     EXPECT_EQ(fs::file_size(catalog_ / "KTLX.sqlite"), 6000U);
 
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.examine_all());
     const auto mended = check_catalog(catalog_, "");
     ASSERT_TRUE(mended);
@@ -87,7 +87,7 @@ TEST_F(CheckCatalog, DatabasesOfUnknownStationsAreNamedAndCleared) {
     const fs::path real = put("real"), there = put("there", "XAAA"), went = put("went", "XBBB");
     put("nameless", "");
     {
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         ASSERT_TRUE(catalog.mark_gone(went));
     }
     fs::remove(went);

@@ -39,7 +39,7 @@ FileFacts facts_of(int number, const fs::path& directory = "/gone") {
 class DamagedDatabase : public ::testing::Test {
   protected:
     void fill(int from, int to, const fs::path& directory = "/gone") {
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         for (int number = from; number < to; ++number)
             ASSERT_TRUE(catalog.register_file(facts_of(number, directory)));
     }
@@ -75,7 +75,7 @@ class DamagedDatabase : public ::testing::Test {
         return found;
     }
     // How many there are, each as it was registered.
-    std::size_t expect_true_rows(Catalog& catalog) {
+    std::size_t expect_true_rows(const CatalogReader& catalog) {
         const auto entries = *catalog.list("KTLX", {});
         for (const CatalogEntry& entry : entries) {
             const int number = std::stoi(entry.path.filename().native().substr(5));
@@ -99,7 +99,7 @@ TEST_F(DamagedDatabase, NoiseInItsPlaceIsSetAsideAndTheStationGoesOn) {
     const std::string noise(5000, 'x');
     fs::create_directory(catalog_);
     std::ofstream(database_) << noise;
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     EXPECT_FALSE(*catalog.is_settled("/d/KTLX_a", 1, 1));
     ASSERT_TRUE(catalog.register_file(facts_of(1)));
     EXPECT_EQ(catalog.list("KTLX", {})->size(), 1U);
@@ -117,7 +117,7 @@ TEST_F(DamagedDatabase, NoiseInItsPlaceIsSetAsideAndTheStationGoesOn) {
 TEST_F(DamagedDatabase, RowsOfGoneFilesAreKeptButForThoseOfTheDamagedPage) {
     fill(0, 400);
     damage_page_with(facts_of(200).path);
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.list("KTLX", {}));
     const auto repairs = catalog.take_repairs();
     ASSERT_EQ(repairs.size(), 1U);
@@ -135,7 +135,7 @@ TEST_F(DamagedDatabase, RowsOfFilesThatAreThereAreLeftToBeReadAgain) {
     fill(0, 300);
     fill(300, 310, directory_ / "drop");
     damage_page_with(facts_of(150).path);
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.examine("KTLX"));
     const auto repairs = catalog.take_repairs();
     ASSERT_EQ(repairs.size(), 1U);
@@ -149,7 +149,7 @@ TEST_F(DamagedDatabase, RowsOfFilesThatAreThereAreLeftToBeReadAgain) {
 // The bytes change while the database is open, behind SQLite's back.
 TEST_F(DamagedDatabase, DamageAtRunTimeDoesNotStopTheStation) {
     fill(0, 200);
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.register_file(facts_of(3000)));
     auto changed = bytes();
     std::fill(changed.begin() + page, changed.end(), std::byte{0xA5});
@@ -177,7 +177,7 @@ TEST_F(DamagedDatabase, DamageOfAnyPageIsMended) {
             if (kind == 1) std::fill_n(first, 64, std::byte{0x5A});
             if (kind == 2) changed.resize(at + page / 2);
             overwrite(changed);
-            auto catalog = *Catalog::open_for_writing(catalog_);
+            auto catalog = *CatalogWriter::open(catalog_);
             ASSERT_TRUE(catalog.examine_all()) << "page " << at / page << ", kind " << kind;
             const auto repairs = catalog.take_repairs();
             mended += static_cast<int>(repairs.size());
@@ -202,7 +202,7 @@ TEST_F(DamagedDatabase, LostIndicesAndTablesAreDamage) {
             SQLite::Database open(database_, SQLite::OPEN_READWRITE);
             open.exec(drop);
         }
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         ASSERT_TRUE(catalog.examine("KTLX")) << drop;
         EXPECT_EQ(catalog.take_repairs().size(), 1U) << drop;
         EXPECT_TRUE(catalog.register_file(facts_of(100))) << drop;
@@ -212,7 +212,7 @@ TEST_F(DamagedDatabase, LostIndicesAndTablesAreDamage) {
 TEST_F(DamagedDatabase, AnotherStationsDamageIsMendedOnTheWay) {
     fs::create_directory(catalog_);
     std::ofstream(catalog_ / "KAAA.sqlite") << std::string(5000, 'x');
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     EXPECT_EQ(*catalog.register_file(facts_of(1)), Registered::added);
     EXPECT_EQ(*catalog.mark_gone(facts_of(1).path), 1);
     EXPECT_LE(catalog.take_repairs().size(), 1U);
@@ -222,14 +222,14 @@ TEST_F(DamagedDatabase, AnotherStationsDamageIsMendedOnTheWay) {
 }
 
 TEST_F(DamagedDatabase, ADatabaseThatIsDeletedUnderTheWriterIsMadeAgain) {
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.register_file(facts_of(1)));
     fs::remove(database_);
     EXPECT_EQ(*catalog.register_file(facts_of(2)), Registered::added);
     const auto repairs = catalog.take_repairs();
     ASSERT_EQ(repairs.size(), 1U) << "so that its files are offered again";
     EXPECT_TRUE(repairs[0].set_aside.empty());
-    auto reader = *Catalog::open_for_reading(catalog_);
+    auto reader = *CatalogReader::open(catalog_);
     EXPECT_EQ(reader.list("KTLX", {})->size(), 1U);
 }
 
@@ -240,7 +240,7 @@ TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
     const fs::path mending = database_.native() + ".mending";
     std::ofstream(mending) << "half";  // it was being written
     {
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         ASSERT_TRUE(catalog.examine("KTLX"));
         EXPECT_GT(expect_true_rows(catalog), 100U);
     }
@@ -248,7 +248,7 @@ TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
     // The damaged one is away and its WAL not yet; the new one has not taken its place.
     fs::rename(database_, mending);
     std::ofstream(database_.native() + "-wal") << "the damaged one's";
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.register_file(facts_of(500)));
     EXPECT_GT(catalog.list("KTLX", {})->size(), 100U);
     EXPECT_FALSE(fs::exists(mending));
@@ -256,7 +256,7 @@ TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
 
 TEST_F(DamagedDatabase, GenerationsAndSeveralVolumesOfAFileAreKept) {
     {
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         FileFacts first = facts_of(1), second = facts_of(1);
         second.path = "/gone/KTLX-000002";
         second.content_hash = 99;
@@ -268,7 +268,7 @@ TEST_F(DamagedDatabase, GenerationsAndSeveralVolumesOfAFileAreKept) {
         SQLite::Database open(database_, SQLite::OPEN_READWRITE);
         open.exec("DROP INDEX part_volume");
     }
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.examine_all());
     const auto entries = *catalog.list("KTLX", {});
     ASSERT_EQ(entries.size(), 3U);

@@ -43,7 +43,7 @@ struct Progress {
     std::optional<std::pair<fs::path, FileState>> asked;  // and not answered: may be there or not
 };
 
-bool ask(Catalog& catalog, const FileFacts& facts, Progress& progress) {
+bool ask(CatalogWriter& catalog, const FileFacts& facts, Progress& progress) {
     progress.asked = {facts.path, facts.state};
     if (!catalog.register_file(facts)) return false;
     if (facts.state != FileState::seen) progress.answered[facts.path] = facts.state;
@@ -51,7 +51,7 @@ bool ask(Catalog& catalog, const FileFacts& facts, Progress& progress) {
     return true;
 }
 
-bool ask_gone(Catalog& catalog, const fs::path& path, Progress& progress) {
+bool ask_gone(CatalogWriter& catalog, const fs::path& path, Progress& progress) {
     progress.asked = {path, FileState::gone};
     if (!catalog.mark_gone(path)) return false;
     progress.answered[path] = FileState::gone;
@@ -62,7 +62,7 @@ bool ask_gone(Catalog& catalog, const fs::path& path, Progress& progress) {
 // Two runs of a daemon, as far as the disk lets them; each closes its databases at its end.
 bool write_all(const fs::path& directory, Progress& progress) {
     for (const int first : {0, 3}) {
-        auto catalog = Catalog::open_for_writing(directory);
+        auto catalog = CatalogWriter::open(directory);
         if (!catalog) return false;
         for (int number = first; number < first + 3; ++number) {
             for (const FileState state : {FileState::seen, FileState::complete}) {
@@ -77,7 +77,7 @@ bool write_all(const fs::path& directory, Progress& progress) {
     return true;
 }
 
-std::map<fs::path, FileState> rows_in(Catalog& catalog) {
+std::map<fs::path, FileState> rows_in(const CatalogReader& catalog) {
     std::map<fs::path, FileState> rows;
     const auto stations = catalog.station_names();
     EXPECT_TRUE(stations);
@@ -91,7 +91,7 @@ std::map<fs::path, FileState> rows_in(Catalog& catalog) {
 }
 
 void expect_sound(const fs::path& directory, const Progress& progress) {
-    auto catalog = Catalog::open_for_writing(directory);
+    auto catalog = CatalogWriter::open(directory);
     ASSERT_TRUE(catalog);
     auto rows = rows_in(*catalog);
     EXPECT_TRUE(catalog->take_repairs().empty());
@@ -153,13 +153,13 @@ TEST(CatalogDurability, TheDoubleForgetsWhatWasNotSynced) {
     const testing::TemporaryDirectory directory;
     testing::PowerCutVfs disk;
     {
-        auto catalog = *Catalog::open_for_writing(directory / "catalog");
+        auto catalog = *CatalogWriter::open(directory / "catalog");
         ASSERT_TRUE(catalog.register_file(facts_of(1, FileState::complete)));
         disk.fail_from(disk.operation_count());
         EXPECT_FALSE(catalog.register_file(facts_of(2, FileState::complete)));
     }
     disk.power_cut(Kept::nothing, 0);
-    auto catalog = *Catalog::open_for_writing(directory / "catalog");
+    auto catalog = *CatalogWriter::open(directory / "catalog");
     EXPECT_EQ(rows_in(catalog).size(), 1U);
 }
 
@@ -175,7 +175,7 @@ TEST(CatalogDurability, KilledAtAnyMoment) {
         const pid_t child = ::fork();
         ASSERT_GE(child, 0);
         if (child == 0) {
-            auto catalog = Catalog::open_for_writing(directory / "catalog");
+            auto catalog = CatalogWriter::open(directory / "catalog");
             for (int number = 0; catalog; ++number) {
                 if (!catalog->register_file(facts_of(number, FileState::complete))) break;
                 if (::write(ends[1], &number, sizeof number) != sizeof number) break;

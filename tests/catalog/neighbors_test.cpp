@@ -15,12 +15,12 @@ namespace fs = std::filesystem;
 class Neighbors : public ::testing::Test {
   protected:
     void SetUp() override {
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         ASSERT_TRUE(catalog.register_file(file("/d/KTLX_a", {volume("2022-03-17T00:00")})));
         ASSERT_TRUE(catalog.register_file(file("/d/KFWS_a", {volume("2022-03-17T00:00")}, "KFWS")));
     }
     // All that one does with files of KFWS and of no station while KTLX cannot be used.
-    void expect_that_others_go_on(Catalog& catalog, ErrorCode code) {
+    void expect_that_others_go_on(CatalogWriter& catalog, ErrorCode code) {
         EXPECT_FALSE(*catalog.is_known("/d/KFWS_b"));
         ASSERT_TRUE(catalog.note_file(file("/d/KFWS_b", {}, "KFWS")));
         EXPECT_TRUE(catalog.register_file(file("/d/KFWS_b", {}, "KFWS")));
@@ -45,7 +45,7 @@ class Neighbors : public ::testing::Test {
         EXPECT_EQ(troubles[0].error.code, code);
         EXPECT_NE(troubles[0].error.message.find("KTLX.sqlite"), std::string::npos);
     }
-    void expect_that_it_is_over(Catalog& catalog) {
+    void expect_that_it_is_over(CatalogWriter& catalog) {
         EXPECT_TRUE(catalog.register_file(file("/d/KTLX_b", {})));
         EXPECT_TRUE(catalog.troubles().empty());
         EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 2U);
@@ -59,9 +59,9 @@ class Neighbors : public ::testing::Test {
 TEST_F(Neighbors, AFifoInPlaceOfADatabaseHoldsNobodyUp) {
     fs::rename(database_, directory_ / "aside");
     ASSERT_EQ(::mkfifo(database_.c_str(), 0600), 0);
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     expect_that_others_go_on(catalog, ErrorCode::not_a_file);
-    auto reader = *Catalog::open_for_reading(catalog_);
+    auto reader = *CatalogReader::open(catalog_);
     EXPECT_EQ(reader.list("KTLX", {}).error().code, ErrorCode::not_a_file);
     EXPECT_EQ(reader.stations()->size(), 2U);
     EXPECT_EQ(reader.troubles().size(), 1U);
@@ -75,9 +75,9 @@ TEST_F(Neighbors, FifosBesideADatabaseHoldNobodyUp) {
     for (const char* ending : {"-wal", "-shm", "-journal"}) {
         const fs::path fifo = database_.native() + ending;
         ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-        auto reader = *Catalog::open_for_reading(catalog_);
+        auto reader = *CatalogReader::open(catalog_);
         EXPECT_EQ(reader.list("KTLX", {}).error().code, ErrorCode::not_a_file) << ending;
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         EXPECT_EQ(catalog.list("KTLX", {}).error().code, ErrorCode::not_a_file) << ending;
         fs::remove(fifo);
     }
@@ -86,7 +86,7 @@ TEST_F(Neighbors, FifosBesideADatabaseHoldNobodyUp) {
 TEST_F(Neighbors, ADirectoryInPlaceOfADatabaseHoldsNobodyUp) {
     fs::rename(database_, directory_ / "aside");
     fs::create_directory(database_);
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     expect_that_others_go_on(catalog, ErrorCode::not_a_file);
     fs::remove(database_);
     fs::rename(directory_ / "aside", database_);
@@ -106,7 +106,7 @@ TEST_F(Neighbors, ADatabaseWithoutPermissionHoldsNobodyUp) {
     ASSERT_GE(child, 0);
     if (child == 0) {
         if (::setgid(65534) != 0 || ::setuid(65534) != 0) ::_exit(2);
-        auto catalog = *Catalog::open_for_writing(catalog_);
+        auto catalog = *CatalogWriter::open(catalog_);
         expect_that_others_go_on(catalog, ErrorCode::permission);
         ::_exit(HasFailure() ? 1 : 0);
     }
@@ -122,7 +122,7 @@ TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
         SQLite::Database foreign(database_, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         foreign.exec("CREATE TABLE other (x)");
     }
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     expect_that_others_go_on(catalog, ErrorCode::unsupported);
     fs::remove(database_);
     fs::rename(directory_ / "aside", database_);
@@ -131,7 +131,7 @@ TEST_F(Neighbors, AnotherProgramsDatabaseHoldsNobodyUp) {
 
 // Who waits for a lock is a worker, who is missing for the other stations meanwhile.
 TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAndThen) {
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     const auto seconds = [](const auto& work) {
         const auto began = std::chrono::steady_clock::now();
         work();
@@ -140,7 +140,9 @@ TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAn
     {
         SQLite::Database other(database_, SQLite::OPEN_READWRITE);
         other.exec("BEGIN EXCLUSIVE");
-        EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {})));
+        const auto refused = catalog.register_file(file("/d/KTLX_b", {}));
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::busy);
         const double own =
             seconds([&] { EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {}))); });
         EXPECT_LT(own, 1.0);
@@ -157,7 +159,7 @@ TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAn
 
 // A file has one row: where the old one cannot be deleted, the file waits, and it alone.
 TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     ASSERT_TRUE(catalog.register_file(file("/d/odd", {}, "KTLX")));
     fs::rename(database_, directory_ / "aside");
     fs::create_directory(database_);
@@ -165,7 +167,7 @@ TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
     EXPECT_TRUE(catalog.register_file(file("/d/odd2", {}, "KFWS")));
     fs::remove(database_);
     fs::rename(directory_ / "aside", database_);
-    catalog = *Catalog::open_for_writing(catalog_);
+    catalog = *CatalogWriter::open(catalog_);
     EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));
     EXPECT_EQ(catalog.list("KTLX", {{}, {}, true})->size(), 1U);
 }
@@ -173,7 +175,7 @@ TEST_F(Neighbors, AFileWhoseRowStandsInADatabaseThatCannotBeUsedWaits) {
 // Files whose names do not say their station are looked for among the unknown ones first.
 TEST_F(Neighbors, TheDatabaseOfUnknownFilesHoldsNobodyUp) {
     fs::create_directory(catalog_ / "_unknown.sqlite");
-    auto catalog = *Catalog::open_for_writing(catalog_);
+    auto catalog = *CatalogWriter::open(catalog_);
     EXPECT_FALSE(*catalog.is_known("/d/odd"));
     EXPECT_TRUE(catalog.note_file(file("/d/odd", {}, "")));
     EXPECT_TRUE(catalog.register_file(file("/d/odd", {}, "KFWS")));

@@ -26,10 +26,10 @@ std::string station(int k) {
 
 class OpenDatabasesTest : public ::testing::Test {
   protected:
-    Catalog open(std::size_t most_open) {
+    CatalogWriter open(std::size_t most_open) {
         CatalogOptions options;
         options.most_open = most_open;
-        return *Catalog::open_for_writing(catalog_, options);
+        return *CatalogWriter::open(catalog_, options);
     }
     static std::size_t descriptors() {
         return static_cast<std::size_t>(
@@ -56,7 +56,7 @@ TEST_F(OpenDatabasesTest, OnlySoManyAreOpenAndEachIsFoundAgain) {
     EXPECT_LE(catalog.open_databases(), 4U);
     EXPECT_TRUE(catalog.take_repairs().empty());
 
-    auto reader = *Catalog::open_for_reading(catalog_);
+    auto reader = *CatalogReader::open(catalog_);
     EXPECT_EQ(reader.stations()->size(), 30U);
     EXPECT_LE(reader.open_databases(), CatalogOptions::most_open_of_reader);
 }

@@ -21,7 +21,7 @@ TEST(GuessedHome, IsTheStationOfTheNameOrOfTheTwoDirectoriesAbove) {
 }
 
 // More paths than are remembered, so that what is known of the ones before is forgotten.
-void forget_homes(Catalog& catalog) {
+void forget_homes(const CatalogReader& catalog) {
     for (int path = 0; path < 70'000; ++path)
         ASSERT_FALSE(*catalog.is_known("/other/" + std::to_string(path)));
 }
@@ -37,11 +37,11 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
         EXPECT_TRUE(*catalog_.is_settled(path, 1000, 42)) << path;
 
     // Rewritten as a file of the station that it is named like, it leaves the other's database.
-    catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    catalog_ = *CatalogWriter::open(directory_ / "catalog");
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KOUN")));
     EXPECT_EQ(catalog_.list("KTLX", {{}, {}, true})->size(), 2U);
     EXPECT_EQ(catalog_.list("KOUN", {{}, {}, true})->size(), 2U);
-    catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    catalog_ = *CatalogWriter::open(directory_ / "catalog");
     EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_c"), 1);
 }
 
@@ -51,7 +51,7 @@ TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
     for (const bool is_opened_again : {false, true}) {
         SCOPED_TRACE(is_opened_again);
-        if (is_opened_again) catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+        if (is_opened_again) catalog_ = *CatalogWriter::open(directory_ / "catalog");
         EXPECT_FALSE(*catalog_.is_known("/d/KOUN_c"));
         // Whoever asks a database notes that its file is another.
         const std::filesystem::path database = directory_ / "catalog/KTLX.sqlite";
@@ -67,7 +67,7 @@ TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
 TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundAfterARestart) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_c", {}, "")));
-    catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+    catalog_ = *CatalogWriter::open(directory_ / "catalog");
     EXPECT_TRUE(*catalog_.is_known("/d/KOUN_b"));
     EXPECT_TRUE(*catalog_.is_known("/d/KOUN_c"));
     EXPECT_FALSE(*catalog_.is_known("/d/KOUN_d"));
@@ -82,7 +82,7 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundInALargeDatabase) {
     ASSERT_TRUE(catalog_.register_files("KTLX", files));
     for (const bool is_looked_through : {false, true}) {
         SCOPED_TRACE(is_looked_through);
-        catalog_ = *Catalog::open_for_writing(directory_ / "catalog");
+        catalog_ = *CatalogWriter::open(directory_ / "catalog");
         if (is_looked_through) {
             EXPECT_EQ(*catalog_.mark_missing("/elsewhere"), 0);
         }

@@ -18,7 +18,7 @@ class RadarSetTest : public ::testing::Test {
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
         std::filesystem::create_directory(drop_);
-        auto catalog = Catalog::open_for_writing(directory_.path());
+        auto catalog = CatalogWriter::open(directory_.path());
         ASSERT_TRUE(catalog);
         for (const char* name :
              {"KBGM20050822_030830.gz", "KBGM20050822_024414.gz", "KBGM20050822_030243.gz",

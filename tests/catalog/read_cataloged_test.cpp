@@ -26,7 +26,7 @@ class ReadCataloged : public ::testing::Test {
     void reopen(const fs::path& drop) {
         CatalogOptions options;
         options.drop = drop;
-        catalog_.emplace(*Catalog::open_for_writing(directory_ / "catalog", options));
+        catalog_.emplace(*CatalogWriter::open(directory_ / "catalog", options));
     }
     [[nodiscard]] FileFacts facts() const {
         FileFacts facts = file(raw_, {volume("2022-03-17T00:00")});
@@ -36,7 +36,7 @@ class ReadCataloged : public ::testing::Test {
         return facts;
     }
     Result<CatalogedBytes> read() {
-        auto reader = Catalog::open_for_reading(directory_ / "catalog");
+        auto reader = CatalogReader::open(directory_ / "catalog");
         const auto entry = reader->find_file("KTLX", raw_);
         return read_cataloged(*reader, **entry);
     }
@@ -50,7 +50,7 @@ class ReadCataloged : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     fs::path drop_ = directory_ / "drop";
     fs::path raw_ = drop_ / "KTLX/a";
-    std::optional<Catalog> catalog_;
+    std::optional<CatalogWriter> catalog_;
 };
 
 TEST_F(ReadCataloged, TheFileThatWasCatalogedIsGiven) {

@@ -16,6 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What a reader may not do does not compile.
+template <class Catalog>
+concept Registers = requires(Catalog& catalog, const FileFacts& facts) {
+    catalog.register_file(facts);
+    catalog.mark_gone(facts.path);
+    catalog.roll();
+};
+static_assert(Registers<CatalogWriter>);
+static_assert(!Registers<CatalogReader> && !Registers<const CatalogWriter>);
+
 FileFacts volume_facts(int number) {
     FileFacts facts;
     facts.path = fmt::format("/d/{}", number);
@@ -55,13 +65,13 @@ class Reader {
     [[noreturn]] void serve(const fs::path& directory) {
         ::close(orders_[1]);
         if (::setgid(65534) != 0 || ::setuid(65534) != 0) ::_exit(1);
-        std::optional<Catalog> catalog;
+        std::optional<CatalogReader> catalog;
         char order = 0;
         while (::read(orders_[0], &order, 1) == 1) {
             int answer = -1;
             if (::access(directory.c_str(), W_OK) == 0) ::_exit(2);
             if (!catalog) {
-                if (auto opened = Catalog::open_for_reading(directory)) {
+                if (auto opened = CatalogReader::open(directory)) {
                     catalog.emplace(std::move(*opened));
                 }
             }
@@ -86,7 +96,7 @@ class ReaderRights : public ::testing::Test {
         fs::permissions(directory_.path(), fs::perms{0755});
         ::umask(022);
     }
-    void register_one(Catalog& catalog) {
+    void register_one(CatalogWriter& catalog) {
         ASSERT_TRUE(catalog.register_file(volume_facts(number_++)));
     }
     testing::TemporaryDirectory directory_;
@@ -95,7 +105,7 @@ class ReaderRights : public ::testing::Test {
 
 TEST_F(ReaderRights, AReaderFollowsALiveWriter) {
     Reader reader(directory_ / "catalog");
-    auto writer = *Catalog::open_for_writing(directory_ / "catalog");
+    auto writer = *CatalogWriter::open(directory_ / "catalog");
     register_one(writer);
     EXPECT_EQ(reader.count(), 1);
     for (int i = 2; i <= 20; ++i) {
@@ -107,13 +117,13 @@ TEST_F(ReaderRights, AReaderFollowsALiveWriter) {
 TEST_F(ReaderRights, AReaderFollowsAWriterThatStopsAndStarts) {
     Reader early(directory_ / "catalog"), late(directory_ / "catalog");
     {
-        auto writer = *Catalog::open_for_writing(directory_ / "catalog");
+        auto writer = *CatalogWriter::open(directory_ / "catalog");
         register_one(writer);
         EXPECT_EQ(early.count(), 1);
     }
     EXPECT_EQ(early.count(), 1) << "stopped: there is no WAL any more";
     EXPECT_EQ(late.count(), 1);
-    auto writer = *Catalog::open_for_writing(directory_ / "catalog");
+    auto writer = *CatalogWriter::open(directory_ / "catalog");
     register_one(writer);
     EXPECT_EQ(late.count(), 2) << "opened while nobody wrote";
     EXPECT_EQ(early.count(), 2);
@@ -123,7 +133,7 @@ TEST_F(ReaderRights, AReaderSeesWhatAKilledWriterLeft) {
     const pid_t writer = ::fork();
     ASSERT_GE(writer, 0);
     if (writer == 0) {
-        auto catalog = Catalog::open_for_writing(directory_ / "catalog");
+        auto catalog = CatalogWriter::open(directory_ / "catalog");
         if (catalog) (void)catalog->register_file(volume_facts(0));
         ::_exit(0);  // nothing is closed: the WAL stays
     }
@@ -139,14 +149,14 @@ TEST_F(ReaderRights, AWalWithoutItsIndexIsAnErrorUntilAWriterCame) {
     const pid_t writer = ::fork();
     ASSERT_GE(writer, 0);
     if (writer == 0) {
-        auto catalog = Catalog::open_for_writing(directory_ / "catalog");
+        auto catalog = CatalogWriter::open(directory_ / "catalog");
         if (catalog) (void)catalog->register_file(volume_facts(0));
         ::_exit(0);
     }
     ::waitpid(writer, nullptr, 0);
     fs::remove(directory_ / "catalog/KTLX.sqlite-shm");
     EXPECT_EQ(reader.count(), -1) << "a clear error; the next writer mends it";
-    auto next = *Catalog::open_for_writing(directory_ / "catalog");
+    auto next = *CatalogWriter::open(directory_ / "catalog");
     EXPECT_EQ(next.list("KTLX", {})->size(), 1U);
     EXPECT_EQ(reader.count(), 1);
 }

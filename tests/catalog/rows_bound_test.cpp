@@ -10,8 +10,8 @@ namespace fs = std::filesystem;
 
 class RowsBound : public ::testing::Test {
   protected:
-    Catalog open(const CatalogOptions& options) {
-        return *Catalog::open_for_writing(directory_ / "catalog", options);
+    CatalogWriter open(const CatalogOptions& options) {
+        return *CatalogWriter::open(directory_ / "catalog", options);
     }
     static std::string path(int k) { return fmt::format("/d/{:06}", k); }
     // As an attack's: seen, so that it is not synced.

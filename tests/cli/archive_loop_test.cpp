@@ -272,7 +272,7 @@ TEST_F(ArchiveLoop, ThePrivateCacheGoesWhereThatIsAskedFor) {
 
 TEST_F(ArchiveLoop, OneProcessFillsACache) {
     const fs::path cache = directory_ / "c";
-    const auto held = cache::Store::open_rolling(real_file_system(), cache, {});
+    auto held = cache::RollingStore::open(real_file_system(), cache, {});
     ASSERT_TRUE(held);
     const auto result = run_station({"--cache", cache.string()});
     EXPECT_EQ(result.status, 1);

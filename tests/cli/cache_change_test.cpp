@@ -41,7 +41,7 @@ class CacheChangeTest : public ::testing::Test {
 
     testing::TemporaryDirectory directory_;
     testing::MeteredFileSystem disk_{directory_.path()};
-    cache::Store store_ = *cache::Store::open_for_writing(disk_, directory_.path(), false);
+    cache::StoreWriter store_ = *cache::StoreWriter::open(disk_, directory_.path(), false);
     std::uint64_t grid_bytes_ = 0;
 };
 

@@ -52,7 +52,7 @@ class CatalogCare : public ::testing::Test {
     }
     // A catalog of another station, as an older configuration left it.
     void put_database(const std::string& station) {
-        auto catalog = *catalog::Catalog::open_for_writing(catalog_);
+        auto catalog = *catalog::CatalogWriter::open(catalog_);
         catalog::FileFacts facts;
         facts.path = "/d/" + station;
         facts.station = station;

@@ -71,8 +71,8 @@ class Follow : public ::testing::Test {
     void SetUp() override { fs::create_directory(directory_ / "out"); }
 
     testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
 };
 
 // Before that a signal just ends it.
@@ -162,7 +162,7 @@ TEST_F(Follow, WaitsForTheCache) {
     EXPECT_THAT(
         program.err(),
         HasSubstr("there is no cache here yet; no grid of domain 'KBGM' is there; waiting"));
-    store_ = *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    store_ = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     commit("20050822_024400", 22);
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     EXPECT_THAT(written(), ElementsAre("a.webp"));

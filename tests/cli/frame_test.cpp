@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 class Frame : public ::testing::Test {
   protected:
     void SetUp() override {
-        const auto store =
-            cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+        auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;
         for (const char* time : {"20050822_024400", "20050822_025000"}) {
             grid::Grid grid;
@@ -38,7 +37,7 @@ class Frame : public ::testing::Test {
     }
 
     // Of one of the two times: 20 m/s below, -20 m/s above, not seen in the east.
-    void commit_velocity(const cache::Store& store, grid::Grid grid) {
+    void commit_velocity(cache::StoreWriter& store, grid::Grid grid) {
         grid.moment = level2::Moment::vel;
         const auto levels = static_cast<std::size_t>(grid.spec.nz());
         for (std::size_t i = 0; i < grid.values.size(); ++i) {

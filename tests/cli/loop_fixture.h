@@ -63,8 +63,8 @@ class Loop : public ::testing::Test {
     void SetUp() override { fs::create_directory(directory_ / "out"); }
 
     testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     std::vector<fs::path> grids_;
 };
 

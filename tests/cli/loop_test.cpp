@@ -374,7 +374,7 @@ TEST_F(Loop, GridsThatAreCutWhileTheyAreDrawnAreLeftOut) {
 
 TEST_F(Loop, RealVolumesBecomeALoop) {
     STORMCELLAR_NEED_DATA();
-    auto catalog = catalog::Catalog::open_for_writing(directory_ / "catalog");
+    auto catalog = catalog::CatalogWriter::open(directory_ / "catalog");
     ASSERT_TRUE(catalog) << catalog.error().message;
     pipeline::IngestOptions options;
     options.spacing_m = 4000;

@@ -22,9 +22,8 @@ class QueryTest : public ::testing::Test {
   protected:
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
-        auto catalog = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-        const auto store =
-            *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+        auto catalog = *catalog::CatalogWriter::open(directory_ / "catalog");
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         pipeline::IngestOptions options;
         options.spacing_m = 4000;
         options.nx = options.ny = 115;
@@ -34,9 +33,8 @@ class QueryTest : public ::testing::Test {
         }
     }
     void ingest(const std::filesystem::path& file) {
-        auto catalog = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-        const auto store =
-            *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", false);
+        auto catalog = *catalog::CatalogWriter::open(directory_ / "catalog");
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
         pipeline::Ingestor ingestor(catalog, store, {});
         ASSERT_TRUE(ingestor.ingest(file, true));
     }

@@ -64,7 +64,7 @@ std::size_t verified_grids(const fs::path& cache) {
 }
 
 std::vector<catalog::CatalogEntry> rows(const RunningDaemon& daemon, const std::string& station) {
-    auto catalog = catalog::Catalog::open_for_reading(daemon.catalog());
+    auto catalog = catalog::CatalogReader::open(daemon.catalog());
     if (!catalog) return {};
     auto entries = catalog->list(station, {.from = {}, .to = {}, .with_rejected = true});
     return entries ? *entries : std::vector<catalog::CatalogEntry>{};
@@ -312,7 +312,7 @@ TEST(EndToEnd, TheCacheRollsWithinItsBudget) {
     EXPECT_LE(testing::allocated_bytes(daemon.cache()), budget);
     EXPECT_EQ(daemon.terminate(), 0) << daemon.log();
     EXPECT_NE(daemon.log().find("cache: "), std::string::npos);
-    const auto store = *cache::Store::open_for_reading(daemon.cache());
+    const auto store = *cache::StoreReader::open(daemon.cache());
     const auto grids = *store.list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
     ASSERT_FALSE(grids.empty());
     EXPECT_LT(grids.size(), 5U);

@@ -91,7 +91,7 @@ class HostileDrop : public ::testing::Test {
     // How many sweeps the volumes have that the catalog knows, in any state.
     std::multiset<int> sweeps_known() {
         std::multiset<int> sweeps;
-        auto catalog = catalog::Catalog::open_for_reading(daemon_.catalog());
+        auto catalog = catalog::CatalogReader::open(daemon_.catalog());
         if (!catalog) return sweeps;
         const auto entries = catalog->list("KTLX", {std::nullopt, std::nullopt, true});
         if (!entries) return sweeps;

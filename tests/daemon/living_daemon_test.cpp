@@ -47,7 +47,7 @@ class LivingDaemon : public ::testing::Test {
     }
     // What stands of KLOT, if anything.
     std::optional<cache::GridDescription> newest() const {
-        const auto store = cache::Store::open_for_reading(daemon_.cache());
+        const auto store = cache::StoreReader::open(daemon_.cache());
         if (!store) return std::nullopt;
         const auto grids = store->list("KLOT", level2::Moment::ref, std::nullopt, std::nullopt);
         if (!grids || grids->empty()) return std::nullopt;

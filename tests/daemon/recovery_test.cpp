@@ -35,11 +35,11 @@ class Recovery : public ::testing::Test {
         })) << daemon_.log();
     }
     std::vector<cache::StoreEntry> grids() {
-        const auto store = cache::Store::open_for_reading(daemon_.cache());
+        const auto store = cache::StoreReader::open(daemon_.cache());
         return *store->list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt);
     }
     std::vector<catalog::CatalogEntry> rows() {
-        auto catalog = *catalog::Catalog::open_for_reading(daemon_.catalog());
+        auto catalog = *catalog::CatalogReader::open(daemon_.catalog());
         return *catalog.list("KBGM", {});
     }
     static constexpr const char* first = "KBGM20050822_024414.gz";
@@ -139,7 +139,7 @@ TEST_F(Recovery, MosaicsAreMadeAgainFromRawFilesAndPartials) {
         "[ingest]\nspacing_km = 4\n[[domain]]\nname = \"north\"\ncenter = [42.2, -75.9]\n"
         "spacing_km = 4\nextent_km = [400, 400]\nlevels_km = [1, 3, 6]\n";
     const auto list = [&](const std::string& name) {
-        const auto store = cache::Store::open_for_reading(daemon_.cache());
+        const auto store = cache::StoreReader::open(daemon_.cache());
         return *store->list(name, level2::Moment::ref, std::nullopt, std::nullopt);
     };
     put(first);
@@ -191,7 +191,7 @@ TEST_F(Recovery, AMosaicThatNobodyConfiguresAnyMoreIsDroppedWithTheReason) {
         "spacing_km = 8\nextent_km = [400, 400]\nlevels_km = [1, 3, 6]\n");
     ASSERT_TRUE(daemon_.wait_for([](const json& s) { return s["ingested"] == 2; }));
     EXPECT_EQ(daemon_.terminate(), 0);
-    const auto store = cache::Store::open_for_reading(daemon_.cache());
+    const auto store = cache::StoreReader::open(daemon_.cache());
     const auto frames = *store->list("north", level2::Moment::ref, std::nullopt, std::nullopt);
     ASSERT_EQ(frames.size(), 1U);
     fs::resize_file(frames[0].path, 5000);

@@ -82,7 +82,7 @@ TEST_F(WatchFacts, FilesMayGoAtAnyMoment) {
     EXPECT_EQ(daemon_.terminate(), 0);
     EXPECT_EQ(daemon_.status()["failures"], 0) << daemon_.log();
     EXPECT_EQ(daemon_.status()["rejected"], 0) << daemon_.log();
-    auto catalog = catalog::Catalog::open_for_reading(daemon_.catalog());
+    auto catalog = catalog::CatalogReader::open(daemon_.catalog());
     const auto entries = catalog->list("KTLX", {std::nullopt, std::nullopt, true});
     ASSERT_TRUE(entries);
     for (const catalog::CatalogEntry& entry : *entries) {

@@ -139,7 +139,7 @@ void check_cache(const fs::path& directory, Aftermath& after) {
 
 void check_volumes(const fs::path& cache, const std::vector<Delivered>& delivered,
                    Aftermath& after) {
-    const auto store = cache::Store::open_for_reading(cache);
+    const auto store = cache::StoreReader::open(cache);
     if (!store) {
         complain(after, "{}", store.error().message);
         return;

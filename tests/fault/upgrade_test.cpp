@@ -40,7 +40,7 @@ class Upgrade : public HostileCases {
         EXPECT_TRUE(fs::remove(daemon_.catalog() / "drop-directory"));
     }
     std::size_t complete_rows_of(const std::string& station) {
-        auto catalog = *catalog::Catalog::open_for_reading(daemon_.catalog());
+        auto catalog = *catalog::CatalogReader::open(daemon_.catalog());
         const auto rows = catalog.list(station, {});
         std::size_t complete = 0;
         for (const auto& row : *rows)

@@ -40,12 +40,11 @@ class ArchiveFillTest : public ::testing::Test {
         rebuild.catalog = directory_ / "catalog";
         rebuild.drop = directory_ / "drop";
         ASSERT_TRUE(rebuild_catalog(rebuild));
-        catalog_.emplace(*catalog::Catalog::open_for_reading(rebuild.catalog));
+        catalog_.emplace(*catalog::CatalogReader::open(rebuild.catalog));
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
-    [[nodiscard]] cache::Store store(const std::string& name) const {
-        return std::move(
-            *cache::Store::open_for_writing(real_file_system(), directory_ / name, true));
+    [[nodiscard]] cache::StoreWriter store(const std::string& name) const {
+        return std::move(*cache::StoreWriter::open(real_file_system(), directory_ / name, true));
     }
     [[nodiscard]] std::vector<ArchiveVolume> volumes() const {
         return *archive_volumes(*catalog_, {"KBGM"},
@@ -59,7 +58,7 @@ class ArchiveFillTest : public ::testing::Test {
         options.threads = 2;
         return options;
     }
-    [[nodiscard]] FillReport fill(const cache::Store& store, const ArchiveOptions& options) const {
+    [[nodiscard]] FillReport fill(cache::StoreWriter& store, const ArchiveOptions& options) const {
         FillReport report;
         ArchiveFill filling(*catalog_, store, directory_ / "scratch", options);
         const auto missing = filling.missing(volumes());
@@ -73,20 +72,20 @@ class ArchiveFillTest : public ::testing::Test {
     static std::vector<std::byte> bytes_of(const fs::path& path) { return *read_file(path); }
 
     testing::TemporaryDirectory directory_;
-    mutable std::optional<catalog::Catalog> catalog_;
+    std::optional<catalog::CatalogReader> catalog_;
     std::atomic<bool> stop_{false};
     std::vector<UtcTime> instants_ =
         instants_between(at("2005-08-22T02:00Z"), at("2005-08-22T04:00Z"), std::chrono::minutes{5});
 };
 
 TEST_F(ArchiveFillTest, OwnGridsAreToTheByteThoseOfTheDaemon) {
-    const cache::Store filled = store("filled"), kept = store("kept");
+    cache::StoreWriter filled = store("filled"), kept = store("kept");
     const FillReport report = fill(filled, options());
     EXPECT_EQ(report.grids_made, 3U);
     EXPECT_THAT(report.left_out, IsEmpty());
     EXPECT_THAT(report.frames, IsEmpty());
 
-    auto catalog = catalog::Catalog::open_for_writing(directory_ / "daemon");
+    auto catalog = catalog::CatalogWriter::open(directory_ / "daemon");
     IngestOptions ingest;
     ingest.nx = ingest.ny = 120;
     ingest.spacing_m = 4000;
@@ -101,7 +100,7 @@ TEST_F(ArchiveFillTest, OwnGridsAreToTheByteThoseOfTheDaemon) {
 }
 
 TEST_F(ArchiveFillTest, FramesHaveTheCellsAndPartsOfTheDaemons) {
-    const cache::Store filled = store("filled"), kept = store("kept");
+    cache::StoreWriter filled = store("filled"), kept = store("kept");
     ArchiveOptions mosaic = options();
     mosaic.domain = small_domain();
     const FillReport report = fill(filled, mosaic);
@@ -110,7 +109,7 @@ TEST_F(ArchiveFillTest, FramesHaveTheCellsAndPartsOfTheDaemons) {
     EXPECT_EQ(report.frames_made, 2U);
     EXPECT_THAT(*filled.list("KBGM", level2::Moment::ref, {}, {}), IsEmpty());
 
-    auto catalog = catalog::Catalog::open_for_writing(directory_ / "daemon");
+    auto catalog = catalog::CatalogWriter::open(directory_ / "daemon");
     IngestOptions ingest;
     ingest.domains = {small_domain()};
     Ingestor ingestor(*catalog, kept, ingest);
@@ -131,7 +130,7 @@ TEST_F(ArchiveFillTest, FramesHaveTheCellsAndPartsOfTheDaemons) {
 }
 
 TEST_F(ArchiveFillTest, ASecondCallMakesOnlyWhatIsNotThere) {
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     ArchiveOptions mosaic = options();
     mosaic.domain = small_domain();
     static_cast<void>(fill(filled, mosaic));
@@ -149,7 +148,7 @@ TEST_F(ArchiveFillTest, ASecondCallMakesOnlyWhatIsNotThere) {
 }
 
 TEST_F(ArchiveFillTest, AFrameOfOtherPartialsOrRulesIsMadeAgain) {
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     ArchiveOptions mosaic = options();
     mosaic.domain = small_domain();
     static_cast<void>(fill(filled, mosaic));
@@ -165,7 +164,7 @@ TEST_F(ArchiveFillTest, AFrameOfOtherPartialsOrRulesIsMadeAgain) {
 TEST_F(ArchiveFillTest, WhatCannotBeReadIsNamedAndLeftOut) {
     std::ofstream(raw(sequence[0]), std::ios::trunc) << "no radar data at all, but some bytes";
     fs::remove(raw(sequence[2]));
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     const FillReport report = fill(filled, options());
     EXPECT_EQ(report.grids_made, 1U);
     ASSERT_THAT(report.left_out, SizeIs(2));
@@ -185,7 +184,7 @@ TEST_F(ArchiveFillTest, WhatIsNotTheFileThatWasCatalogedIsNamedAndLeftOut) {
                   raw(sequence[1]), fs::copy_options::overwrite_existing);
     fs::permissions(raw(sequence[1]), fs::perms::owner_write, fs::perm_options::add);
     fs::resize_file(raw(sequence[1]), size);
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     const FillReport report = fill(filled, options());
     EXPECT_EQ(report.grids_made, 1U);
     EXPECT_THAT(*filled.list("KBGM", level2::Moment::ref, {}, {}), SizeIs(1));
@@ -205,14 +204,15 @@ TEST_F(ArchiveFillTest, FilesBehindADirectoryThatBecameALinkAreGone) {
     ASSERT_TRUE(rebuild_catalog(rebuild));
     fs::rename(directory_ / "drop/day", directory_ / "elsewhere");
     fs::create_directory_symlink(directory_ / "elsewhere", directory_ / "drop/day");
-    const FillReport report = fill(store("filled"), options());
+    cache::StoreWriter filled = store("filled");
+    const FillReport report = fill(filled, options());
     EXPECT_EQ(report.grids_made, 2U);
     ASSERT_THAT(report.left_out, SizeIs(1));
     EXPECT_EQ(report.left_out[0].reason, "is gone");
 }
 
 TEST_F(ArchiveFillTest, AGridOfAFileThatIsGoneSinceStands) {
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     static_cast<void>(fill(filled, options()));
     const auto all = volumes();
     fs::remove(raw(sequence[2]));
@@ -226,7 +226,7 @@ TEST_F(ArchiveFillTest, AGridOfAFileThatIsGoneSinceStands) {
 
 TEST_F(ArchiveFillTest, AFullDiskIsAnErrorAndWhatWasMadeStays) {
     testing::MeteredFileSystem disk(directory_ / "filled");
-    const auto filled = cache::Store::open_for_writing(disk, directory_ / "filled", true);
+    auto filled = cache::StoreWriter::open(disk, directory_ / "filled", true);
     ASSERT_TRUE(filled);
     disk.set_capacity(300'000);  // one grid of this size, not three
     FillReport report;
@@ -243,14 +243,14 @@ TEST_F(ArchiveFillTest, AFullDiskIsAnErrorAndWhatWasMadeStays) {
 
 TEST_F(ArchiveFillTest, NoVolumeBeginsOnceItIsToStop) {
     stop_ = true;
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     const FillReport report = fill(filled, options());
     EXPECT_EQ(report.grids_made, 0U);
     EXPECT_THAT(report.left_out, IsEmpty());
 }
 
 TEST_F(ArchiveFillTest, TheGuessOfBytesIsOnTheSafeSide) {
-    const cache::Store filled = store("filled");
+    cache::StoreWriter filled = store("filled");
     static_cast<void>(fill(filled, options()));
     std::uint64_t bytes = 0;
     const auto entries = filled.list("KBGM", level2::Moment::ref, {}, {});
@@ -293,7 +293,7 @@ class ArchiveVolumesTest : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    catalog::Catalog catalog_ = std::move(*catalog::Catalog::open_for_writing(directory_ / "c"));
+    catalog::CatalogWriter catalog_ = std::move(*catalog::CatalogWriter::open(directory_ / "c"));
 };
 
 TEST_F(ArchiveVolumesTest, ThoseThatOverlapTheRangeAndTheirNeighbours) {

@@ -75,8 +75,8 @@ class BetweenGridsTest : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     std::vector<std::string> problems_;
 };
 
@@ -209,8 +209,8 @@ class BetweenMosaics : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     std::vector<std::string> problems_;
 };
 

@@ -20,7 +20,8 @@ namespace stormcellar::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using catalog::Catalog;
+using catalog::CatalogReader;
+using catalog::CatalogWriter;
 using catalog::FileState;
 
 class ChunkFiles : public ::testing::Test {
@@ -35,7 +36,7 @@ class ChunkFiles : public ::testing::Test {
         ASSERT_EQ(paths_.size(), 55U);
     }
     // One volume, whole, in the first chunk's row, and every other chunk settled beside it.
-    void expect_one_volume(Catalog& catalog) {
+    void expect_one_volume(const CatalogReader& catalog) {
         const auto volumes = catalog.list("KLOT", {});
         ASSERT_TRUE(volumes);
         ASSERT_EQ(volumes->size(), 1U);
@@ -55,9 +56,8 @@ class ChunkFiles : public ::testing::Test {
 };
 
 TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
-    Catalog catalog = *Catalog::open_for_writing(directory_ / "catalog");
-    const auto store =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    CatalogWriter catalog = *CatalogWriter::open(directory_ / "catalog");
+    auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     IngestOptions options;
     options.spacing_m = 4000;
     options.nx = options.ny = 115;
@@ -91,7 +91,7 @@ TEST_F(ChunkFiles, ARebuiltCatalogHasTheVolumeAndNotItsParts) {
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->files, paths_.size());
     EXPECT_TRUE(report->problems.empty());
-    Catalog catalog = *Catalog::open_for_writing(options.catalog);
+    CatalogWriter catalog = *CatalogWriter::open(options.catalog);
     expect_one_volume(catalog);
     const auto again = rebuild_catalog(options);
     ASSERT_TRUE(again);
@@ -104,7 +104,7 @@ TEST_F(ChunkFiles, AVolumeIsReadAgainFromTheChunksThatWereCataloged) {
     options.catalog = directory_ / "catalog";
     options.drop = directory_ / "drop";
     ASSERT_TRUE(rebuild_catalog(options));
-    Catalog catalog = *Catalog::open_for_reading(options.catalog);
+    CatalogReader catalog = *CatalogReader::open(options.catalog);
     const auto entry = catalog.latest("KLOT")->value();
     const auto whole = read_cataloged_volume(catalog, entry);
     ASSERT_TRUE(whole) << whole.error().message;
@@ -140,7 +140,7 @@ TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     options.catalog = directory_ / "catalog";
     options.drop = directory_ / "drop";
     ASSERT_TRUE(rebuild_catalog(options));
-    Catalog catalog = *Catalog::open_for_reading(options.catalog);
+    CatalogReader catalog = *CatalogReader::open(options.catalog);
     const auto start = *catalog.latest("KLOT")->value().volume.start_time;
     const auto volumes = archive_volumes(catalog, {"KLOT"}, {start, start, false});
     ArchiveOptions coarse;
@@ -148,8 +148,7 @@ TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     coarse.nx = coarse.ny = 115;
     const std::atomic<bool> stop = false;
     const auto fill = [&](const std::string& name) {
-        const auto store =
-            *cache::Store::open_for_writing(real_file_system(), directory_ / name, true);
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / name, true);
         FillReport report;
         ArchiveFill filling(catalog, store, directory_ / (name + "-scratch"), coarse);
         EXPECT_TRUE(filling.fill(*volumes, {}, stop, report));
@@ -172,7 +171,7 @@ TEST_F(ChunkFiles, AVolumeWithoutItsEndIsRebuiltAsPartial) {
     options.catalog = directory_ / "catalog";
     options.drop = directory_ / "drop";
     ASSERT_TRUE(rebuild_catalog(options));
-    Catalog catalog = *Catalog::open_for_reading(options.catalog);
+    CatalogReader catalog = *CatalogReader::open(options.catalog);
     const auto volumes = catalog.list("KLOT", {});
     ASSERT_EQ(volumes->size(), 1U);
     EXPECT_EQ(volumes->at(0).state, FileState::partial);

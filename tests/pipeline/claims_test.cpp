@@ -82,9 +82,9 @@ class Claims : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     std::optional<Ingestor> ingestor_;
 };
 

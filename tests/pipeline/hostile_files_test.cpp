@@ -67,9 +67,9 @@ class Hostile : public ::testing::Test {
         return count;
     }
     testing::TemporaryDirectory directory_;
-    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     Ingestor ingestor_{catalog_, store_, options()};
 };
 

@@ -51,9 +51,9 @@ class IngestTest : public ::testing::Test {
         return options;
     }
     testing::TemporaryDirectory directory_;
-    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     Ingestor ingestor_{catalog_, store_, small_grid()};
 };
 
@@ -122,8 +122,7 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
     STORMCELLAR_NEED_DATA();
     cache::Budgets budgets;
     budgets.total.age = std::chrono::minutes{10};
-    const auto store =
-        *cache::Store::open_rolling(real_file_system(), directory_ / "rolling", budgets);
+    auto store = *cache::RollingStore::open(real_file_system(), directory_ / "rolling", budgets);
     Ingestor ingestor(catalog_, store, small_grid());
     EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_030830.gz"), false)->grids.size(),
               1U);

@@ -52,8 +52,8 @@ inline void date(const fs::path& path) {
 
 struct House {
     explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {}) {
-        catalog.emplace(*catalog::Catalog::open_for_writing(where / "catalog"));
-        store.emplace(*cache::Store::open_for_writing(real_file_system(), where / "cache", true));
+        catalog.emplace(*catalog::CatalogWriter::open(where / "catalog"));
+        store.emplace(*cache::StoreWriter::open(real_file_system(), where / "cache", true));
         IngestOptions options;
         options.spacing_m = 4000;
         options.nx = options.ny = 115;
@@ -67,8 +67,8 @@ struct House {
     std::vector<cache::StoreEntry> grids(const std::string& domain) const {
         return *store->list(domain, level2::Moment::ref, std::nullopt, std::nullopt);
     }
-    std::optional<catalog::Catalog> catalog;
-    std::optional<cache::Store> store;
+    std::optional<catalog::CatalogWriter> catalog;
+    std::optional<cache::StoreWriter> store;
     std::optional<Ingestor> ingestor;
 };
 

@@ -59,9 +59,9 @@ class MendCache : public ::testing::Test {
         return options;
     }
     testing::TemporaryDirectory directory_;
-    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     Ingestor ingestor_{catalog_, store_, small_grid()};
     CacheMender mender_{catalog_, store_, ingestor_, level2::Moment::ref};
 };
@@ -267,9 +267,9 @@ class MendMosaic : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    catalog::Catalog catalog_ = *catalog::Catalog::open_for_writing(directory_ / "catalog");
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    catalog::CatalogWriter catalog_ = *catalog::CatalogWriter::open(directory_ / "catalog");
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     Ingestor ingestor_{catalog_, store_, with_domain()};
     CacheMender mender_{catalog_, store_, ingestor_, level2::Moment::ref};
     std::map<fs::path, std::vector<std::byte>> good_;

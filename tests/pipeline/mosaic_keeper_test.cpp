@@ -62,8 +62,8 @@ class MosaicKeeperTest : public ::testing::Test {
     }
 
     testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     MosaicKeeper keeper_{&store_, {small_domain()}};
 };
 

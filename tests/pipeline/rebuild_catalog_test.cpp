@@ -14,7 +14,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using catalog::Catalog;
+using catalog::CatalogReader;
 using catalog::FileState;
 
 class RebuildCatalog : public ::testing::Test {
@@ -33,7 +33,7 @@ class RebuildCatalog : public ::testing::Test {
         std::ofstream(drop_ / ".hidden") << "not done";
     }
     std::vector<catalog::CatalogEntry> rows(const std::string& station) {
-        auto catalog = *Catalog::open_for_reading(catalog_);
+        auto catalog = *CatalogReader::open(catalog_);
         return *catalog.list(station, {{}, {}, true});
     }
     testing::TemporaryDirectory directory_;
@@ -125,7 +125,7 @@ TEST_F(RebuildCatalog, OnlyStationsThatAreKnownGetADatabaseAndTheDropDirectoryIs
     ASSERT_TRUE(rebuild_catalog(options_));
     EXPECT_FALSE(fs::exists(catalog_ / "KBGM.sqlite"));
     EXPECT_EQ(rows("").size(), 3U);
-    EXPECT_EQ(*Catalog::open_for_reading(catalog_)->drop_directory(), fs::canonical(drop_));
+    EXPECT_EQ(*CatalogReader::open(catalog_)->drop_directory(), fs::canonical(drop_));
 }
 
 TEST_F(RebuildCatalog, AMissingDropDirectoryIsAnErrorAndMarksNothing) {

@@ -91,8 +91,8 @@ class SiteWatchTest : public ::testing::Test {
     static inline Radar* a_ = nullptr;
     static inline Radar* b_ = nullptr;
     testing::TemporaryDirectory directory_;
-    cache::Store store_ =
-        *cache::Store::open_for_writing(real_file_system(), directory_ / "cache", true);
+    cache::StoreWriter store_ =
+        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     MosaicKeeper keeper_{&store_, {plains()}};
     SiteWatch watch_{store_, {plains()}};
 };

@@ -15,11 +15,16 @@
 // attack or an older configuration left, are left alone: a writer does not open them.
 // Bounds: of the databases only so many are open at once (catalog/open_databases.h), and each has a
 // most that its rows may take.
-// Errors: io, no_space, permission (SQLite's reason), corrupt (damaged; of a writer only where it
-// could not be mended), unsupported (a later version's or another program's database), not_a_file
-// (a FIFO or directory in its place), not_found. A database that cannot be opened is the trouble of
-// its own station alone: what concerns another, or all, goes on without it, and troubles() names
-// it. Thread contract: a Catalog may be used by many threads (a mutex a database inside); many
+// Errors: io, no_space, permission, busy (SQLite's reason), corrupt (damaged; of a writer only
+// where it could not be mended), unsupported (a later version's or another program's database),
+// not_a_file (a FIFO or directory in its place), not_found. A database that cannot be opened is the
+// trouble of its own station alone: what concerns another, or all, goes on without it, and
+// troubles() names it.
+//
+// A catalog is opened in one of two roles: a CatalogReader answers questions and never creates or
+// changes anything; a CatalogWriter answers the same questions, and registers files.
+//
+// Thread contract: a catalog may be used by many threads (a mutex a database inside); many
 // processes may read while one writes.
 #pragma once
 
@@ -31,6 +36,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "stormcellar/base/result.h"
@@ -146,22 +152,80 @@ struct Rolled {
 };
 
 // By the rule `any`, admits the stations that have a database in the directory; see
-// Catalog::open_for_writing().
+// CatalogWriter::open().
 Status admit_existing(const std::filesystem::path& directory, StationRule& rule);
 
-class Catalog {
+class CatalogReader {
+  public:
+    // not_found when the directory does not exist.
+    static Result<CatalogReader> open(std::filesystem::path directory);
+    CatalogReader(CatalogReader&&) noexcept;
+    CatalogReader& operator=(CatalogReader&&) noexcept;
+    CatalogReader(const CatalogReader&) = delete;
+    CatalogReader& operator=(const CatalogReader&) = delete;
+    ~CatalogReader();
+
+    // True when the path stands in the catalog with this size and modification time and was decoded
+    // to its end (complete, partial or rejected): nothing to do again.
+    [[nodiscard]] Result<bool> is_settled(const std::filesystem::path& path,
+                                          std::uint64_t size_bytes, std::int64_t modified_ns) const;
+    // True when the path stands in the catalog, in any state.
+    [[nodiscard]] Result<bool> is_known(const std::filesystem::path& path) const;
+
+    // The known stations that have a database, sorted; "" for files without one comes first.
+    [[nodiscard]] Result<std::vector<std::string>> station_names() const;
+    // Which databases could not be used when they were asked last, and why; by station. One is
+    // added when its trouble begins, and removed when it can be used again.
+    [[nodiscard]] std::vector<Trouble> troubles() const;
+    // The directory that raw files are dropped into, as the writer wrote it down; not_found where
+    // no writer did.
+    [[nodiscard]] Result<std::filesystem::path> drop_directory() const;
+    // How many databases are open.
+    [[nodiscard]] std::size_t open_databases() const;
+
+    // Of all stations whose databases can be read.
+    [[nodiscard]] Result<std::vector<StationSummary>> stations() const;
+    [[nodiscard]] Result<std::vector<CatalogEntry>> list(std::string_view station,
+                                                         const Query& query) const;
+    // The entry with the latest or oldest start; none when the station has no volume. What lies in
+    // the future (is_believed()) is the latest only where all does.
+    [[nodiscard]] Result<std::optional<CatalogEntry>> latest(std::string_view station) const;
+    [[nodiscard]] Result<std::optional<CatalogEntry>> oldest(std::string_view station) const;
+    // The row of a file in that station's database, without a volume; none where it has no row.
+    [[nodiscard]] Result<std::optional<CatalogEntry>> find_file(
+        std::string_view station, const std::filesystem::path& path) const;
+    [[nodiscard]] const std::filesystem::path& directory() const;
+
+    [[deprecated("CatalogReader::open")]] static Result<CatalogReader> open_for_reading(
+        std::filesystem::path directory) {
+        return open(std::move(directory));
+    }
+
+  protected:
+    struct Impl;
+    explicit CatalogReader(std::unique_ptr<Impl> impl);
+    // The catalog's memory of its databases. It is shared by threads and locks itself.
+    [[nodiscard]] Impl& impl() const { return *impl_; }
+
+  private:
+    // Whether the row of the path is settled; none where it has no row.
+    [[nodiscard]] Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
+                                                           std::uint64_t size_bytes,
+                                                           std::int64_t modified_ns) const;
+    template <class Work>
+    auto ask(std::string_view station, Work work) const;
+    std::unique_ptr<Impl> impl_;
+};
+
+// The old name, for programs that read; it goes with the next release. Programs that write name
+// their role.
+using Catalog [[deprecated("CatalogReader or CatalogWriter")]] = CatalogReader;
+
+class CatalogWriter : public CatalogReader {
   public:
     // Creates the directory when it is missing. By the rule `any` the stations that have a database
     // already are admitted, the newest database first, as far as the rule's bound allows.
-    static Result<Catalog> open_for_writing(std::filesystem::path directory,
-                                            CatalogOptions options = {});
-    // Never creates or changes anything; not_found when the directory does not exist.
-    static Result<Catalog> open_for_reading(std::filesystem::path directory);
-    Catalog(Catalog&&) noexcept;
-    Catalog& operator=(Catalog&&) noexcept;
-    Catalog(const Catalog&) = delete;
-    Catalog& operator=(const Catalog&) = delete;
-    ~Catalog();
+    static Result<CatalogWriter> open(std::filesystem::path directory, CatalogOptions options = {});
 
     // On success a power cut does not undo it, but for a state of `seen`, which may be lost.
     Result<Registered> register_file(const FileFacts& facts);
@@ -190,58 +254,21 @@ class Catalog {
     // Rows of files that are there are never deleted. To be called now and then, as forget_gone().
     Result<Rolled> roll(const std::function<void()>& step = {});
 
-    // True when the path stands in the catalog with this size and modification time and was decoded
-    // to its end (complete, partial or rejected): nothing to do again.
-    Result<bool> is_settled(const std::filesystem::path& path, std::uint64_t size_bytes,
-                            std::int64_t modified_ns);
-
-    // True when the path stands in the catalog, in any state.
-    Result<bool> is_known(const std::filesystem::path& path);
-
-    // The known stations that have a database, sorted; "" for files without one comes first.
-    [[nodiscard]] Result<std::vector<std::string>> station_names() const;
     // The databases of other stations, which stand there and are not opened.
     [[nodiscard]] Result<LeftAlone> left_alone() const;
-    // Which databases could not be used when they were asked last, and why; by station. One is
-    // added when its trouble begins, and removed when it can be used again.
-    [[nodiscard]] std::vector<Trouble> troubles() const;
-    // The directory that raw files are dropped into, as the writer wrote it down; not_found where
-    // no writer did.
-    [[nodiscard]] Result<std::filesystem::path> drop_directory() const;
-    // How many databases are open.
-    [[nodiscard]] std::size_t open_databases() const;
     // Reads the whole database of a station ("": of files without one), and mends it where it is
-    // damaged. For a writer. Errors: those of a database that cannot be looked at or mended.
+    // damaged. Errors: those of a database that cannot be looked at or mended.
     Status examine(std::string_view station);
     // The same of every station's. The last error, after all were looked at.
     Status examine_all();
     // What was mended since the last call.
     std::vector<Repair> take_repairs();
 
-    // Of all stations whose databases can be read.
-    Result<std::vector<StationSummary>> stations();
-    Result<std::vector<CatalogEntry>> list(std::string_view station, const Query& query);
-    // The entry with the latest or oldest start; none when the station has no volume. What lies in
-    // the future (is_believed()) is the latest only where all does.
-    Result<std::optional<CatalogEntry>> latest(std::string_view station);
-    Result<std::optional<CatalogEntry>> oldest(std::string_view station);
-    // The row of a file in that station's database, without a volume; none where it has no row.
-    Result<std::optional<CatalogEntry>> find_file(std::string_view station,
-                                                  const std::filesystem::path& path);
-    [[nodiscard]] const std::filesystem::path& directory() const;
-
   private:
-    struct Impl;
-    // Whether the row of the path is settled; none where it has no row.
-    Result<std::optional<bool>> find_settled(const std::filesystem::path& path,
-                                             std::uint64_t size_bytes, std::int64_t modified_ns);
+    explicit CatalogWriter(std::unique_ptr<Impl> impl);
     Result<int> mark_missing_of(const std::string& name, const std::filesystem::path& directory,
                                 const std::vector<std::filesystem::path>& paths);
     Status forget_elsewhere(const std::filesystem::path& path, const std::string& name);
-    template <class Work>
-    auto ask(std::string_view station, Work work);
-    explicit Catalog(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace stormcellar::catalog

@@ -2,7 +2,7 @@
 //
 // The shape is that of the 2008 paper's storage-broker client, so that programs written to it can
 // be moved. A file is given only where it is still the one that was cataloged
-// (stormcellar/catalog/read_cataloged.h). Thread contract: as Catalog.
+// (stormcellar/catalog/read_cataloged.h). Thread contract: as CatalogReader.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,8 @@ class RadarSet {
     [[nodiscard]] Result<level2::Decoded> read_radar(const std::string& name) const;
 
   private:
-    RadarSet(std::shared_ptr<Catalog> catalog, std::string station);
-    std::shared_ptr<Catalog> catalog_;
+    RadarSet(std::shared_ptr<const CatalogReader> catalog, std::string station);
+    std::shared_ptr<const CatalogReader> catalog_;
     std::string station_;
 };
 

@@ -29,11 +29,11 @@ struct CatalogedBytes {
     bool is_compared = false;  // false: the row has no final hash, so any contents were taken
 };
 
-[[nodiscard]] Result<CatalogedBytes> read_cataloged(const Catalog& catalog,
+[[nodiscard]] Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog,
                                                     const CatalogEntry& entry);
 
 // The directory beneath which the path is to be opened.
-[[nodiscard]] Result<std::filesystem::path> root_of(const Catalog& catalog,
+[[nodiscard]] Result<std::filesystem::path> root_of(const CatalogReader& catalog,
                                                     const std::filesystem::path& path);
 // Whether the row has a size and a hash that its file must have.
 [[nodiscard]] bool has_final_hash(const CatalogEntry& entry);
