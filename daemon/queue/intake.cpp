@@ -41,16 +41,16 @@ Clock real_clock() {
 }
 
 Intake::Intake(const Config& config, Clock clock)
-    : drop_(config.drop),
-      stations_(config.stations),
+    : drop_(config.fixed.paths.drop),
+      stations_(config.fixed.ingest.stations),
       clock_(std::move(clock)),
-      reread_(config.reread),
-      schedule_(config.queue_limit),
-      growing_(config.quiet, most_growing) {
-    schedule_.set_workers(config.worker_count());
+      reread_(config.reloadable.reread),
+      schedule_(config.fixed.queue_limit),
+      growing_(config.reloadable.quiet, most_growing) {
+    schedule_.set_workers(config.reloadable.worker_count());
 }
 
-void Intake::set_times(const Config& config) {
+void Intake::reload(const ReloadableConfig& config) {
     reread_ = config.reread;
     growing_.set_quiet(config.quiet);
     schedule_.set_workers(config.worker_count());

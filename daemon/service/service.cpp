@@ -32,23 +32,6 @@ constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
 
-// The socket of a configuration that names none was chosen at the start.
-bool same_listening(const Config& fresh, const Config& running) {
-    const bool same_socket =
-        fresh.status.socket.empty() || fresh.status.socket == running.status.socket;
-    return same_socket && fresh.status.http_port == running.status.http_port;
-}
-
-// What is taken from the configuration once.
-bool same_at_the_start(const Config& fresh, const Config& running) {
-    return fresh.living == running.living && fresh.bunzip == running.bunzip &&
-           fresh.ingest.living.chunk_timeout == running.ingest.living.chunk_timeout &&
-           fresh.ingest.living.chunk_grace == running.ingest.living.chunk_grace &&
-           fresh.refill == running.refill && fresh.packing == running.packing &&
-           fresh.stations.same_as(running.stations) &&
-           fresh.added_stations == running.added_stations;
-}
-
 Result<Taken> take(Sink& sink, const Job& job) {
     const bool is_last = job.failures + 1 >= Intake::most_tries;
     return sink.take(job.path, job.finish_partial,
@@ -65,14 +48,15 @@ Result<Taken> note(Sink& sink, const Job& job) {
 
 }  // namespace
 
-Service::Service(Config config, std::filesystem::path config_file, ServiceParts parts)
-    : config_(std::move(config)),
+Service::Service(const Config& config, std::filesystem::path config_file, ServiceParts parts)
+    : fixed_(config.fixed),
+      config_(config.reloadable),
       config_file_(std::move(config_file)),
       parts_(std::move(parts)),
-      intake_(config_, parts_.clock),
-      watcher_(config_.drop, parts_.events, intake_),
-      status_(config_.drop, config_.cache),
-      status_file_(parts_.file_system, config_.state, parts_.notifier),
+      intake_(config, parts_.clock),
+      watcher_(fixed_.paths.drop, parts_.events, intake_),
+      status_(fixed_.paths.drop, fixed_.paths.cache),
+      status_file_(parts_.file_system, fixed_.paths.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
       pool_([this](const Job& job) { return take(parts_.sink, job); }, "ingest",
             config_.worker_count(), [this] { wake_up_.set(); }),
@@ -80,15 +64,15 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
                  [this] { wake_up_.set(); }),
       row_keeper_(parts_.sink),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
-      loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
+      loop_keeper_(fixed_.paths.cache, [this] { wake_up_.set(); }) {
     need([this]() -> Status {
         if (!drop_missing_) return {};
         return fail(ErrorCode::not_found, "drop directory {}", drop_problem_);
     });
-    need([this] { return can_write_in(parts_.file_system, config_.state); });
+    need([this] { return can_write_in(parts_.file_system, fixed_.paths.state); });
     need([this] { return parts_.sink.can_store(); });
     watcher_.on_step([this] { keep_workers_busy(); });
-    status_.set_listening(config_.status.socket, config_.status.http_port);
+    status_.set_listening(parts_.socket, fixed_.status.http_port);
     watch("missing", row_keeper_.pulse());
     watch("cache", cache_keeper_.pulse());
     watch("loops", loop_keeper_.pulse());
@@ -138,7 +122,7 @@ void Service::get_ready() {
     publish(true);
     parts_.notifier.send("READY=1");
     log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
-             printable(config_.drop.native()),
+             printable(fixed_.paths.drop.native()),
              counted(watcher_.directory_count(), "directory", "directories"),
              counted(pending.waiting + pending.growing, "file"),
              counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"));
@@ -204,40 +188,19 @@ void Service::reload() {
 }
 
 void Service::apply(const Config& fresh) {
-    if (fresh.drop != config_.drop || fresh.state != config_.state ||
-        fresh.cache != config_.cache) {
-        log_warning({Event::reload_ignored},
-                    "reload: [paths] cannot change while the service runs: restart it");
-    }
-    if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
-        log_warning({Event::reload_ignored},
-                    "reload: the grid, mosaics, threads and queue_limit change at a restart only");
-    }
-    if (!same_at_the_start(fresh, config_)) {
-        log_warning({Event::reload_ignored},
-                    "reload: stations, living, bunzip, the chunks' times, refill_hours and "
-                    "compression change at a restart only");
-    }
-    if (!same_listening(fresh, config_))
-        log_warning({Event::reload_ignored}, "reload: [status] changes at a restart only");
-    config_.workers = fresh.workers;
-    config_.quiet = fresh.quiet;
-    config_.reread = fresh.reread;
-    config_.rescan = fresh.rescan;
-    config_.poll = fresh.poll;
-    if (fresh.budgets != config_.budgets) cache_keeper_.roll_soon();
-    config_.budgets = fresh.budgets;
-    config_.gone_kept = fresh.gone_kept;
-    config_.log_level = fresh.log_level;
-    config_.loops = fresh.loops;
-    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
-    pool_.resize(config_.worker_count());
-    intake_.set_times(config_);
-    next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
-    set_log_level(config_.log_level);
+    const auto& [fixed, reloadable] = fresh;  // all that there is
+    for (const std::string& sentence : needs_restart(fixed, fixed_))
+        log_warning({Event::reload_ignored}, "reload: {}", sentence);
+    if (reloadable.budgets != config_.budgets) cache_keeper_.roll_soon();
+    config_ = reloadable;
+    if (parts_.keeps_loops) loop_keeper_.set(reloadable.loops);
+    pool_.resize(reloadable.worker_count());
+    intake_.reload(reloadable);
+    next_scan_ = std::min(next_scan_, parts_.clock.steady() + reloadable.rescan);
+    set_log_level(reloadable.log_level);
     log_info({Event::reloaded}, "reloaded: {}, quiet after {} s, log level {}",
-             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"),
-             std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
+             counted(static_cast<std::uint64_t>(reloadable.worker_count()), "worker"),
+             std::chrono::duration<double>(reloadable.quiet).count(), reloadable.log_level);
 }
 
 void Service::collect() {
@@ -265,7 +228,8 @@ void Service::note_drop(const Status& scanned) {
                   printable(scanned.error().message),
                   std::chrono::duration<double>(config_.rescan).count());
     } else if (scanned && drop_missing_) {
-        log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
+        log_info({Event::drop_back}, "drop directory {} is back",
+                 printable(fixed_.paths.drop.native()));
     }
     drop_missing_ = !scanned;
     drop_problem_ = scanned ? std::string{} : scanned.error().message;

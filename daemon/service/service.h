@@ -5,7 +5,8 @@
 //   start    scan the drop directory and queue what is there; say READY once drop directory, state,
 //            cache and sockets answer (readiness.h). Until then what can be taken in is
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
-//   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
+//   SIGHUP   the configuration is read again; its reloadable part counts, the fixed part stays
+//            until a restart (daemon/config/config.h)
 // Loops are other programs, which end with the service (daemon/loops/loop_keeper.h), unless a
 // service of their own keeps them. The cache is brought within its budgets every few seconds, in a
 // thread of its own. Thread contract: run() once; request_stop(), is_idle() and sites_compared()
@@ -52,6 +53,7 @@ struct ServiceParts {
     bool keeps_loops = true;       // false: another process does (daemon/loops/loops_service.h)
     StatusBoard* board = nullptr;  // none: the status is in its file alone
     StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
+    std::filesystem::path socket = {};  // where the status is answered, to be named in it
 };
 
 enum class Stopped {
@@ -62,7 +64,7 @@ enum class Stopped {
 class Service {
   public:
     // `config_file` is what SIGHUP reads again.
-    Service(Config config, std::filesystem::path config_file, ServiceParts parts);
+    Service(const Config& config, std::filesystem::path config_file, ServiceParts parts);
 
     // Before run(): a station of the catalog and its newest volume.
     void know_station(const std::string& station, UtcTime newest_volume);
@@ -105,7 +107,8 @@ class Service {
     [[nodiscard]] std::optional<Step> oldest_step() const;
     [[nodiscard]] SteadyTime next_time() const;
 
-    Config config_;
+    const FixedConfig fixed_;
+    ReloadableConfig config_;
     std::filesystem::path config_file_;
     ServiceParts parts_;
     Intake intake_;

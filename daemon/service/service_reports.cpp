@@ -40,12 +40,12 @@ void Service::keep_state(SteadyTime now) {
     const std::optional<Status> made = parts_.state->look();
     if (made && *made) {
         log_warning({Event::state_mended}, "state directory {} was deleted: it is made again",
-                    printable(config_.state.native()));
+                    printable(fixed_.paths.state.native()));
         status_file_.changed();
     } else if (made && !state_lost_) {
         log_error({Event::state_lost},
                   "state directory {} was deleted, and cannot be made again: {}",
-                  printable(config_.state.native()), printable((*made).error().message));
+                  printable(fixed_.paths.state.native()), printable((*made).error().message));
     }
     state_lost_ = made && !*made;
 }
@@ -174,7 +174,7 @@ void Service::report_sites() {
 void Service::look_at_others_loops(SteadyTime now) {
     if (now < next_loops_look_) return;
     next_loops_look_ = now + between_loops_looks;
-    auto loops = others_loops(config_.state, config_.loops);
+    auto loops = others_loops(fixed_.paths.state, config_.loops);
     if (parts_.keeps_loops) {
         const bool twice = std::any_of(loops.begin(), loops.end(),
                                        [](const LoopState& loop) { return loop.is_running; });

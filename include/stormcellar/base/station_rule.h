@@ -43,8 +43,8 @@ class StationRule {
     // The further stations that `any` has admitted, sorted.
     [[nodiscard]] std::vector<std::string> further() const;
     [[nodiscard]] std::size_t most_further() const { return most_further_; }
-    // For the configuration: the same rule, whatever was admitted.
-    [[nodiscard]] bool same_as(const StationRule& other) const;
+    // The same rule, whatever either has admitted.
+    bool operator==(const StationRule& other) const;
 
   private:
     Kind kind_ = Kind::known;
