@@ -122,7 +122,7 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_pa
     const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
-        taken.ingest.result = pipeline::IngestResult::vanished;  // something else took its name
+        taken.ingest.ending = pipeline::ended::Vanished{};  // something else took its name
         return taken;
     }
     Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_partial, tries);

@@ -20,7 +20,7 @@ class IngestSink final : public Sink {
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
                        pipeline::Tries tries) override;
-    Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
+    Result<pipeline::Noted> note(const std::filesystem::path& path) override {
         return ingestor_.note(path);
     }
     void set_pressed(bool pressed) override { *pressed_ = pressed; }

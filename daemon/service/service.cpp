@@ -42,7 +42,11 @@ Result<Taken> note(Sink& sink, const Job& job) {
     const auto noted = sink.note(job.path);
     if (!noted) return pass_on(noted);
     Taken taken;
-    taken.ingest.result = *noted;
+    if (*noted == pipeline::Noted::gone) {
+        taken.ingest.ending = pipeline::ended::Vanished{};
+    } else {
+        taken.ingest.ending = pipeline::ended::Registered{};
+    }
     return taken;
 }
 
@@ -211,7 +215,7 @@ void Service::collect() {
     }
     for (const Finished& noted : registrar_.collect()) {
         const bool is_gone =
-            noted.taken && noted.taken->ingest.result == pipeline::IngestResult::vanished;
+            noted.taken && noted.taken->ingest.result() == pipeline::IngestResult::vanished;
         if (is_gone) status_.add(noted);
         intake_.registered(noted);
     }

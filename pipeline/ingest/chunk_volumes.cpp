@@ -20,8 +20,8 @@ constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
 constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
 constexpr std::chrono::seconds between_catching_up{1};
-// Beyond it all are forgotten, and read again with their next chunk.
-constexpr std::size_t most_chunks_not_again = 4096;
+// Of volumes that found no place. Beyond it all are forgotten.
+constexpr std::size_t most_waiters = 4096;
 
 // The pieces of chunks beside the sweeps that they make.
 class ShelfDepot final : public level2::SweepDepot {
@@ -119,11 +119,21 @@ Result<ChunkVolume::Added> ChunkVolume::read_and_add(const ChunkPath& chunk,
     return Added::added;
 }
 
+Result<ChunkVolume::Added> ChunkVolume::add_with_siblings(const ChunkPath& chunk,
+                                                          const FileStamp& stamp) {
+    auto added = add(chunk, stamp);
+    if (!added || *added == Added::not_ours || is_loaded_) return added;
+    if (const Status all = add_siblings(chunk); !all) return pass_on(all);
+    is_loaded_ = true;
+    return added;
+}
+
 bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
     return volume.read_bytes_ - read_bytes > most_read_at_once ||
            volume.refused_.size() - refused >= most_refused_at_once;
 }
 
+// `of` becomes the waiter, whatever is added in its name.
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const InOneJob before{read_bytes_, refused_.size()};
     waiter_ = of.path;
@@ -170,15 +180,13 @@ void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     former_waiter_ = former;
 }
 
-bool ChunkVolume::waits(const ChunkPath& chunk) {
+bool ChunkVolume::has_waiter() const {
     const auto waiter = files_.find(waiter_);
-    if (waiter == files_.end() || !waiter->second.is_whole) waiter_ = chunk.path;
-    return chunk.path == waiter_;
+    return waiter != files_.end() && waiter->second.is_whole;
 }
 
 bool ChunkVolume::is_waiter(const fs::path& path) const {
-    const auto waiter = files_.find(path);
-    return path == waiter_ && waiter != files_.end() && waiter->second.is_whole;
+    return path == waiter_ && has_waiter();
 }
 
 fs::path ChunkVolume::first_file() const {
@@ -243,27 +251,21 @@ bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
 
 std::filesystem::path ChunkVolumes::wait_for_place(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
-    if (waiters_.size() >= most_chunks_not_again && !waiters_.contains(chunk.key)) waiters_.clear();
+    if (waiters_.size() >= most_waiters && !waiters_.contains(chunk.key)) waiters_.clear();
     std::filesystem::path former = std::exchange(waiters_[chunk.key], chunk.path);
     return former == chunk.path ? std::filesystem::path{} : former;
 }
 
-std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
-                                                Expected expected) {
+ChunkVolumes::Shared ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
+                                        Expected expected) {
     const std::scoped_lock lock(mutex_);
-    if (auto known = volumes_.find(chunk.key)) return known;
-    const auto now = std::chrono::steady_clock::now();
-    const auto given_up = not_again_.find(chunk.key);
-    if (given_up != not_again_.end()) {
+    if (Shared known = volumes_.find(chunk.key)) return known;
+    if (volumes_.was_given_up(chunk.key)) {
         if (expected == Expected::more) return nullptr;
-        if (expected == Expected::its_end_is_there &&
-            std::exchange(given_up->second.was_read_at_end, true)) {
+        if (expected == Expected::its_end_is_there && !volumes_.take_second_try(chunk.key))
             return nullptr;
-        }
-    } else {
-        const bool has_place = volumes_.has_place(station, now);
-        note_given_up();
-        if (!has_place && expected == Expected::more) return nullptr;
+    } else if (!volumes_.make_place(station) && expected == Expected::more) {
+        return nullptr;
     }
     level2::LiveOptions live;
     live.timeout = options_.chunk_timeout;
@@ -273,55 +275,42 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const st
     live.decode.selection = options_.selection;
     live.decode.fallback_station = station_of_path(chunk.path);
     waiters_.erase(chunk.key);
-    auto made = std::make_shared<ChunkVolume>(options_, live);
-    volumes_.add(chunk.key, made, station, now);
+    auto made = std::make_shared<Guarded<ChunkVolume>>(options_, live);
+    volumes_.add(chunk.key, made, station);
     return made;
 }
 
-std::shared_ptr<ChunkVolume> ChunkVolumes::find_known(const ChunkPath& chunk) const {
+ChunkVolumes::Shared ChunkVolumes::find_known(const ChunkPath& chunk) const {
     const std::scoped_lock lock(mutex_);
     return volumes_.find(chunk.key);
 }
 
-bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume,
+bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                         const std::string& station) {
     const std::scoped_lock lock(mutex_);
     // Forgotten meanwhile, as when it is read anew: that is nobody's fault.
-    if (volumes_.find(chunk.key).get() != &volume) return !not_again_.contains(chunk.key);
-    const bool stands =
-        volumes_.grew(chunk.key, &volume, station,
-                      {volume.held_bytes(), volume.shelf_bytes(), volume.has_sweeps()},
-                      std::chrono::steady_clock::now());
-    note_given_up();
-    return stands;
-}
-
-void ChunkVolumes::note_given_up() {
-    for (const std::string& key : volumes_.take_given_up()) {
-        if (not_again_.size() >= most_chunks_not_again) not_again_.clear();
-        not_again_.try_emplace(key);
-        ++given_up_;
-    }
+    if (volumes_.find(chunk.key) != volume) return !volumes_.was_given_up(chunk.key);
+    return volumes_.grew(chunk.key, volume.get(), station, growth);
 }
 
 std::uint64_t ChunkVolumes::take_given_up() {
     const std::scoped_lock lock(mutex_);
-    return std::exchange(given_up_, 0);
+    return volumes_.take_given_up();
+}
+
+void ChunkVolumes::forget_key(const std::string& key) {
+    volumes_.forget(key);
+    waiters_.erase(key);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
-    volumes_.erase(chunk.key);
-    not_again_.erase(chunk.key);
-    waiters_.erase(chunk.key);
+    forget_key(chunk.key);
 }
 
-void ChunkVolumes::forget(const ChunkPath& chunk, const ChunkVolume* volume) {
+void ChunkVolumes::forget(const ChunkPath& chunk, const Shared& volume) {
     const std::scoped_lock lock(mutex_);
-    if (volumes_.find(chunk.key).get() != volume) return;
-    volumes_.erase(chunk.key);
-    not_again_.erase(chunk.key);
-    waiters_.erase(chunk.key);
+    if (volumes_.find(chunk.key) == volume) forget_key(chunk.key);
 }
 
 std::size_t ChunkVolumes::count() const {

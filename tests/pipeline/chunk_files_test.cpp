@@ -56,8 +56,7 @@ class ChunkFiles : public ::testing::Test {
 
 TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
     CatalogWriter catalog = *CatalogWriter::open(directory_ / "catalog");
-    auto store =
-        *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+    auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     IngestOptions options;
     options.spacing_m = 4000;
     options.nx = options.ny = 115;
@@ -72,11 +71,11 @@ TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
         fs::copy_file(*testing::data_directory() / "chunks/OPENRADAR_KLOT" / path.filename(), path);
         const auto outcome = ingestor.ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
-        if (outcome->result == IngestResult::incomplete) {
+        if (outcome->result() == IngestResult::incomplete) {
             EXPECT_EQ(outcome->instead_of, i == 0 ? fs::path{} : paths_[i - 1]);
         }
         EXPECT_TRUE(outcome->living.empty());
-        gridded += outcome->result == IngestResult::gridded ? 1 : 0;
+        gridded += outcome->result() == IngestResult::gridded ? 1 : 0;
     }
     EXPECT_EQ(gridded, 1);
     EXPECT_EQ(store.list("KLOT", level2::Moment::ref, std::nullopt, std::nullopt)->size(), 1U);
@@ -148,8 +147,7 @@ TEST_F(ChunkFiles, AnArchiveDoesNotGridChunksThatAreOthers) {
     coarse.nx = coarse.ny = 115;
     const std::atomic<bool> stop = false;
     const auto fill = [&](const std::string& name) {
-        auto store =
-            *cache::StoreWriter::open(real_file_system(), directory_ / name, true);
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / name, true);
         FillReport report;
         ArchiveFill filling(catalog, store, directory_ / (name + "-scratch"), coarse);
         EXPECT_TRUE(filling.fill(*volumes, {}, stop, report));
