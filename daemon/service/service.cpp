@@ -15,9 +15,6 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Scans take at most about a tenth of the time, however often something calls for one.
-constexpr std::chrono::milliseconds least_scan_gap{100};
-constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 constexpr std::chrono::seconds between_held_back{1};
@@ -69,10 +66,7 @@ Service::Service(const Config& config, std::filesystem::path config_file, Servic
       row_keeper_(parts_.sink),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
       loop_keeper_(fixed_.paths.cache, [this] { wake_up_.set(); }) {
-    need([this]() -> Status {
-        if (!drop_missing_) return {};
-        return fail(ErrorCode::not_found, "drop directory {}", drop_problem_);
-    });
+    need([this] { return drop_trouble_.is_over(); });
     need([this] { return can_write_in(parts_.file_system, fixed_.paths.state); });
     need([this] { return parts_.sink.can_store(); });
     watcher_.on_step([this] { keep_workers_busy(); });
@@ -150,16 +144,16 @@ void Service::turn() {
 }
 
 SteadyTime Service::next_time() const {
-    SteadyTime time =
-        std::min({parts_.clock.steady() + longest_sleep, next_scan_, cache_keeper_.next_time()});
+    SteadyTime time = std::min(
+        {parts_.clock.steady() + longest_sleep, scan_times_.next(), cache_keeper_.next_time()});
     const auto work = intake_.next_time(pool_.has_free_worker(), registrar_.has_free_worker());
     for (const auto& due :
          {work, status_file_.next_time(), watchdog_.next_time(), readiness_.next_time()}) {
         if (due) time = std::min(time, *due);
     }
-    if (intake_.needs_scan()) time = std::min(time, rested_);
+    if (intake_.needs_scan()) time = std::min(time, scan_times_.rested());
     if (const auto again = intake_.look_again_at())
-        time = std::min(time, std::max(*again, rested_));
+        time = std::min(time, std::max(*again, scan_times_.rested()));
     return time;
 }
 
@@ -200,7 +194,7 @@ void Service::apply(const Config& fresh) {
     if (parts_.keeps_loops) loop_keeper_.set(reloadable.loops);
     pool_.resize(reloadable.worker_count());
     intake_.reload(reloadable);
-    next_scan_ = std::min(next_scan_, parts_.clock.steady() + reloadable.rescan);
+    scan_times_.no_later_than(parts_.clock.steady() + reloadable.rescan);
     set_log_level(reloadable.log_level);
     log_info({Event::reloaded}, "reloaded: {}, quiet after {} s, log level {}",
              counted(static_cast<std::uint64_t>(reloadable.worker_count()), "worker"),
@@ -222,22 +216,7 @@ void Service::collect() {
 }
 
 void Service::scan_if_due() {
-    const SteadyTime now = parts_.clock.steady();
-    if (now >= next_scan_ || (intake_.needs_scan() && now >= rested_)) scan();
-}
-
-void Service::note_drop(const Status& scanned) {
-    if (!scanned && !drop_missing_) {
-        log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
-                  printable(scanned.error().message),
-                  std::chrono::duration<double>(config_.rescan).count());
-    } else if (scanned && drop_missing_) {
-        log_info({Event::drop_back}, "drop directory {} is back",
-                 printable(fixed_.paths.drop.native()));
-    }
-    drop_missing_ = !scanned;
-    drop_problem_ = scanned ? std::string{} : scanned.error().message;
-    status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
+    if (scan_times_.is_due(parts_.clock.steady(), intake_.needs_scan())) scan();
 }
 
 // Called between two parts of what takes long: a scan of many files takes seconds, a burst of
@@ -249,21 +228,21 @@ void Service::keep_workers_busy() {
 
 void Service::scan() {
     const SteadyTime began = parts_.clock.steady();
-    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
+    const bool is_poll =
+        watcher_.is_blind() && !intake_.needs_scan() && !scan_times_.is_regular(began);
     intake_.begin_scan();
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
-    note_drop(scanned);
+    drop_trouble_.scanned(scanned, fixed_.paths.drop, config_.rescan, status_);
     if (scanned && !is_poll) row_keeper_.look(began, config_.gone_kept);
     status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
-    rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
-    if (!is_poll) next_rescan_ = ended + config_.rescan;
+    if (!is_poll) scan_times_.set_next_regular(ended + config_.rescan);
     auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
     if (!scanned && !readiness_.is_ready())
         gap = std::min<std::chrono::milliseconds>(gap, between_first_scans);
-    next_scan_ = std::max(ended + gap, rested_);
+    scan_times_.scanned(began, ended, gap);
 }
 
 void Service::start_jobs() {
@@ -280,6 +259,59 @@ void Service::start_jobs() {
     }
 }
 
+void Service::look_for_troubles(SteadyTime now) {
+    if (parts_.state != nullptr && state_trouble_.look(now, *parts_.state, fixed_.paths.state))
+        status_file_.changed();
+    const std::vector<std::string> repairs = parts_.sink.take_repairs();
+    for (const std::string& line : repairs)
+        log_error({Event::database_mended}, "{}", printable(line));
+    if (!repairs.empty()) intake_.forget_seen();
+    look_at_catalog(now);
+    backlog_trouble_.look(now, intake_, status_);
+    const bool has_news =
+        others_loops_.look(now, fixed_.paths.state, config_.loops, parts_.keeps_loops, status_);
+    if (has_news) status_file_.changed();
+}
+
+void Service::look_at_catalog(SteadyTime now) {
+    if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
+}
+
+// What fails because of a database in trouble is named once, with the trouble.
+void Service::report(const Finished& finished) {
+    if (!finished.taken) {
+        catalog_trouble_.look_soon();
+        look_at_catalog(parts_.clock.steady());
+    }
+    const auto& troubles = status_.facts().catalog.troubles;
+    const bool is_named =
+        !finished.taken && std::any_of(troubles.begin(), troubles.end(), [&](const auto& trouble) {
+            return trouble.second == finished.taken.error().message;
+        });
+    Reporter::report(finished, is_named ? Named::before : Named::not_yet);
+}
+
+void Service::sites_compared(pipeline::PairReport report) {
+    {
+        const std::scoped_lock lock(compared_mutex_);
+        compared_.push_back(std::move(report));
+    }
+    wake_up_.set();
+}
+
+void Service::report_sites() {
+    std::vector<pipeline::PairReport> reports;
+    {
+        const std::scoped_lock lock(compared_mutex_);
+        reports.swap(compared_);
+    }
+    for (pipeline::PairReport& report : reports) {
+        Reporter::report_sites(report);
+        status_.add(std::move(report));
+        status_file_.changed();
+    }
+}
+
 void Service::keep_house() {
     const SteadyTime now = parts_.clock.steady();
     if (const std::uint64_t overflows = intake_.take_overflows(); overflows > 0) {
@@ -288,11 +320,8 @@ void Service::keep_house() {
         log_warning({Event::overflow},
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
-    keep_state(now);
     status_.count_unseen(intake_.take_unseen());
-    report_repairs();
-    report_catalog(now);
-    report_backlog(now);
+    look_for_troubles(now);
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         Reporter::report_directory(problem);
@@ -312,9 +341,31 @@ void Service::keep_house() {
         status_.set_loops(std::move(*loops));
         status_file_.changed();
     }
-    look_at_others_loops(now);
     publish(false);
     feed(watchdog_, parts_.notifier, now, oldest_step());
+}
+
+void Service::publish(bool at_once) {
+    const Pending pending = intake_.pending();
+    if (pending != published_) status_file_.changed();
+    published_ = pending;
+    const std::size_t directories = watcher_.directory_count();
+    if (directories != status_.facts().directories) status_file_.changed();
+    status_.set_directories(directories);
+    if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
+    if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
+}
+
+std::optional<Step> Service::oldest_step() const {
+    std::optional<Step> oldest = pulses_.oldest();
+    const auto look_at = [&](const char* what, const WorkerPool& pool) {
+        const auto job = pool.oldest();
+        if (job && (!oldest || job->since < oldest->since))
+            oldest = Step{what + job->path.native(), job->since};
+    };
+    look_at("ingest of ", pool_);
+    look_at("registration of ", registrar_);
+    return oldest;
 }
 
 Stopped Service::stop() {

@@ -32,6 +32,8 @@
 #include "daemon/queue/intake.h"
 #include "daemon/queue/sink.h"
 #include "daemon/queue/worker_pool.h"
+#include "daemon/service/scan_times.h"
+#include "daemon/service/troubles.h"
 #include "daemon/status/reporter.h"
 #include "daemon/status/status_board.h"
 #include "daemon/status/status_file.h"
@@ -92,17 +94,13 @@ class Service {
     void scan_if_due();
     void scan();
     void keep_workers_busy();
-    void note_drop(const Status& scanned);
     void get_ready();
     void start_jobs();
-    void report_backlog(SteadyTime now);
     void keep_house();
-    void report_repairs();
-    void report_catalog(SteadyTime now);
+    void look_for_troubles(SteadyTime now);
+    void look_at_catalog(SteadyTime now);
     void report(const Finished& finished);
     void report_sites();
-    void look_at_others_loops(SteadyTime now);
-    void keep_state(SteadyTime now);
     void publish(bool at_once);
     [[nodiscard]] std::optional<Step> oldest_step() const;
     [[nodiscard]] SteadyTime next_time() const;
@@ -124,19 +122,14 @@ class Service {
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     Readiness readiness_;
-    bool drop_missing_ = false;
-    std::string drop_problem_;
-    // The earliest next scan, the regular one, and the next that looks for rows of missing files
-    // when the regular ones are polls.
-    SteadyTime rested_{}, next_scan_{}, next_rescan_{};
-    SteadyTime next_state_look_{};
-    bool state_lost_ = false;  // and it stands in the log
-    bool is_behind_ = false;   // the same
-    SteadyTime next_backlog_{}, next_behind_line_{};
-    SteadyTime next_catalog_look_{}, next_held_back_{}, next_memory_look_{};
-    SteadyTime next_loops_look_{};
-    bool loops_kept_twice_ = false;  // and it stands in the log
-    WorkerPool pool_;                // last: its threads, and the next one's, use what stands above
+    DropTrouble drop_trouble_;
+    StateTrouble state_trouble_;
+    CatalogTrouble catalog_trouble_;
+    BacklogTrouble backlog_trouble_;
+    OthersLoops others_loops_;
+    ScanTimes scan_times_;
+    SteadyTime next_held_back_{}, next_memory_look_{};
+    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.
     RowKeeper row_keeper_;
