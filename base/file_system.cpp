@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "stormcellar/base/descriptor.h"
+
 namespace stormcellar {
 namespace {
 
@@ -129,20 +131,6 @@ Status name_failure(Status status, const std::filesystem::path& path) {
         status.error().message = fmt::format("{}: {}", path.native(), status.error().message);
     return status;
 }
-
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    [[nodiscard]] int number() const { return number_; }
-
-  private:
-    int number_;
-};
 
 // Reads to the end: the file may be growing or shrinking, so its size is only a hint.
 Result<std::vector<std::byte>> read_to_end(int descriptor, const std::filesystem::path& path,

@@ -22,7 +22,8 @@ std::size_t files_below(const fs::path& directory, const std::string& ending) {
 }
 
 Status check_site(const NationalFeed& feed, const NationalSite& site, int sent,
-                  const catalog::CatalogReader& catalog, const DaemonProcess& daemon, SoakCheck& check) {
+                  const catalog::CatalogReader& catalog, const DaemonProcess& daemon,
+                  SoakCheck& check) {
     const auto rows = catalog.list(site.station.icao, {});
     if (!rows) return pass_on(rows);
     std::set<UtcTime> known;

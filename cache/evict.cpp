@@ -16,7 +16,8 @@ bool is_meant(const std::string& domain, const std::string& wanted) {
 
 }  // namespace
 
-Result<EvictionPlan> plan_eviction(const StoreReader& store, const EvictionOrder& order, UtcTime now) {
+Result<EvictionPlan> plan_eviction(const StoreReader& store, const EvictionOrder& order,
+                                   UtcTime now) {
     EvictionPlan plan;
     Account account;
     account.set_now(now);

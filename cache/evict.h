@@ -33,8 +33,8 @@ struct EvictionPlan {
     std::size_t pinned = 0;           // how many of them are pinned
     std::uint64_t bytes_left = 0;     // on disk, of those that stay
 };
-[[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store, const EvictionOrder& order,
-                                                 UtcTime now);
+[[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,
+                                                 const EvictionOrder& order, UtcTime now);
 
 struct EvictionReport {
     std::vector<StoreEntry> evicted;

@@ -53,10 +53,6 @@ Status check_size(std::uint64_t found, std::uint64_t expected) {
     return {};
 }
 
-Descriptor::~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-}
-
 Result<Descriptor> open_for_reading(const std::filesystem::path& path) {
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.number() < 0) return system_failure(errno);

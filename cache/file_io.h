@@ -12,24 +12,10 @@
 #include <sys/stat.h>
 
 #include "cache/map_registry.h"
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::cache {
-
-// An open file, closed at the end.
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&&) = delete;
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor();
-    [[nodiscard]] int number() const { return number_; }
-
-  private:
-    int number_;
-};
 
 // A read-only map of a whole file, known to the guard of cache/map_guard.h. (Of the whole, because
 // an offset must be a multiple of the machine's page, which may be larger than the format's.)

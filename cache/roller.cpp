@@ -26,7 +26,7 @@ Result<Descriptor> lock_against_writers(const fs::path& directory) {
     if (lock.number() < 0) return directory_failure(directory, {errno, std::system_category()});
     if (::flock(lock.number(), LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) {
-            return fail(ErrorCode::bad_argument, "{}: another process writes to this cache",
+            return fail(ErrorCode::busy, "{}: another process writes to this cache",
                         directory.native());
         }
         return directory_failure(directory, {errno, std::system_category()});

@@ -57,8 +57,8 @@ class Reservation {
 
 class Roller {
   public:
-    // Sweeps what a killed writer left and brings the cache within its budgets. bad_argument when
-    // another process has opened it so.
+    // Sweeps what a killed writer left and brings the cache within its budgets. busy when another
+    // process has opened it so.
     static Result<std::unique_ptr<Roller>> open(FileSystem& file_system,
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);

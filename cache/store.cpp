@@ -182,15 +182,15 @@ bool StoreWriter::would_keep(const std::string& domain, level2::Moment moment, U
 }
 
 RollReport RollingStore::roll(const std::function<void()>& step) {
-    return roller()->roll(step);
+    return roller().roll(step);
 }
 
 void RollingStore::set_budgets(Budgets budgets) {
-    roller()->set_budgets(std::move(budgets));
+    roller().set_budgets(std::move(budgets));
 }
 
 StoreUsage RollingStore::usage() const {
-    return roller()->usage();
+    return roller().usage();
 }
 
 Status StoreWriter::remove(const StoreEntry& entry) {

@@ -42,6 +42,8 @@ CatalogReader::CatalogReader(CatalogReader&&) noexcept = default;
 CatalogReader& CatalogReader::operator=(CatalogReader&&) noexcept = default;
 CatalogReader::~CatalogReader() = default;
 
+CatalogWriter::CatalogWriter(std::unique_ptr<Impl> impl) : CatalogReader(std::move(impl)) {}
+
 const fs::path& CatalogReader::directory() const {
     return impl().directory;
 }

@@ -1,8 +1,8 @@
-// catalog/catalog_parts.h -- what a Catalog consists of: its databases, opened when they are asked
+// catalog/catalog_parts.h -- what a catalog consists of: its databases, opened when they are asked
 // for, and mended when they are found damaged.
 //
-// Inside the catalog room only. Thread contract: that of Catalog; each database is for one thread
-// at a time.
+// Inside the catalog room only. Thread contract: that of CatalogReader; each database is for one
+// thread at a time.
 #pragma once
 
 #include <atomic>

@@ -2,8 +2,8 @@
 // have it, of the paths that were looked at last.
 //
 // Each is asked for several times, and should be looked for once. Two paths with the
-// same 64-bit hash would be one: among 65,536 the odds are 1 in 9 billion. Used by Catalog alone.
-// Thread contract: any thread.
+// same 64-bit hash would be one: among 65,536 the odds are 1 in 9 billion. Used by the catalog
+// alone. Thread contract: any thread.
 #pragma once
 
 #include <cstddef>

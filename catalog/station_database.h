@@ -1,7 +1,7 @@
-// catalog/station_database.h -- one station's SQLite database; used by Catalog alone.
+// catalog/station_database.h -- one station's SQLite database; used by the catalog alone.
 //
-// Methods throw SQLite::Exception, which Catalog turns into errors. Thread contract: one thread at
-// a time; Catalog holds a mutex for each.
+// Methods throw SQLite::Exception, which the catalog turns into errors. Thread contract: one thread
+// at a time; the catalog holds a mutex for each.
 #pragma once
 
 #include <filesystem>

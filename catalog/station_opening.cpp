@@ -142,6 +142,8 @@ ErrorCode code_of(const SQLite::Exception& error) {
             return ErrorCode::permission;
         case SQLITE_NOMEM:
             return ErrorCode::exhausted;
+        case SQLITE_BUSY:
+            return ErrorCode::busy;
         default:
             return ErrorCode::io;
     }

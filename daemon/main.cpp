@@ -154,7 +154,7 @@ int serve_loops(const Config& config, const std::filesystem::path& file) {
     return EXIT_SUCCESS;
 }
 
-void know_stations(catalog::CatalogWriter& catalog, Service& service) {
+void know_stations(const catalog::CatalogReader& catalog, Service& service) {
     const auto stations = catalog.stations();
     if (!stations) {
         log_warning({Event::stations_unknown}, "what was known of stations: {}",

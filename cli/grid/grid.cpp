@@ -270,7 +270,7 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
         fmt::print(taken ? stderr : stdout, "{}", accuracy::explain(*made->plan));
     }
     if (made->plan && !made->plan->meets_budget) {
-        return report_error({ErrorCode::not_found, made->plan->shortfall});
+        return report_error({ErrorCode::unmet, made->plan->shortfall});
     }
     Stopwatch watch;
     auto output = OutputFile::open(options.output);

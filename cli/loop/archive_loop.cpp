@@ -344,7 +344,7 @@ Result<cache::RollingStore> open_cache(const fs::path& directory) {
         store = cache::RollingStore::open(real_file_system(), directory, {});
     }
     if (!store && store.error().code == ErrorCode::busy) {
-        return fail(ErrorCode::io, "{} (another loop of the same grids, or a daemon)",
+        return fail(ErrorCode::busy, "{} (another loop of the same grids, or a daemon)",
                     store.error().message);
     }
     return store;
@@ -423,9 +423,10 @@ Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
         }
         return {};
     }
-    grids.store.reset();
+    // It goes while it is still held, so that no other loop opens it meanwhile.
     std::error_code error;
     fs::remove_all(grids.directory, error);
+    grids.store.reset();
     if (error) return fail(ErrorCode::io, "{}: {}", grids.directory.native(), error.message());
     return {};
 }

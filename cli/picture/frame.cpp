@@ -58,7 +58,8 @@ Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& sto
     return std::optional{entries->back()};
 }
 
-int report_nothing(const cache::StoreReader& store, const FrameOptions& options, level2::Moment moment) {
+int report_nothing(const cache::StoreReader& store, const FrameOptions& options,
+                   level2::Moment moment) {
     return report_no_grid(
         store, options.domain, moment,
         options.time.empty() ? std::string{} : fmt::format(" at or before {}", options.time));

@@ -15,7 +15,8 @@ double seconds_since(Clock::time_point start) {
 namespace {
 
 // Of which the domain keeps grids, whenever they are from.
-std::vector<std::string_view> moments_kept(const cache::StoreReader& store, const std::string& domain) {
+std::vector<std::string_view> moments_kept(const cache::StoreReader& store,
+                                           const std::string& domain) {
     std::vector<std::string_view> kept;
     for (const level2::Moment moment : level2::all_moments) {
         const auto entries = store.list(domain, moment, std::nullopt, std::nullopt);
@@ -26,8 +27,8 @@ std::vector<std::string_view> moments_kept(const cache::StoreReader& store, cons
 
 }  // namespace
 
-int report_no_grid(const cache::StoreReader& store, const std::string& domain, level2::Moment moment,
-                   const std::string& when) {
+int report_no_grid(const cache::StoreReader& store, const std::string& domain,
+                   level2::Moment moment, const std::string& when) {
     const auto kept = moments_kept(store, domain);
     const std::string_view name = level2::moment_name(moment);
     std::string why;

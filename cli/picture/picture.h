@@ -14,8 +14,8 @@ using Clock = std::chrono::steady_clock;
 
 // Says on stderr that no grid of the moment matched, and which domains there are, or which moments
 // the domain keeps; gives the exit status. `when` is empty or as " at or before 2005-08-22".
-int report_no_grid(const cache::StoreReader& store, const std::string& domain, level2::Moment moment,
-                   const std::string& when);
+int report_no_grid(const cache::StoreReader& store, const std::string& domain,
+                   level2::Moment moment, const std::string& when);
 
 // Metadata of pictures is ASCII, names of files may be anything.
 [[nodiscard]] std::string ascii(std::string_view text);

@@ -149,8 +149,7 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
     if (options.explain) {
         fmt::print(json ? stderr : stdout, "{}", accuracy::explain(planned->plan));
     }
-    if (!planned->plan.meets_budget)
-        return fail(ErrorCode::not_found, "{}", planned->plan.shortfall);
+    if (!planned->plan.meets_budget) return fail(ErrorCode::unmet, "{}", planned->plan.shortfall);
     if (!keeps_slices(options)) {
         scene.slices = planned->choice.slices;
     } else if (options.explain && scene.slices != planned->choice.slices) {

@@ -53,7 +53,7 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 // picture's error, in one line. Nothing happens, and the line is empty, when nothing was asked.
 // A plan of the scene's file is left out for a product that was typed and is no volume.
 // Errors: bad_argument for options that make no sense, or a product that is no volume;
-// not_found, naming the best there is, where nothing holds the tolerance.
+// unmet, naming the best there is, where nothing holds the tolerance.
 [[nodiscard]] Result<std::string> plan_picture(const grid::BrickView& view,
                                                const render::FrameFacts& facts,
                                                const PicturePlanOptions& options, bool json,

@@ -15,8 +15,8 @@
 namespace stormcellar::cli {
 namespace {
 
-using cache::StoreReader;
 using cache::StoreEntry;
+using cache::StoreReader;
 
 struct CacheOptions {
     std::string directory;

@@ -17,8 +17,8 @@ namespace stormcellar::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using catalog::CatalogReader;
 using catalog::CatalogEntry;
+using catalog::CatalogReader;
 
 struct CatalogOptions {
     std::string directory;
@@ -124,7 +124,8 @@ bool is_part_of_a_volume(const CatalogEntry& entry) {
 }
 
 // The entries that the options name, of one station or of all whose databases can be read.
-Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options, const CatalogReader& catalog) {
+Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
+                                           const CatalogReader& catalog) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
     const catalog::Query query{range->from, range->to, options.rejected};

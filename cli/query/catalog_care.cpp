@@ -136,7 +136,7 @@ void print_cleared(const ClearReport& report) {
 Result<ClearReport> clear_unknown(const CareOptions& options, const StationRule& stations) {
     const auto lock = pipeline::InstanceLock::acquire(state_of(options.directory));
     if (!lock) {
-        return fail(ErrorCode::io, "databases can be removed while no daemon runs: {}",
+        return fail(lock.error().code, "databases can be removed while no daemon runs: {}",
                     lock.error().message);
     }
     return catalog::clear_unknown(options.directory, stations);

@@ -80,7 +80,8 @@ std::string name_of_file(const CatalogEntry& entry) {
 }
 
 // With what is worth saying about it on stderr.
-Result<std::vector<std::byte>> read_raw(const catalog::CatalogReader& catalog, const CatalogEntry& entry) {
+Result<std::vector<std::byte>> read_raw(const catalog::CatalogReader& catalog,
+                                        const CatalogEntry& entry) {
     auto volume = pipeline::read_cataloged_volume(catalog, entry);
     if (!volume) return pass_on(volume);
     for (const std::string& note : volume->notes)
@@ -107,7 +108,8 @@ std::string name_without_compression(const fs::path& path) {
     return (compressed ? path.stem() : path.filename()).string();
 }
 
-Result<level2::Decoded> decode_raw(const catalog::CatalogReader& catalog, const CatalogEntry& entry) {
+Result<level2::Decoded> decode_raw(const catalog::CatalogReader& catalog,
+                                   const CatalogEntry& entry) {
     const auto bytes = read_raw(catalog, entry);
     if (!bytes) return pass_on(bytes);
     level2::DecodeOptions options;
@@ -132,7 +134,8 @@ std::vector<std::size_t> matched_volumes(const MatchedFile& file,
     return matched;
 }
 
-Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& file, Targets& targets) {
+Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& file,
+                     Targets& targets) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;

@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "base/toml_file.h"
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/file_system.h"
 
 namespace stormcellar::cli {
@@ -41,20 +42,6 @@ Error system_error(const fs::path& path, int error_number) {
     return {ErrorCode::io,
             fmt::format("{}: {}", path.native(), std::system_category().message(error_number))};
 }
-
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    [[nodiscard]] int number() const { return number_; }
-
-  private:
-    int number_;
-};
 
 // False when the time is over.
 bool wait_for(int descriptor, short what, Clock::time_point end) {

@@ -25,6 +25,7 @@ tl::unexpected<Error> system_error(const std::string& what, int error_number) {
     if (error_number == EACCES || error_number == EPERM || error_number == EROFS)
         code = ErrorCode::permission;
     if (error_number == ENOENT || error_number == ENOTDIR) code = ErrorCode::not_found;
+    if (error_number == EADDRINUSE) code = ErrorCode::busy;
     return fail(code, "{}: {}", what, std::system_category().message(error_number));
 }
 
@@ -60,7 +61,8 @@ Status make_way(const sockaddr_un& address) {
     if (::lstat(path.c_str(), &found) != 0) return {};
     if (!S_ISSOCK(found.st_mode))
         return fail(ErrorCode::io, "{}: something that is no socket stands there", path);
-    if (is_answered(address)) return fail(ErrorCode::io, "{}: another program answers there", path);
+    if (is_answered(address))
+        return fail(ErrorCode::busy, "{}: another program answers there", path);
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) return system_error(path, errno);
     return {};
 }

@@ -6,7 +6,7 @@
 // link that was put in its place. What a killed daemon left at the path is taken away, but only a
 // socket on which nobody answers; anything else there is an error.
 // Errors: bad_argument (a path of more than 107 bytes), permission, not_found (no such directory),
-// io (in use, or whatever else the system says).
+// busy (another program listens there), io (whatever else the system says).
 // Thread contract: one thread.
 #pragma once
 

@@ -50,10 +50,14 @@ std::string_view name_of(ErrorCode code) {
             return "io";
         case ErrorCode::exhausted:
             return "exhausted";
+        case ErrorCode::busy:
+            return "busy";
         case ErrorCode::no_space:
             return "no_space";
         case ErrorCode::over_budget:
             return "over_budget";
+        case ErrorCode::unmet:
+            return "unmet";
         case ErrorCode::permission:
             return "permission";
         case ErrorCode::internal:

@@ -21,8 +21,8 @@ inline constexpr std::array all_results = {
 inline constexpr std::array all_error_codes = {
     ErrorCode::bad_argument, ErrorCode::not_found,   ErrorCode::empty,      ErrorCode::truncated,
     ErrorCode::corrupt,      ErrorCode::unsupported, ErrorCode::not_level2, ErrorCode::not_a_file,
-    ErrorCode::io,           ErrorCode::exhausted,   ErrorCode::no_space,   ErrorCode::over_budget,
-    ErrorCode::permission,   ErrorCode::internal,
+    ErrorCode::io,           ErrorCode::exhausted,   ErrorCode::busy,       ErrorCode::no_space,
+    ErrorCode::over_budget,  ErrorCode::unmet,       ErrorCode::permission, ErrorCode::internal,
 };
 
 // A counter for each, found by its value.
@@ -36,6 +36,9 @@ using PerErrorCode = std::array<T, all_error_codes.size()>;
 [[nodiscard]] constexpr std::size_t index_of(ErrorCode code) {
     return static_cast<std::size_t>(code);
 }
+static_assert(all_error_codes.back() == ErrorCode::internal &&
+                  index_of(ErrorCode::internal) + 1 == all_error_codes.size(),
+              "every code stands in the list, in the order of the enumeration");
 
 [[nodiscard]] std::string_view name_of(pipeline::IngestResult result);
 [[nodiscard]] std::string_view name_of(ErrorCode code);

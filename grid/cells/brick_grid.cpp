@@ -250,34 +250,38 @@ void BrickGrid::clear(std::size_t brick) {
 }
 
 void BrickGrid::finish_again(std::span<BricksWriter> writers) {
-    const std::vector<std::byte> before = std::move(states_);
+    const std::vector<std::byte> old_states = std::move(states_);
     states_.clear();
-    std::vector<const std::byte*> blocks;  // of the bricks that were written now
     std::size_t count = 0;
     for (const BricksWriter& writer : writers)
         count += writer.bricks_with_states_.size();
-    blocks.reserve(count);
+    // Until all blocks stand in order, the status_index of a brick that was just written counts
+    // among the new blocks, and that of every other brick among the old ones.
+    std::vector<const std::byte*> new_blocks;
+    new_blocks.reserve(count);
+    std::vector<bool> is_new(bricks_.size());
     for (const BricksWriter& writer : writers) {
-        for (std::size_t i = 0; i < writer.bricks_with_states_.size(); ++i) {
-            // Numbers from the end on stand for them until all are put in order.
-            bricks_[writer.bricks_with_states_[i]].status_index =
-                static_cast<std::uint32_t>(before.size() / state_block_bytes + blocks.size());
-            blocks.push_back(writer.states_.data() + i * state_block_bytes);
+        const std::byte* block = writer.states_.data();
+        for (const std::size_t brick : writer.bricks_with_states_) {
+            is_new[brick] = true;
+            bricks_[brick].status_index = static_cast<std::uint32_t>(new_blocks.size());
+            new_blocks.push_back(block);
+            block += state_block_bytes;
         }
         clamped_count_ += writer.clamped_count_;
     }
-    const std::size_t old_blocks = before.size() / state_block_bytes;
     const auto has_states = [](const BrickEntry& entry) {
         return entry.kind == BrickKind::status_only;
     };
     const auto all = std::count_if(bricks_.begin(), bricks_.end(), has_states);
     states_.reserve(static_cast<std::size_t>(all) * state_block_bytes);
     std::uint32_t next = 0;
-    for (BrickEntry& entry : bricks_) {
+    for (std::size_t brick = 0; brick < bricks_.size(); ++brick) {
+        BrickEntry& entry = bricks_[brick];
         if (!has_states(entry)) continue;
-        const std::byte* block = entry.status_index < old_blocks
-                                     ? before.data() + entry.status_index * state_block_bytes
-                                     : blocks[entry.status_index - old_blocks];
+        const std::byte* block = is_new[brick]
+                                     ? new_blocks[entry.status_index]
+                                     : old_states.data() + entry.status_index * state_block_bytes;
         states_.insert(states_.end(), block, block + state_block_bytes);
         entry.status_index = next++;
     }

@@ -62,8 +62,8 @@ class ArchiveFill {
   public:
     // `catalog`: where the volumes were found. `scratch`: a directory for the chain's own catalog,
     // which is made there. All must outlive it.
-    ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store, std::filesystem::path scratch,
-                ArchiveOptions options);
+    ArchiveFill(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
+                std::filesystem::path scratch, ArchiveOptions options);
 
     // The volumes of which no grid stands, to be made by fill().
     [[nodiscard]] Result<std::vector<ArchiveVolume>> missing(

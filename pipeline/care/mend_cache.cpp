@@ -52,7 +52,8 @@ std::string joined(const std::vector<std::string>& texts) {
 }
 
 // Whether the catalog knows the file as it stands there now. Its modification time; none if not.
-std::optional<std::int64_t> settled_as_it_is(const catalog::CatalogReader& catalog, const fs::path& path) {
+std::optional<std::int64_t> settled_as_it_is(const catalog::CatalogReader& catalog,
+                                             const fs::path& path) {
     const auto stamp = stamp_of(path);
     if (!stamp || !stamp->regular) return std::nullopt;
     const auto settled = catalog.is_settled(path, stamp->size_bytes, stamp->modified_ns);
@@ -83,8 +84,8 @@ std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
 
 }  // namespace
 
-CacheMender::CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store, Ingestor& ingestor,
-                         level2::Moment moment)
+CacheMender::CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
+                         Ingestor& ingestor, level2::Moment moment)
     : catalog_(catalog), store_(store), ingestor_(ingestor), moment_(moment) {}
 
 Result<std::optional<fs::path>> CacheMender::raw_of(const std::string& station, UtcTime time) {
@@ -179,9 +180,11 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
         if (!problems.empty()) mended.from += fmt::format(" (left out: {})", joined(problems));
         return mended;
     }
-    const bool no_partials = !made && (made.error().code == ErrorCode::not_found ||
-                                       made.error().code == ErrorCode::bad_argument);
-    if (!made && !no_partials) return pass_on(made);
+    // There is no such frame or no partial for it, or the partials contradict one another: another
+    // try makes none either.
+    const bool never_made = !made && (made.error().code == ErrorCode::not_found ||
+                                      made.error().code == ErrorCode::bad_argument);
+    if (!made && !never_made) return pass_on(made);
     const Status removed = store_.remove(entry);
     if (!removed && removed.error().code != ErrorCode::not_found) return pass_on(removed);
     mended.condition = GridCondition::dropped;

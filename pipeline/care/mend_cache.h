@@ -57,8 +57,8 @@ enum class MendDepth {
 class CacheMender {
   public:
     // All must outlive it. `moment` is what the ingestor grids.
-    CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store, Ingestor& ingestor,
-                level2::Moment moment);
+    CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
+                Ingestor& ingestor, level2::Moment moment);
 
     // Errors: the damaged grid cannot be removed, or the catalog or cache cannot be written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);

@@ -40,6 +40,7 @@ inline constexpr std::chrono::minutes farthest_neighbour{25};
 // asked for, neither has one whose database cannot be read: the catalog's troubles() name it.
 // Errors: those of the catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
-    const catalog::CatalogReader& catalog, const std::vector<std::string>& stations, const ArchiveRange& range);
+    const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
+    const ArchiveRange& range);
 
 }  // namespace stormcellar::pipeline

@@ -9,8 +9,8 @@
 namespace stormcellar::pipeline {
 namespace {
 
-using catalog::CatalogReader;
 using catalog::CatalogEntry;
+using catalog::CatalogReader;
 
 // Puts the bytes of a file behind those that were read before.
 Status append(const CatalogReader& catalog, const CatalogEntry& entry, CatalogedVolume& volume) {
@@ -63,7 +63,8 @@ bool is_of_chunks(const CatalogEntry& entry) {
     return entry.volume.start_time && is_chunk_name(entry.path);
 }
 
-Result<CatalogedVolume> read_cataloged_volume(const CatalogReader& catalog, const CatalogEntry& entry) {
+Result<CatalogedVolume> read_cataloged_volume(const CatalogReader& catalog,
+                                              const CatalogEntry& entry) {
     const auto chunk = ChunkPath::of(entry.path);
     if (chunk && is_of_chunks(entry)) return read_chunks(catalog, entry, *chunk);
     CatalogedVolume volume;

@@ -13,7 +13,7 @@ namespace stormcellar::pipeline {
 
 // By the station table, else by what its newest raw files say that can still be read. None where
 // neither says it.
-[[nodiscard]] std::optional<grid::SitePosition> place_of_station(const catalog::CatalogReader& catalog,
-                                                                 const std::string& icao);
+[[nodiscard]] std::optional<grid::SitePosition> place_of_station(
+    const catalog::CatalogReader& catalog, const std::string& icao);
 
 }  // namespace stormcellar::pipeline

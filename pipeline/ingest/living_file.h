@@ -31,14 +31,16 @@ struct KeptVolume {
     level2::Volume facts;  // without sweeps
     std::string source_file;
     std::unique_ptr<SweepShelf> shelf;
-    // By a number that tells its sweeps apart as they come: of a file their index in the volume, of
-    // chunks their cut (elevation number). `sweeps` has the same keys.
-    std::map<std::size_t, SweepShelf::Place> places;
+    // What tells the sweeps of this volume apart, rising in their order. In a file that grows it is
+    // the index in the volume. In a volume of chunks it is the number of the cut, because a chunk
+    // that comes late may change the indices, but never the cut.
+    using SweepKey = std::size_t;
+    std::map<SweepKey, SweepShelf::Place> places;  // on the shelf
     struct Kept {
         bool has_moment = false;
         double elevation_deg = 0;  // mean
     };
-    std::map<std::size_t, Kept> sweeps;
+    std::map<SweepKey, Kept> sweeps;
 
     // Whether no sweep that has come is lower: the lowest cut and its repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;

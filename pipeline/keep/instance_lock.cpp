@@ -27,33 +27,26 @@ std::string holder(int descriptor) {
 
 Result<InstanceLock> InstanceLock::acquire(const std::filesystem::path& state) {
     const std::filesystem::path path = state / file_name;
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
-    if (descriptor < 0) {
+    Descriptor file{::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)};
+    if (!file.is_open()) {
         return fail(errno == EACCES ? ErrorCode::permission : ErrorCode::io, "{}: {}",
                     path.native(), std::system_category().message(errno));
     }
-    InstanceLock lock(descriptor);
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) {
-            return fail(ErrorCode::bad_argument,
+            return fail(ErrorCode::busy,
                         "{}: another stormcellard (process {}) uses this state directory",
-                        path.native(), holder(descriptor));
+                        path.native(), holder(file.number()));
         }
         return fail(ErrorCode::io, "{}: {}", path.native(), std::system_category().message(errno));
     }
     // The number is a help for people; the lock itself needs no content.
     const std::string id = fmt::format("{}\n", ::getpid());
-    if (::ftruncate(descriptor, 0) != 0 || ::pwrite(descriptor, id.data(), id.size(), 0) < 0) {
+    if (::ftruncate(file.number(), 0) != 0 ||
+        ::pwrite(file.number(), id.data(), id.size(), 0) < 0) {
         return fail(ErrorCode::io, "{}: {}", path.native(), std::system_category().message(errno));
     }
-    return lock;
-}
-
-InstanceLock::InstanceLock(InstanceLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-InstanceLock::~InstanceLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    return InstanceLock(std::move(file));
 }
 
 }  // namespace stormcellar::pipeline

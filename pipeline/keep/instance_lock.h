@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <utility>
 
+#include "stormcellar/base/descriptor.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar::pipeline {
@@ -13,17 +15,12 @@ class InstanceLock {
   public:
     static constexpr const char* file_name = "stormcellard.lock";
 
-    // bad_argument, with the process id, when another daemon holds it; io, permission.
+    // busy, with the process id, when another daemon holds it; io, permission.
     static Result<InstanceLock> acquire(const std::filesystem::path& state);
-    InstanceLock(InstanceLock&& other) noexcept;
-    InstanceLock& operator=(InstanceLock&&) = delete;
-    InstanceLock(const InstanceLock&) = delete;
-    InstanceLock& operator=(const InstanceLock&) = delete;
-    ~InstanceLock();
 
   private:
-    explicit InstanceLock(int descriptor) : descriptor_(descriptor) {}
-    int descriptor_;
+    explicit InstanceLock(Descriptor file) : file_(std::move(file)) {}
+    Descriptor file_;  // the kernel lets go of the lock when it is closed
 };
 
 }  // namespace stormcellar::pipeline

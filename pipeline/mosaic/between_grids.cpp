@@ -26,7 +26,8 @@ PartialView view_of(const cache::GridFile& file) {
 
 }  // namespace
 
-BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment moment, BetweenOptions options)
+BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment moment,
+                           BetweenOptions options)
     : store_(store),
       moment_(moment),
       options_(options),

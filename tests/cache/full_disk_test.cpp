@@ -17,7 +17,9 @@ using testing::noon;
 
 class FullDiskTest : public ::testing::Test {
   protected:
-    RollingStore open(const Budgets& budgets) { return *RollingStore::open(disk_, cache_, budgets); }
+    RollingStore open(const Budgets& budgets) {
+        return *RollingStore::open(disk_, cache_, budgets);
+    }
     auto commit(StoreWriter& store, int minute) {
         return testing::commit_sized(store, "A", noon + minutes{minute});
     }
@@ -40,7 +42,7 @@ TEST_F(FullDiskTest, TheOldestMakeRoomWhereABudgetLimitsSpace) {
     EXPECT_GE(grids.size(), 6U);
     for (const StoreEntry& entry : grids)
         EXPECT_EQ(testing::trouble_in(entry), "");
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
 }
 
 TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
@@ -57,7 +59,7 @@ TEST_F(FullDiskTest, WithoutSuchABudgetItIsAClearErrorAndNothingIsHalfWritten) {
     EXPECT_THAT(refused.error().message, HasSubstr("No space left on device"));
     EXPECT_EQ(testing::all_grids(store).size(), 4U);
     EXPECT_EQ(testing::allocated_bytes(cache_), before);
-    EXPECT_EQ(store.usage()->bytes, before);
+    EXPECT_EQ(store.usage().bytes, before);
 }
 
 TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
@@ -85,8 +87,8 @@ TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     EXPECT_TRUE(path->empty());
     EXPECT_EQ(testing::all_grids(store).size(), 8U);
     EXPECT_EQ(testing::allocated_bytes(cache_), before);
-    EXPECT_EQ(store.usage()->bytes, before);
-    EXPECT_EQ(store.usage()->not_kept, 1U);
+    EXPECT_EQ(store.usage().bytes, before);
+    EXPECT_EQ(store.usage().not_kept, 1U);
     ASSERT_TRUE(commit(store, 9)) << "a known one takes the oldest's place";
 }
 
@@ -126,20 +128,20 @@ TEST_F(FullDiskTest, WhatABrokenDiskLeavesBehindIsCounted) {
     disk.broken = true;
     EXPECT_EQ(commit(store, 3).error().code, ErrorCode::io);
     EXPECT_GT(testing::allocated_bytes(cache_), 0U);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     Budgets smaller;
     smaller.total.bytes = 100;
     store.set_budgets(smaller);
     const RollReport report = store.roll();
     EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("cannot evict: ")));
     EXPECT_THAT(report.problems, ::testing::Contains(HasSubstr("more than its budget")));
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     store.set_budgets(budgets_);
     disk.broken = false;
     store.roll();
     EXPECT_EQ(testing::all_grids(store).size(), 3U);
     EXPECT_EQ(std::distance(fs::directory_iterator(cache_ / "A/REF/20241122"), {}), 3);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ void check(const fs::path& cache, const Promises& promised) {
     auto store = RollingStore::open(disk, cache, budgets());
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_LE(testing::allocated_bytes(cache), budget);
-    EXPECT_EQ(store->usage()->bytes, testing::allocated_bytes(cache));
+    EXPECT_EQ(store->usage().bytes, testing::allocated_bytes(cache));
     for (const auto& entry : fs::recursive_directory_iterator(cache)) {
         EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix));
     }

@@ -99,7 +99,7 @@ TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     EXPECT_EQ(wait_for(reader), 0);
     EXPECT_GT(read, 0);
     EXPECT_GT(held, 0) << "no reader held a grid that was evicted";
-    EXPECT_GT(store.usage()->evicted, 150U);
+    EXPECT_GT(store.usage().evicted, 150U);
     EXPECT_LE(disk.most(), budget);
 }
 
@@ -140,8 +140,8 @@ TEST(CacheProcesses, AKilledWriterLeavesWholeGridsWithinTheBudget) {
     }
     EXPECT_GT(seen, 0);
     RollingStore store = *RollingStore::open(real_file_system(), cache, budgets());
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache));
-    EXPECT_GT(store.usage()->grids, 0U);
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache));
+    EXPECT_GT(store.usage().grids, 0U);
     for (const auto& entry : fs::recursive_directory_iterator(cache))
         EXPECT_FALSE(entry.path().filename().native().starts_with(temporary_prefix));
 }

@@ -35,7 +35,7 @@ struct Counts {
 
 // Commits of all sizes at times that mostly advance, replacements, late grids, pins, rolls and
 // evictions by hand.
-void live(StoreWriter& store, FileSystem& disk, std::uint64_t seed, int steps, Counts& counts) {
+void live(RollingStore& store, FileSystem& disk, std::uint64_t seed, int steps, Counts& counts) {
     std::mt19937_64 random(seed);
     const auto draw = [&](int end) {
         return static_cast<int>(random() % static_cast<std::uint64_t>(end));
@@ -86,7 +86,7 @@ class RollingBudgetTest : public ::testing::TestWithParam<int> {
             worker.join();
         check(store);
     }
-    void check(StoreWriter& store) {
+    void check(RollingStore& store) {
         EXPECT_LE(disk_.most(), total);
         EXPECT_GT(disk_.most(), total / 2) << "the budget was never put to the test";
         EXPECT_GT(disk_.removals(), 0U);
@@ -94,8 +94,8 @@ class RollingBudgetTest : public ::testing::TestWithParam<int> {
         for (const StoreEntry& entry : testing::all_grids(store))
             EXPECT_EQ(testing::trouble_in(entry), "");
         store.roll();
-        EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
-        EXPECT_EQ(store.usage()->grids, testing::all_grids(store).size());
+        EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
+        EXPECT_EQ(store.usage().grids, testing::all_grids(store).size());
         EXPECT_LE(
             testing::allocated_bytes(cache_ / "B") + testing::allocated_bytes(cache_ / "B.KBOX"),
             of_b);

@@ -36,7 +36,7 @@ class RollingStoreTest : public ::testing::Test {
         };
         auto store = RollingStore::open(disk_, cache_, budgets, surroundings);
         EXPECT_TRUE(store) << store.error().message;
-        return *store;
+        return std::move(*store);
     }
     // A budget for so many grids of the usual size, and the small print of a reservation.
     [[nodiscard]] std::uint64_t room_for(int grids) const {
@@ -46,7 +46,7 @@ class RollingStoreTest : public ::testing::Test {
         return testing::commit_sized(store, domain, noon + minutes{minute});
     }
     // "A+5": domain and minutes after noon of each grid.
-    static std::vector<std::string> grids(StoreWriter& store) {
+    static std::vector<std::string> grids(const StoreReader& store) {
         std::vector<std::string> names;
         for (const StoreEntry& entry : testing::all_grids(store)) {
             names.push_back(fmt::format("{}{:+}", entry.domain,
@@ -84,9 +84,9 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
     EXPECT_EQ(report.evicted, 6U) << "that of the commit is among them";
     EXPECT_EQ(report.evicted_bytes, 6 * grid_bytes_);
     EXPECT_EQ(store.roll().evicted, 0U);
-    EXPECT_EQ(store.usage()->grids, 5U);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
-    EXPECT_EQ(store.usage()->evicted, 6U);
+    EXPECT_EQ(store.usage().grids, 5U);
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().evicted, 6U);
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
@@ -132,8 +132,8 @@ TEST_F(RollingStoreTest, AFullCacheDoesNotKeepWhatWouldBeTheFirstToGo) {
     EXPECT_TRUE(store.would_keep("A", level2::Moment::ref, noon + minutes{11}));
     EXPECT_TRUE(store.would_keep("B", level2::Moment::ref, noon + minutes{5}));
     EXPECT_THAT(grids(store), ElementsAre("A+10", "A+11", "A+12"));
-    EXPECT_EQ(store.usage()->not_kept, 1U);
-    EXPECT_EQ(store.usage()->evicted, 0U);
+    EXPECT_EQ(store.usage().not_kept, 1U);
+    EXPECT_EQ(store.usage().evicted, 0U);
 }
 
 TEST_F(RollingStoreTest, TheNewestStaysUntilANewerStandsWhereTheBudgetHoldsTwo) {
@@ -169,7 +169,7 @@ TEST_F(RollingStoreTest, ABudgetBelowOneGridIsAnError) {
     EXPECT_TRUE(refused.error().message.starts_with(path("A", 2).native()))
         << refused.error().message;
     EXPECT_THAT(refused.error().message, HasSubstr("budget"));
-    EXPECT_EQ(store.usage()->bytes, 0U) << "the reservation was given back";
+    EXPECT_EQ(store.usage().bytes, 0U) << "the reservation was given back";
 
     Budgets larger = budgets_;
     larger.total.bytes = room_for(2);
@@ -186,7 +186,7 @@ TEST_F(RollingStoreTest, OldAndNewOfAReplacedGridAreBothCounted) {
     ASSERT_TRUE(commit(store, "A", 2));
     ASSERT_TRUE(commit(store, "A", 2)) << "the other one went for it";
     EXPECT_THAT(grids(store), ElementsAre("A+2"));
-    EXPECT_EQ(store.usage()->bytes, grid_bytes_);
+    EXPECT_EQ(store.usage().bytes, grid_bytes_);
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
@@ -207,7 +207,7 @@ TEST_F(RollingStoreTest, WhatStandsAtTheStartIsBroughtWithinTheBudgetAndLeftover
     EXPECT_FALSE(fs::exists(leftover));
     EXPECT_FALSE(fs::exists(above));
     EXPECT_THAT(grids(store), ElementsAre("A+4", "A+5", "A+6", "A+7"));
-    EXPECT_EQ(store.usage()->grids, 4U);
+    EXPECT_EQ(store.usage().grids, 4U);
 }
 
 TEST_F(RollingStoreTest, AgeCountsFromTheNewestVolumeAndNotFromTheClock) {
@@ -285,7 +285,7 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     for (const int minute : {3, 4})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+3", "A+4"));
-    EXPECT_EQ(store.usage()->pinned, 1U);
+    EXPECT_EQ(store.usage().pinned, 1U);
     ASSERT_TRUE(commit(store, "A", 0)) << "replaced, it stays pinned";
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+4"));
     ASSERT_TRUE(commit(store, "A", 5));
@@ -293,7 +293,7 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     ASSERT_TRUE(*unpin_grid(real_file_system(), path("A", 0)));
     EXPECT_FALSE(*unpin_grid(real_file_system(), path("A", 0)));
     store.roll();
-    EXPECT_EQ(store.usage()->pinned, 0U) << "a roll sees that a pin went";
+    EXPECT_EQ(store.usage().pinned, 0U) << "a roll sees that a pin went";
     ASSERT_TRUE(commit(store, "A", 6));
     EXPECT_THAT(grids(store), ElementsAre("A+4", "A+5", "A+6"));
 }
@@ -335,15 +335,15 @@ TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {
     fs::remove(path("A", 0));
     fs::remove(path("A", 1));
     store.roll();
-    EXPECT_EQ(store.usage()->grids, 2U);
-    EXPECT_EQ(store.usage()->bytes, testing::allocated_bytes(cache_));
+    EXPECT_EQ(store.usage().grids, 2U);
+    EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
     // Nothing has to go for these two.
     for (const int minute : {4, 5})
         ASSERT_TRUE(commit(store, "A", minute));
-    EXPECT_EQ(store.usage()->evicted, 0U);
+    EXPECT_EQ(store.usage().evicted, 0U);
     fs::remove_all(cache_ / "A");
     store.roll();
-    EXPECT_EQ(store.usage()->bytes, 0U);
+    EXPECT_EQ(store.usage().bytes, 0U);
     ASSERT_TRUE(commit(store, "A", 6)) << "directories are made again";
     fs::copy_file(path("A", 6), directory_ / "copy");
     fs::remove_all(cache_);
@@ -381,7 +381,7 @@ TEST_F(RollingStoreTest, ASecondWriterIsRefusedAndReadersAreNot) {
     RollingStore store = open(budgets_);
     auto second = RollingStore::open(disk_, cache_, budgets_);
     ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(second.error().code, ErrorCode::busy);
     EXPECT_THAT(second.error().message, HasSubstr("another process writes to this cache"));
     EXPECT_TRUE(StoreReader::open(cache_));
 }

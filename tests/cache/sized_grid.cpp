@@ -70,7 +70,7 @@ Result<std::filesystem::path> commit_sized(cache::StoreWriter& store, const std:
     return store.commit(domain, sized_description(time, number), sized_grid(stored).view());
 }
 
-std::vector<cache::StoreEntry> all_grids(cache::StoreWriter& store) {
+std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store) {
     std::vector<cache::StoreEntry> all;
     for (const std::string& domain : store.domains().value_or(std::vector<std::string>{})) {
         const auto entries = store.list(domain, level2::Moment::ref, std::nullopt, std::nullopt);

@@ -24,7 +24,7 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
                                                          int stored = 4, int number = 0);
 
 // Every grid of a cache, by domain, moment and time.
-[[nodiscard]] std::vector<cache::StoreEntry> all_grids(cache::StoreWriter& store);
+[[nodiscard]] std::vector<cache::StoreEntry> all_grids(const cache::StoreReader& store);
 
 // That each of them opens, verifies and has a sized grid's cells; "" or what is wrong.
 [[nodiscard]] std::string trouble_in(const cache::StoreEntry& entry);

@@ -75,7 +75,7 @@ class DamagedDatabase : public ::testing::Test {
         return found;
     }
     // How many there are, each as it was registered.
-    std::size_t expect_true_rows(CatalogWriter& catalog) {
+    std::size_t expect_true_rows(const CatalogReader& catalog) {
         const auto entries = *catalog.list("KTLX", {});
         for (const CatalogEntry& entry : entries) {
             const int number = std::stoi(entry.path.filename().native().substr(5));

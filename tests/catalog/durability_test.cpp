@@ -77,7 +77,7 @@ bool write_all(const fs::path& directory, Progress& progress) {
     return true;
 }
 
-std::map<fs::path, FileState> rows_in(CatalogWriter& catalog) {
+std::map<fs::path, FileState> rows_in(const CatalogReader& catalog) {
     std::map<fs::path, FileState> rows;
     const auto stations = catalog.station_names();
     EXPECT_TRUE(stations);

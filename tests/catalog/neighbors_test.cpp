@@ -140,7 +140,9 @@ TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAn
     {
         SQLite::Database other(database_, SQLite::OPEN_READWRITE);
         other.exec("BEGIN EXCLUSIVE");
-        EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {})));
+        const auto refused = catalog.register_file(file("/d/KTLX_b", {}));
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::busy);
         const double own =
             seconds([&] { EXPECT_FALSE(catalog.register_file(file("/d/KTLX_b", {}))); });
         EXPECT_LT(own, 1.0);

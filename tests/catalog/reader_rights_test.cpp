@@ -16,6 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What a reader may not do does not compile.
+template <class Catalog>
+concept Registers = requires(Catalog& catalog, const FileFacts& facts) {
+    catalog.register_file(facts);
+    catalog.mark_gone(facts.path);
+    catalog.roll();
+};
+static_assert(Registers<CatalogWriter>);
+static_assert(!Registers<CatalogReader> && !Registers<const CatalogWriter>);
+
 FileFacts volume_facts(int number) {
     FileFacts facts;
     facts.path = fmt::format("/d/{}", number);
@@ -55,7 +65,7 @@ class Reader {
     [[noreturn]] void serve(const fs::path& directory) {
         ::close(orders_[1]);
         if (::setgid(65534) != 0 || ::setuid(65534) != 0) ::_exit(1);
-        std::optional<CatalogWriter> catalog;
+        std::optional<CatalogReader> catalog;
         char order = 0;
         while (::read(orders_[0], &order, 1) == 1) {
             int answer = -1;

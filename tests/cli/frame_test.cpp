@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 class Frame : public ::testing::Test {
   protected:
     void SetUp() override {
-        auto store =
-            cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+        auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;
         for (const char* time : {"20050822_024400", "20050822_025000"}) {
             grid::Grid grid;

@@ -23,8 +23,7 @@ class QueryTest : public ::testing::Test {
     void SetUp() override {
         STORMCELLAR_NEED_DATA();
         auto catalog = *catalog::CatalogWriter::open(directory_ / "catalog");
-        auto store =
-            *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         pipeline::IngestOptions options;
         options.spacing_m = 4000;
         options.nx = options.ny = 115;
@@ -35,8 +34,7 @@ class QueryTest : public ::testing::Test {
     }
     void ingest(const std::filesystem::path& file) {
         auto catalog = *catalog::CatalogWriter::open(directory_ / "catalog");
-        auto store =
-            *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
+        auto store = *cache::StoreWriter::open(real_file_system(), directory_ / "cache", false);
         pipeline::Ingestor ingestor(catalog, store, {});
         ASSERT_TRUE(ingestor.ingest(file, true));
     }

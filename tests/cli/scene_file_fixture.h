@@ -45,8 +45,7 @@ class SceneFileTest : public ::testing::Test {
     }
     // A grid of REF about KBGM, and one of a domain of two sites.
     void commit() {
-        auto store =
-            cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
+        auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
         ASSERT_TRUE(store) << store.error().message;
         grid::Grid grid;
         grid.spec = grid::default_spec(42.2, -75.98);

@@ -44,8 +44,7 @@ class ArchiveFillTest : public ::testing::Test {
     }
     [[nodiscard]] fs::path raw(const std::string& name) const { return directory_ / "drop" / name; }
     [[nodiscard]] cache::StoreWriter store(const std::string& name) const {
-        return std::move(
-            *cache::StoreWriter::open(real_file_system(), directory_ / name, true));
+        return std::move(*cache::StoreWriter::open(real_file_system(), directory_ / name, true));
     }
     [[nodiscard]] std::vector<ArchiveVolume> volumes() const {
         return *archive_volumes(*catalog_, {"KBGM"},
@@ -73,7 +72,7 @@ class ArchiveFillTest : public ::testing::Test {
     static std::vector<std::byte> bytes_of(const fs::path& path) { return *read_file(path); }
 
     testing::TemporaryDirectory directory_;
-    mutable std::optional<catalog::CatalogWriter> catalog_;
+    std::optional<catalog::CatalogReader> catalog_;
     std::atomic<bool> stop_{false};
     std::vector<UtcTime> instants_ =
         instants_between(at("2005-08-22T02:00Z"), at("2005-08-22T04:00Z"), std::chrono::minutes{5});

@@ -20,6 +20,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using catalog::CatalogReader;
 using catalog::CatalogWriter;
 using catalog::FileState;
 
@@ -35,7 +36,7 @@ class ChunkFiles : public ::testing::Test {
         ASSERT_EQ(paths_.size(), 55U);
     }
     // One volume, whole, in the first chunk's row, and every other chunk settled beside it.
-    void expect_one_volume(CatalogWriter& catalog) {
+    void expect_one_volume(const CatalogReader& catalog) {
         const auto volumes = catalog.list("KLOT", {});
         ASSERT_TRUE(volumes);
         ASSERT_EQ(volumes->size(), 1U);

@@ -17,6 +17,7 @@ TEST(InstanceLock, ASecondDaemonIsToldWhoHasIt) {
         ASSERT_TRUE(first) << first.error().message;
         const Result<InstanceLock> second = InstanceLock::acquire(state.path());
         ASSERT_FALSE(second);
+        EXPECT_EQ(second.error().code, ErrorCode::busy);
         EXPECT_NE(second.error().message.find(fmt::format("(process {})", ::getpid())),
                   std::string::npos)
             << second.error().message;

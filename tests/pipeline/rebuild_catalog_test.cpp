@@ -14,7 +14,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using catalog::CatalogWriter;
+using catalog::CatalogReader;
 using catalog::FileState;
 
 class RebuildCatalog : public ::testing::Test {

@@ -26,8 +26,10 @@ enum class ErrorCode {
     not_a_file,    // a directory, FIFO or other thing that is not a regular file
     io,            // the operating system refused a read or a write
     exhausted,     // the system gives no memory or no descriptors
+    busy,          // another process holds what is needed: a lock, a database, an address
     no_space,      // the file system is full
-    over_budget,   // what may be kept is used up, though the file system may have room
+    over_budget,   // an allowance of disk or memory is used up, though the system may have more
+    unmet,         // no choice that is allowed keeps the error or the time that was asked for
     permission,    // the file may not be read or written
     internal,      // a defect of this software
 };
@@ -51,11 +53,13 @@ enum class Cause {
         case ErrorCode::not_found:
         case ErrorCode::io:
         case ErrorCode::exhausted:
+        case ErrorCode::busy:
         case ErrorCode::no_space:
         case ErrorCode::internal:
             return Cause::system;
         case ErrorCode::bad_argument:
         case ErrorCode::over_budget:
+        case ErrorCode::unmet:
         case ErrorCode::permission:
             return Cause::configuration;
     }

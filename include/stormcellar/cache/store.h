@@ -119,7 +119,8 @@ class StoreReader {
     std::filesystem::path directory_;
 };
 
-// The name that stood for every role; it goes with the next release.
+// The old name, for programs that read; it goes with the next release. Programs that write name
+// their role.
 using Store [[deprecated("StoreReader, StoreWriter or RollingStore")]] = StoreReader;
 
 class StoreWriter : public StoreReader {
@@ -162,7 +163,9 @@ class StoreWriter : public StoreReader {
   protected:
     StoreWriter(FileSystem& file_system, std::filesystem::path directory,
                 std::unique_ptr<Roller> roller);
-    [[nodiscard]] Roller* roller() const { return roller_.get(); }
+    // Of a RollingStore, which always has one.
+    [[nodiscard]] Roller& roller() { return *roller_; }
+    [[nodiscard]] const Roller& roller() const { return *roller_; }
 
   private:
     struct DurableDirectories;

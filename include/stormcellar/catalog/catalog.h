@@ -15,14 +15,13 @@
 // attack or an older configuration left, are left alone: a writer does not open them.
 // Bounds: of the databases only so many are open at once (catalog/open_databases.h), and each has a
 // most that its rows may take.
-// Errors: io, no_space, permission (SQLite's reason), corrupt (damaged; of a writer only where it
-// could not be mended), unsupported (a later version's or another program's database), not_a_file
-// (a FIFO or directory in its place), not_found. A database that cannot be opened is the trouble of
-// its own station alone: what concerns another, or all, goes on without it, and troubles() names
-// it.
-// A catalog is opened in one of two roles: a CatalogReader answers questions and never creates or
-// changes anything; a CatalogWriter answers the same questions, and registers files.
-// Thread contract: a catalog may be used by many threads (a mutex a database inside); many
+// Errors: io, no_space, permission, busy (SQLite's reason), corrupt (damaged; of a writer only
+// where it could not be mended), unsupported (a later version's or another program's database),
+// not_a_file (a FIFO or directory in its place), not_found. A database that cannot be opened is the
+// trouble of its own station alone: what concerns another, or all, goes on without it, and
+// troubles() names it. A catalog is opened in one of two roles: a CatalogReader answers questions
+// and never creates or changes anything; a CatalogWriter answers the same questions, and registers
+// files. Thread contract: a catalog may be used by many threads (a mutex a database inside); many
 // processes may read while one writes.
 #pragma once
 
@@ -215,7 +214,8 @@ class CatalogReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// The name that stood for both roles; it goes with the next release.
+// The old name, for programs that read; it goes with the next release. Programs that write name
+// their role.
 using Catalog [[deprecated("CatalogReader or CatalogWriter")]] = CatalogReader;
 
 class CatalogWriter : public CatalogReader {
@@ -262,7 +262,7 @@ class CatalogWriter : public CatalogReader {
     std::vector<Repair> take_repairs();
 
   private:
-    explicit CatalogWriter(std::unique_ptr<Impl> impl) : CatalogReader(std::move(impl)) {}
+    explicit CatalogWriter(std::unique_ptr<Impl> impl);
     Result<int> mark_missing_of(const std::string& name, const std::filesystem::path& directory,
                                 const std::vector<std::filesystem::path>& paths);
     Status forget_elsewhere(const std::filesystem::path& path, const std::string& name);

@@ -2,7 +2,7 @@
 //
 // The shape is that of the 2008 paper's storage-broker client, so that programs written to it can
 // be moved. A file is given only where it is still the one that was cataloged
-// (stormcellar/catalog/read_cataloged.h). Thread contract: as Catalog.
+// (stormcellar/catalog/read_cataloged.h). Thread contract: as CatalogReader.
 #pragma once
 
 #include <cstddef>
