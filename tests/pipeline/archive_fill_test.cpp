@@ -204,7 +204,8 @@ TEST_F(ArchiveFillTest, FilesBehindADirectoryThatBecameALinkAreGone) {
     ASSERT_TRUE(rebuild_catalog(rebuild));
     fs::rename(directory_ / "drop/day", directory_ / "elsewhere");
     fs::create_directory_symlink(directory_ / "elsewhere", directory_ / "drop/day");
-    const FillReport report = fill(store("filled"), options());
+    cache::StoreWriter filled = store("filled");
+    const FillReport report = fill(filled, options());
     EXPECT_EQ(report.grids_made, 2U);
     ASSERT_THAT(report.left_out, SizeIs(1));
     EXPECT_EQ(report.left_out[0].reason, "is gone");
