@@ -23,7 +23,7 @@ TEST_F(StateKeeperTest, MakesWhatIsMissingAndHoldsIt) {
     EXPECT_FALSE(keeper_.look()) << "all is there";
     const Status other = StateKeeper(state_).hold();
     ASSERT_FALSE(other);
-    EXPECT_EQ(other.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(other.error().code, ErrorCode::busy);
 }
 
 TEST_F(StateKeeperTest, MakesItAgainWithItsLock) {
