@@ -57,7 +57,7 @@ std::vector<std::string> StationRule::further() const {
     return {further_.begin(), further_.end()};
 }
 
-bool StationRule::same_as(const StationRule& other) const {
+bool StationRule::operator==(const StationRule& other) const {
     return kind_ == other.kind_ && most_further_ == other.most_further_ && listed_ == other.listed_;
 }
 

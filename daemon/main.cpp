@@ -113,20 +113,22 @@ std::filesystem::path in_the_way_of(std::filesystem::path directory) {
 
 // What is no mistake of the file's, but may not be meant.
 void print_notes(const Config& config) {
+    const PathsConfig& paths = config.fixed.paths;
     const auto note = [](const std::string& what) {
         fmt::print(stderr, "stormcellard: note: {}\n", what);
     };
-    if (const auto names = names_beneath(config.drop, config.drop); !names) {
+    if (const auto names = names_beneath(paths.drop, paths.drop); !names) {
         note(fmt::format("drop directory {}: the service waits for it",
                          printable(names.error().message)));
     }
-    for (const auto& [key, path] : {std::pair{"state", config.state}, {"cache", config.cache}}) {
+    for (const auto& [key, path] : {std::pair{"state", paths.state}, {"cache", paths.cache}}) {
         const std::filesystem::path stands = in_the_way_of(path);
         if (stands.empty()) continue;
         note(fmt::format("[paths] {}: {} is no directory: the service cannot start", key,
                          printable(stands.native())));
     }
-    for (const std::string& doubt : doubts_about(config.loops, config.ingest.domains))
+    for (const std::string& doubt :
+         doubts_about(config.reloadable.loops, config.fixed.grid.domains))
         note(doubt);
 }
 
@@ -140,7 +142,7 @@ std::unique_ptr<EventSource> open_events() {
 }
 
 int serve_loops(const Config& config, const std::filesystem::path& file) {
-    set_up_logging(config.log_level, usual_outlet());
+    set_up_logging(config.reloadable.log_level, usual_outlet());
     const std::filesystem::path directory = LoopsService::directory(config);
     if (const Status ready = make_directory(directory); !ready) return complain(ready.error());
     const auto lock = pipeline::InstanceLock::acquire(directory);
@@ -163,13 +165,19 @@ void know_stations(const catalog::CatalogReader& catalog, Service& service) {
         if (station.latest) service.know_station(station.station, *station.latest);
 }
 
+std::filesystem::path socket_of(const FixedConfig& config) {
+    if (!config.status.socket.empty()) return config.status.socket;
+    return default_socket(config.paths.state, std::getenv("RUNTIME_DIRECTORY"));
+}
+
 int serve(const Config& config, const std::filesystem::path& file, bool keeps_loops) {
     keep_freed_memory();
     cache::install_map_guard();
     raise_descriptor_limit();
-    set_up_logging(config.log_level, usual_outlet());
-    StateKeeper state(config.state);
-    const Status ready = make_directory(config.cache).and_then([&] { return state.hold(); });
+    set_up_logging(config.reloadable.log_level, usual_outlet());
+    const FixedConfig& fixed = config.fixed;
+    StateKeeper state(fixed.paths.state);
+    const Status ready = make_directory(fixed.paths.cache).and_then([&] { return state.hold(); });
     if (!ready) return complain(ready.error());
     const Result<Signals> signals = Signals::open();
     if (!signals) return complain(signals.error());
@@ -179,6 +187,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
     const std::unique_ptr<EventSource> events = open_events();
     SystemdNotifier notifier;
     StatusBoard board;
+    const std::filesystem::path socket = socket_of(fixed);
     Service service(config, file,
                     {.sink = **sink,
                      .events = *events,
@@ -187,13 +196,14 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
                      .signals = &*signals,
                      .keeps_loops = keeps_loops,
                      .board = &board,
-                     .state = &state});
+                     .state = &state,
+                     .socket = socket});
     know_stations((*sink)->catalog(), service);
-    const StatusServer status_server(
-        {.socket = config.status.socket, .http_port = config.status.http_port}, pages_of(board));
+    const StatusServer status_server({.socket = socket, .http_port = fixed.status.http_port},
+                                     pages_of(board));
     const Caretaker keeper(
         {(*sink)->catalog(), (*sink)->store(), (*sink)->mender(), (*sink)->site_watch()},
-        {.refill = config.refill},
+        {.refill = fixed.storage.refill},
         {[&] { return service.is_idle(); },
          [&](pipeline::PairReport report) { service.sites_compared(std::move(report)); }});
     service.need([&] { return status_server.answers(); });
@@ -221,11 +231,12 @@ int run(int argc, char** argv) {
                                          : fmt::format("stormcellard {}\n", software_version));
         return EXIT_SUCCESS;
     }
-    Result<Config> config = load_config(
+    const Result<Config> config = load_config(
         *arguments->config, arguments->check ? SceneFiles::must_exist : SceneFiles::as_named);
     if (!config) return complain(config.error());
     if (arguments->check) {
-        if (const Status fine = check_loops(config->loops, config->cache); !fine) {
+        if (const Status fine = check_loops(config->reloadable.loops, config->fixed.paths.cache);
+            !fine) {
             return complain({fine.error().code, fmt::format("{}: {}", arguments->config->native(),
                                                             fine.error().message)});
         }
@@ -233,11 +244,9 @@ int run(int argc, char** argv) {
         fmt::print("{}: ok\n", printable(arguments->config->native()));
         return EXIT_SUCCESS;
     }
-    set_added_stations(config->added_stations);
-    if (config->bunzip) bunzip::set_usual_path(*config->bunzip);
+    set_added_stations(config->fixed.ingest.added_stations);
+    if (const auto path = config->fixed.ingest.bunzip) bunzip::set_usual_path(*path);
     if (arguments->loops_only) return serve_loops(*config, *arguments->config);
-    if (config->status.socket.empty())
-        config->status.socket = default_socket(config->state, std::getenv("RUNTIME_DIRECTORY"));
     return serve(*config, *arguments->config, !arguments->no_loops);
 }
 

@@ -170,7 +170,7 @@ void Caretaker::refill() {
         if (!made) log_problem("cannot make a missing grid", made.error());
         if (!made && is_shortage(made.error().code)) return;
         if (!made) continue;
-        if (made->result != pipeline::IngestResult::gridded && made->partials.empty()) continue;
+        if (made->result() != pipeline::IngestResult::gridded && made->partials.empty()) continue;
         log_info({.event = Event::grid_made_again,
                   .volume = grid.time,
                   .file = grid.raw,

@@ -48,7 +48,7 @@ void read_path(TomlTable& paths, std::string_view key, const std::filesystem::pa
     }
 }
 
-void read_paths(TomlTable paths, const std::filesystem::path& file, Config& config) {
+void read_paths(TomlTable paths, const std::filesystem::path& file, PathsConfig& config) {
     read_path(paths, "drop", file, config.drop);
     read_path(paths, "state", file, config.state);
     read_path(paths, "cache", file, config.cache);
@@ -87,13 +87,13 @@ void read_whole_seconds(TomlTable& table, std::string_view key, TomlRange range,
     }
 }
 
-void read_levels(TomlTable& ingest, Config& config) {
-    if (const auto levels_m = pipeline::read_levels_m(ingest)) config.ingest.levels_m = *levels_m;
+void read_levels(TomlTable& ingest, GridConfig& config) {
+    if (const auto levels_m = pipeline::read_levels_m(ingest)) config.levels_m = *levels_m;
 }
 
-void read_size(TomlTable& ingest, Config& config) {
+void read_size(TomlTable& ingest, GridConfig& config) {
     if (const auto spacing = ingest.number("spacing_km", {0.05, 100})) {
-        config.ingest.spacing_m = *spacing * 1000;
+        config.spacing_m = *spacing * 1000;
     }
     std::vector<double> extent_km = {460, 460};
     if (const auto given = ingest.numbers("extent_km")) {
@@ -105,31 +105,31 @@ void read_size(TomlTable& ingest, Config& config) {
     }
     std::array<int, 2> counts{};
     for (std::size_t i = 0; i < 2; ++i) {
-        const double cells = extent_km[i] * 1000 / config.ingest.spacing_m;
+        const double cells = extent_km[i] * 1000 / config.spacing_m;
         if (!(cells >= 1 && cells <= 16384) || std::abs(cells - std::round(cells)) > 1e-6) {
             ingest.complain("extent_km", fmt::format("{} km is not 1 to 16384 cells of {} km",
-                                                     extent_km[i], config.ingest.spacing_m / 1000));
+                                                     extent_km[i], config.spacing_m / 1000));
             return;
         }
         counts[i] = static_cast<int>(std::lround(cells));
     }
-    config.ingest.nx = counts[0];
-    config.ingest.ny = counts[1];
+    config.nx = counts[0];
+    config.ny = counts[1];
 }
 
 // What the grid room would refuse is refused here, with the line.
-void check_grid(TomlTable& ingest, const Config& config) {
+void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
-    spec.spacing_m = config.ingest.spacing_m;
-    spec.nx = config.ingest.nx;
-    spec.ny = config.ingest.ny;
-    if (!config.ingest.levels_m.empty()) spec.levels_m = config.ingest.levels_m;
+    spec.spacing_m = config.spacing_m;
+    spec.nx = config.nx;
+    spec.ny = config.ny;
+    if (!config.levels_m.empty()) spec.levels_m = config.levels_m;
     if (const Status valid = grid::validate(spec); !valid) {
         ingest.complain("levels_km", valid.error().message);
     }
 }
 
-void read_bunzip(TomlTable& ingest, Config& config) {
+void read_bunzip(TomlTable& ingest, IngestConfig& config) {
     const auto name = ingest.text("bunzip");
     if (!name || *name == "fastest") return;
     const auto path = bunzip::path_named(*name);
@@ -144,31 +144,18 @@ void read_bunzip(TomlTable& ingest, Config& config) {
     }
 }
 
-void read_ingest(TomlTable ingest, Config& config) {
-    if (const auto workers = ingest.whole_number("workers", {0, 256})) {
-        config.workers = *workers;
-    }
-    if (const auto threads = ingest.whole_number("threads", {0, 256})) {
-        config.ingest.decode_threads = *threads;
-    } else {
-        config.ingest.decode_threads = 0;
-    }
-    if (config.ingest.decode_threads == 0) {
-        config.ingest.decode_threads =
-            std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    }
-    config.ingest.grid_threads = config.ingest.decode_threads;
-    config.stations = read_station_rule(ingest);
-    if (const auto living = ingest.flag("living")) config.living = *living;
-    read_seconds(ingest, "quiet_seconds", {1, 86400}, config.quiet);
-    read_whole_seconds(ingest, "chunk_timeout_seconds", {1, 86400},
-                       config.ingest.living.chunk_timeout);
-    read_whole_seconds(ingest, "chunk_grace_seconds", {0, 86400}, config.ingest.living.chunk_grace);
-    read_seconds(ingest, "reread_seconds", {0, 60}, config.reread);
-    read_bunzip(ingest, config);
+int processors() {
+    // Asked for at every turn of the service, and read from a file.
+    static const unsigned count = std::thread::hardware_concurrency();
+    return std::max(1, static_cast<int>(count));
+}
+
+void read_grid(TomlTable& ingest, GridConfig& config) {
+    config.threads = ingest.whole_number("threads", {0, 256}).value_or(0);
+    if (config.threads == 0) config.threads = processors();
     if (const auto name = ingest.text("moment")) {
         if (const auto moment = pipeline::read_moment(ingest, "moment", *name)) {
-            config.ingest.moment = *moment;
+            config.moment = *moment;
         }
     }
     read_size(ingest, config);
@@ -176,7 +163,22 @@ void read_ingest(TomlTable ingest, Config& config) {
     check_grid(ingest, config);
 }
 
-void read_storage(TomlTable& table, Config& config) {
+void read_ingest(TomlTable ingest, FixedConfig& fixed, ReloadableConfig& reloadable) {
+    IngestConfig& config = fixed.ingest;
+    if (const auto workers = ingest.whole_number("workers", {0, 256})) {
+        reloadable.workers = *workers;
+    }
+    config.stations = read_station_rule(ingest);
+    if (const auto living = ingest.flag("living")) config.living = *living;
+    read_seconds(ingest, "quiet_seconds", {1, 86400}, reloadable.quiet);
+    read_whole_seconds(ingest, "chunk_timeout_seconds", {1, 86400}, config.chunk_timeout);
+    read_whole_seconds(ingest, "chunk_grace_seconds", {0, 86400}, config.chunk_grace);
+    read_seconds(ingest, "reread_seconds", {0, 60}, reloadable.reread);
+    read_bunzip(ingest, config);
+    read_grid(ingest, fixed.grid);
+}
+
+void read_storage(TomlTable& table, StorageConfig& config) {
     if (const auto hours = table.number("refill_hours", {0, 8760})) {
         config.refill = milliseconds_of(*hours * 3600);
     }
@@ -205,16 +207,16 @@ void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
 }
 
 void read_catalog(TomlTable catalog, Config& config) {
-    read_bytes(catalog, config.catalog_bytes);
+    read_bytes(catalog, config.fixed.storage.catalog_bytes);
     if (const auto days = catalog.number("gone_days", {0, 36500}))
-        config.gone_kept = milliseconds_of(*days * 86400);
+        config.reloadable.gone_kept = milliseconds_of(*days * 86400);
 }
 
 void read_rest(TomlTable watch, TomlTable log, Config& config) {
-    read_seconds(watch, "rescan_seconds", {1, 86400}, config.rescan);
-    read_seconds(watch, "poll_seconds", {1, 86400}, config.poll);
+    read_seconds(watch, "rescan_seconds", {1, 86400}, config.reloadable.rescan);
+    read_seconds(watch, "poll_seconds", {1, 86400}, config.reloadable.poll);
     if (const auto limit = watch.whole_number("queue_limit", {16, 10'000'000})) {
-        config.queue_limit = static_cast<std::size_t>(*limit);
+        config.fixed.queue_limit = static_cast<std::size_t>(*limit);
     }
     if (const auto level = log.text("level")) {
         static constexpr std::array<std::string_view, 4> levels = {"debug", "info", "warning",
@@ -223,15 +225,16 @@ void read_rest(TomlTable watch, TomlTable log, Config& config) {
             log.complain("level", fmt::format("\"{}\" is none of debug, info, warning, error",
                                               printable(*level)));
         } else {
-            config.log_level = *level;
+            config.reloadable.log_level = *level;
         }
     }
 }
 
-void read_status(TomlTable status, const std::filesystem::path& file, Config& config) {
-    read_path(status, "socket", file, config.status.socket);
-    const std::filesystem::path& socket = config.status.socket;
-    for (const std::filesystem::path* path : {&config.drop, &config.cache}) {
+void read_status(TomlTable status, const std::filesystem::path& file, const PathsConfig& paths,
+                 StatusConfig& config) {
+    read_path(status, "socket", file, config.socket);
+    const std::filesystem::path& socket = config.socket;
+    for (const std::filesystem::path* path : {&paths.drop, &paths.cache}) {
         if (socket.empty() || path->empty() || !is_within(socket, *path)) continue;
         status.complain("socket",
                         fmt::format("{} lies within {}", socket.native(), path->native()));
@@ -240,7 +243,7 @@ void read_status(TomlTable status, const std::filesystem::path& file, Config& co
         status.complain("socket", fmt::format("is longer than {} bytes", most_socket_bytes));
     }
     if (const auto port = status.whole_number("http_port", {0, 65'535})) {
-        config.status.http_port = *port;
+        config.http_port = *port;
     }
 }
 
@@ -276,8 +279,8 @@ void read_budgets(TomlTable& cache, cache::Budgets& budgets) {
 }
 
 void read_cache(TomlTable cache, Config& config) {
-    read_budgets(cache, config.budgets);
-    read_storage(cache, config);
+    read_budgets(cache, config.reloadable.budgets);
+    read_storage(cache, config.fixed.storage);
 }
 
 }  // namespace
@@ -295,17 +298,30 @@ std::filesystem::path default_socket(const std::filesystem::path& state,
     return (directory.empty() ? state : std::filesystem::path{directory}) / "status.sock";
 }
 
-int Config::worker_count() const {
-    if (workers > 0) return workers;
-    // Asked for at every turn of the service, and read from a file.
-    static const unsigned processors = std::thread::hardware_concurrency();
-    return std::max(1, static_cast<int>(processors));
+int ReloadableConfig::worker_count() const {
+    return workers > 0 ? workers : processors();
 }
 
-bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions& b) {
-    return a.moment == b.moment && a.spacing_m == b.spacing_m && a.nx == b.nx && a.ny == b.ny &&
-           a.levels_m == b.levels_m && a.domains == b.domains &&
-           a.decode_threads == b.decode_threads && a.grid_threads == b.grid_threads;
+std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConfig& running) {
+    std::vector<std::string> sentences;
+    // A new part of the configuration does not compile here until it has a sentence, too.
+    const auto& [paths, grid, queue_limit, ingest, storage, status] = fresh;
+    if (paths != running.paths) {
+        sentences.emplace_back("[paths] cannot change while the service runs: restart it");
+    }
+    if (grid != running.grid || queue_limit != running.queue_limit) {
+        sentences.emplace_back(
+            "the grid, mosaics, threads and queue_limit change at a restart only");
+    }
+    if (ingest != running.ingest || storage != running.storage) {
+        sentences.emplace_back(
+            "stations, living, bunzip, the chunks' times, refill_hours, compression and the "
+            "catalog's bytes change at a restart only");
+    }
+    if (status != running.status) {
+        sentences.emplace_back("[status] changes at a restart only");
+    }
+    return sentences;
 }
 
 Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes) {
@@ -313,16 +329,18 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     if (!toml) return pass_on(toml);
     TomlTable root = toml->root();
     Config config;
-    read_paths(root.section("paths"), file, config);
-    read_ingest(root.section("ingest"), config);
-    config.added_stations = read_added_stations(root);
-    config.ingest.domains = pipeline::read_domains(root);
+    FixedConfig& fixed = config.fixed;
+    read_paths(root.section("paths"), file, fixed.paths);
+    read_ingest(root.section("ingest"), fixed, config.reloadable);
+    fixed.ingest.added_stations = read_added_stations(root);
+    fixed.grid.domains = pipeline::read_domains(root);
     read_cache(root.section("cache"), config);
     read_catalog(root.section("catalog"), config);
     read_rest(root.section("watch"), root.section("log"), config);
-    read_status(root.section("status"), file, config);
-    config.loops = read_loops(root, std::filesystem::absolute(file).parent_path(),
-                              {config.drop, config.state, config.cache}, scenes);
+    read_status(root.section("status"), file, fixed.paths, fixed.status);
+    config.reloadable.loops =
+        read_loops(root, std::filesystem::absolute(file).parent_path(),
+                   {fixed.paths.drop, fixed.paths.state, fixed.paths.cache}, scenes);
     if (const Status read = toml->finish(); !read) return pass_on(read);
     return config;
 }

@@ -7,17 +7,21 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bunzip/paths.h"
 #include "daemon/config/loop_config.h"
-#include "pipeline/ingest/ingest.h"
+#include "pipeline/options/domain.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_rule.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/budget.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::daemon {
 
@@ -39,37 +43,82 @@ struct StatusConfig {
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
 
-struct Config {
-    // Absolute, symbolic links resolved; none lies within another.
+// The three directories: absolute, symbolic links resolved; none lies within another.
+struct PathsConfig {
     std::filesystem::path drop;
     std::filesystem::path state = "/var/lib/stormcellar";
     std::filesystem::path cache = "/var/cache/stormcellar";
+    bool operator==(const PathsConfig&) const = default;
+};
 
-    pipeline::IngestOptions ingest;
+// What is gridded, and by how many threads. The defaults are those of pipeline::IngestOptions.
+struct GridConfig {
+    level2::Moment moment = level2::Moment::ref;
+    double spacing_m = 1000;
+    int nx = 460, ny = 460;
+    std::vector<double> levels_m;           // empty: the default 32
+    std::vector<pipeline::Domain> domains;  // mosaics to keep, beside each site's own grid
+    int threads = 1;                        // that decode, and that grid
+    bool operator==(const GridConfig&) const = default;
+};
+
+// How files are taken in.
+struct IngestConfig {
     StationRule stations;  // of which data are taken in
     std::vector<AddedStation> added_stations;
-    bool living = true;                  // volumes are gridded while they grow
+    bool living = true;  // volumes are gridded while they grow
+    std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see pipeline::LivingGrids
     std::optional<bunzip::Path> bunzip;  // none: the fastest that the machine has
-    int workers = 0;                     // 0: one a processor; see worker_count()
+    bool operator==(const IngestConfig&) const = default;
+};
+
+// How the catalog and the cache store what was taken in.
+struct StorageConfig {
+    cache::Packing packing = cache::Packing::none;
+    std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
+    std::optional<std::uint64_t> catalog_bytes = default_catalog_bytes;  // none: no limit
+    bool operator==(const StorageConfig&) const = default;
+};
+
+// The keys that count at the start alone.
+struct FixedConfig {
+    PathsConfig paths;
+    GridConfig grid;
+    std::size_t queue_limit = 65'536;  // files
+    IngestConfig ingest;
+    StorageConfig storage;
+    StatusConfig status;
+    bool operator==(const FixedConfig&) const = default;
+};
+
+// The keys that a reload makes count.
+struct ReloadableConfig {
+    int workers = 0;  // 0: one a processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
     std::chrono::milliseconds poll{5'000};  // the same where changes come without events
-    std::size_t queue_limit = 65'536;       // files
     cache::Budgets budgets = default_budgets();
-    cache::Packing packing = cache::Packing::none;
-    std::chrono::milliseconds refill{std::chrono::hours{6}};  // of missing grids, the newest
     std::chrono::milliseconds gone_kept{0};  // rows of files that are gone; 0: for ever
-    std::optional<std::uint64_t> catalog_bytes = default_catalog_bytes;  // none: no limit
     std::string log_level = "info";
-    StatusConfig status;
     std::vector<LoopConfig> loops;
 
     [[nodiscard]] int worker_count() const;
+    bool operator==(const ReloadableConfig&) const = default;
 };
 
-// True when two configurations make the same grids in the same way.
-[[nodiscard]] bool same_grids(const pipeline::IngestOptions& a, const pipeline::IngestOptions& b);
+// Every key stands in one of the two parts, and in no third one: a reload compares the first and
+// takes over the second, each as a whole.
+struct Config {
+    FixedConfig fixed;
+    ReloadableConfig reloadable;
+    bool operator==(const Config&) const = default;
+};
+
+// What a reload cannot do: for each part of `fresh` that differs from `running` a sentence that
+// names its keys. Empty exactly when the two are equal.
+[[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
+                                                     const FixedConfig& running);
 
 // Relative paths are taken from the directory of the file. Unknown keys, wrong types, values out of
 // range and paths within one another are bad_argument: "FILE:LINE: [section] key: why".

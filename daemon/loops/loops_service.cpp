@@ -24,12 +24,12 @@ LoopsService::LoopsService(Config config, std::filesystem::path config_file, Par
       config_file_(std::move(config_file)),
       parts_(parts),
       watchdog_(parts_.notifier.watchdog()),
-      keeper_(config_.cache, [this] { wake_up_.set(); }) {
+      keeper_(config_.fixed.paths.cache, [this] { wake_up_.set(); }) {
     pulses_.watch("loops", keeper_.pulse());
 }
 
 std::filesystem::path LoopsService::directory(const Config& config) {
-    return config.state / "loops";
+    return config.fixed.paths.state / "loops";
 }
 
 void LoopsService::request_stop() {
@@ -40,9 +40,10 @@ void LoopsService::request_stop() {
 void LoopsService::run() {
     publish("running");
     parts_.notifier.send("READY=1");
-    log_info({Event::ready}, "ready: keeping {} of {}", counted(config_.loops.size(), "loop"),
-             printable(config_.cache.native()));
-    keeper_.set(config_.loops);
+    log_info({Event::ready}, "ready: keeping {} of {}",
+             counted(config_.reloadable.loops.size(), "loop"),
+             printable(config_.fixed.paths.cache.native()));
+    keeper_.set(config_.reloadable.loops);
     while (true) {
         handle_signals();
         if (stop_requested_) break;
@@ -85,15 +86,17 @@ void LoopsService::handle_signals() {
 void LoopsService::reload() {
     parts_.notifier.send(reloading_state());
     if (const Result<Config> fresh = load_config(config_file_)) {
-        if (fresh->state != config_.state || fresh->cache != config_.cache) {
+        const PathsConfig& asked = fresh->fixed.paths;
+        const PathsConfig& used = config_.fixed.paths;
+        if (asked.state != used.state || asked.cache != used.cache) {
             log_warning({Event::reload_ignored},
                         "reload: [paths] cannot change while the service runs: restart it");
         }
-        config_.loops = fresh->loops;
-        config_.log_level = fresh->log_level;
-        keeper_.set(config_.loops);
-        set_log_level(config_.log_level);
-        log_info({Event::reloaded}, "reloaded: {}", counted(config_.loops.size(), "loop"));
+        config_.reloadable = fresh->reloadable;
+        keeper_.set(config_.reloadable.loops);
+        set_log_level(config_.reloadable.log_level);
+        log_info({Event::reloaded}, "reloaded: {}",
+                 counted(config_.reloadable.loops.size(), "loop"));
     } else {
         log_error({Event::reload_failed}, "reload: {}; the configuration stays as it was",
                   printable(fresh.error().message));

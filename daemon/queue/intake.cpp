@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/drop_names.h"
 
 namespace stormcellar::daemon {
 namespace {
+
+namespace ended = pipeline::ended;
 
 constexpr std::size_t most_growing = 4096;
 constexpr std::size_t most_going_on = 4096;
@@ -24,9 +27,10 @@ std::string volume_of(const std::filesystem::path& path) {
 
 // Something has come of it. Of whose station it is the file's name has said before.
 bool is_good(const Finished& finished) {
-    return finished.taken && (finished.taken->ingest.result == pipeline::IngestResult::gridded ||
-                              finished.taken->ingest.result == pipeline::IngestResult::registered ||
-                              finished.taken->ingest.goes_on);
+    if (!finished.taken) return false;
+    const pipeline::IngestOutcome& outcome = finished.taken->ingest;
+    return outcome.goes_on || std::holds_alternative<ended::Gridded>(outcome.ending) ||
+           std::holds_alternative<ended::Registered>(outcome.ending);
 }
 
 }  // namespace
@@ -41,16 +45,16 @@ Clock real_clock() {
 }
 
 Intake::Intake(const Config& config, Clock clock)
-    : drop_(config.drop),
-      stations_(config.stations),
+    : drop_(config.fixed.paths.drop),
+      stations_(config.fixed.ingest.stations),
       clock_(std::move(clock)),
-      reread_(config.reread),
-      schedule_(config.queue_limit),
-      growing_(config.quiet, most_growing) {
-    schedule_.set_workers(config.worker_count());
+      reread_(config.reloadable.reread),
+      schedule_(config.fixed.queue_limit),
+      growing_(config.reloadable.quiet, most_growing) {
+    schedule_.set_workers(config.reloadable.worker_count());
 }
 
-void Intake::set_times(const Config& config) {
+void Intake::reload(const ReloadableConfig& config) {
     reread_ = config.reread;
     growing_.set_quiet(config.quiet);
     schedule_.set_workers(config.worker_count());
@@ -254,27 +258,23 @@ void Intake::job_ended(const Finished& finished) {
     const std::filesystem::path& path = finished.job.path;
     schedule_.worked(path, finished.ended - finished.started, finished.ended, is_good(finished));
     if (!finished.taken) return job_failed(finished);
+    const pipeline::IngestOutcome& outcome = finished.taken->ingest;
     SteadyTime again{};
     followed_.erase(path);
-    note_going_on(path, finished.taken->ingest.goes_on);
-    switch (finished.taken->ingest.result) {
-        case pipeline::IngestResult::incomplete:
-            if (finished.taken->ingest.has_next_turn) return give_next_turn(finished);
-            if (!finished.taken->ingest.followed) again = finished.ended + reread_;
-            if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended,
-                                         finished.taken->ingest.followed, station_of(path))) {
-                leave_to_scan(path);
-            } else if (finished.taken->ingest.followed) {
-                followed_.insert(path);
-            }
-            break;
-        case pipeline::IngestResult::vanished:
-            seen_.forget(path);
-            break;
-        default:
-            break;
+    note_going_on(path, outcome.goes_on);
+    if (const auto* rest = std::get_if<ended::Incomplete>(&outcome.ending)) {
+        if (rest->has_next_turn) return give_next_turn(finished);
+        if (!rest->is_followed) again = finished.ended + reread_;
+        if (!growing_.add_incomplete(path, finished.taken->stamp, finished.ended, rest->is_followed,
+                                     station_of(path))) {
+            leave_to_scan(path);
+        } else if (rest->is_followed) {
+            followed_.insert(path);
+        }
+    } else if (std::holds_alternative<ended::Vanished>(outcome.ending)) {
+        seen_.forget(path);
     }
-    const std::filesystem::path& waiter = finished.taken->ingest.instead_of;
+    const std::filesystem::path& waiter = outcome.instead_of;
     if (!waiter.empty() && waiter != path) growing_.forget(waiter);
     schedule_.finished(path, again);
     note_displaced();
@@ -282,7 +282,7 @@ void Intake::job_ended(const Finished& finished) {
 
 // What could not be written will be when the file is taken in.
 void Intake::registered(const Finished& noted) {
-    if (noted.taken && noted.taken->ingest.result == pipeline::IngestResult::vanished) {
+    if (noted.taken && std::holds_alternative<ended::Vanished>(noted.taken->ingest.ending)) {
         job_ended(noted);
     } else {
         schedule_.registered(noted.job.path);

@@ -41,8 +41,8 @@ class Intake final : public WatchListener {
     // short of disk, memory or descriptors: then for as long as that lasts.
     static constexpr int most_tries = 8;
 
-    // New times to wait and another number of workers, after a reload.
-    void set_times(const Config& config);
+    // New times to wait and another number of workers.
+    void reload(const ReloadableConfig& config);
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
     void file_created(const std::filesystem::path& path, const FileStamp& stamp) override;

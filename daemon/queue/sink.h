@@ -53,10 +53,10 @@ class Sink {
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
                                pipeline::Tries tries) = 0;
     // For one that has to wait: writes the file into the catalog as it is there, unread
-    // (registered), or marks its rows when it is gone (vanished: there is nothing left to do). May
-    // run beside take() of other paths.
-    virtual Result<pipeline::IngestResult> note(const std::filesystem::path& /*path*/) {
-        return pipeline::IngestResult::registered;
+    // (stands), or marks its rows when it is gone (gone: there is nothing left to do). May run
+    // beside take() of other paths.
+    virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {
+        return pipeline::Noted::stands;
     }
     // Whether more waits than workers can soon take: what may be left out is left out.
     virtual void set_pressed(bool /*pressed*/) {}

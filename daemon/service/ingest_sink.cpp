@@ -18,25 +18,35 @@ bool is_known_group(std::string_view group, const StationRule& stations) {
 }  // namespace
 
 IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store,
-                       const Config& config, std::shared_ptr<StationRule> stations,
+                       const FixedConfig& config, std::shared_ptr<StationRule> stations,
                        const DescriptorPlan& descriptors)
-    : drop_(config.drop),
+    : drop_(config.paths.drop),
       stations_(std::move(stations)),
       growing_(descriptors.growing),
       catalog_(std::move(catalog)),
       store_(std::move(store)),
       ingestor_(catalog_, store_, options_of(config)),
-      mender_(catalog_, store_, ingestor_, config.ingest.moment),
-      site_watch_(store_, config.ingest.domains) {
+      mender_(catalog_, store_, ingestor_, config.grid.moment),
+      site_watch_(store_, config.grid.domains) {
     if (auto left = catalog_.left_alone()) left_alone_ = std::move(*left);
 }
 
-pipeline::IngestOptions IngestSink::options_of(const Config& config) const {
-    pipeline::IngestOptions options = config.ingest;
+pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const {
+    pipeline::IngestOptions options;
+    options.moment = config.grid.moment;
+    options.spacing_m = config.grid.spacing_m;
+    options.nx = config.grid.nx;
+    options.ny = config.grid.ny;
+    options.levels_m = config.grid.levels_m;
+    options.domains = config.grid.domains;
+    options.decode_threads = config.grid.threads;
+    options.grid_threads = config.grid.threads;
     options.stations = stations_;
-    options.beneath = config.drop;
-    options.living.scratch = config.state;
-    options.living.make = config.living;
+    options.beneath = config.paths.drop;
+    options.living.scratch = config.paths.state;
+    options.living.make = config.ingest.living;
+    options.living.chunk_timeout = config.ingest.chunk_timeout;
+    options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
     // Far below what the watchdog takes for a hang.
     options.archive_turn = std::chrono::seconds{20};
@@ -45,25 +55,26 @@ pipeline::IngestOptions IngestSink::options_of(const Config& config) const {
 }
 
 Result<std::unique_ptr<IngestSink>> IngestSink::open(const Config& config) {
+    const FixedConfig& fixed = config.fixed;
     const DescriptorPlan descriptors = DescriptorPlan::of_this_process();
-    auto stations = std::make_shared<StationRule>(config.stations);
+    auto stations = std::make_shared<StationRule>(fixed.ingest.stations);
     catalog::CatalogOptions options;
     options.stations = stations;
     options.most_open = descriptors.databases;
-    options.drop = config.drop;
-    options.most_bytes = config.catalog_bytes.value_or(catalog::CatalogOptions::no_limit);
-    auto catalog = catalog::CatalogWriter::open(config.state / "catalog", options);
+    options.drop = fixed.paths.drop;
+    options.most_bytes = fixed.storage.catalog_bytes.value_or(catalog::CatalogOptions::no_limit);
+    auto catalog = catalog::CatalogWriter::open(fixed.paths.state / "catalog", options);
     if (!catalog) return pass_on(catalog);
     cache::Surroundings surroundings;
     surroundings.is_known = [stations](std::string_view group) {
         return is_known_group(group, *stations);
     };
-    auto store = cache::RollingStore::open(real_file_system(), config.cache, config.budgets,
-                                           std::move(surroundings));
+    auto store = cache::RollingStore::open(real_file_system(), fixed.paths.cache,
+                                           config.reloadable.budgets, std::move(surroundings));
     if (!store) return pass_on(store);
-    store->pack_with(config.packing);
-    return std::unique_ptr<IngestSink>(new IngestSink(std::move(*catalog), std::move(*store),
-                                                      config, std::move(stations), descriptors));
+    store->pack_with(fixed.storage.packing);
+    return std::unique_ptr<IngestSink>(new IngestSink(std::move(*catalog), std::move(*store), fixed,
+                                                      std::move(stations), descriptors));
 }
 
 Result<std::int64_t> IngestSink::roll_rows(const OnStep& step) {
@@ -111,7 +122,7 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_pa
     const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
-        taken.ingest.result = pipeline::IngestResult::vanished;  // something else took its name
+        taken.ingest.ending = pipeline::ended::Vanished{};  // something else took its name
         return taken;
     }
     Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_partial, tries);

@@ -20,7 +20,7 @@ class IngestSink final : public Sink {
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
                        pipeline::Tries tries) override;
-    Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
+    Result<pipeline::Noted> note(const std::filesystem::path& path) override {
         return ingestor_.note(path);
     }
     void set_pressed(bool pressed) override { *pressed_ = pressed; }
@@ -43,10 +43,10 @@ class IngestSink final : public Sink {
     [[nodiscard]] pipeline::SiteWatch& site_watch() { return site_watch_; }
 
   private:
-    IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store, const Config& config,
+    IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store, const FixedConfig& config,
                std::shared_ptr<StationRule> stations, const DescriptorPlan& descriptors);
 
-    [[nodiscard]] pipeline::IngestOptions options_of(const Config& config) const;
+    [[nodiscard]] pipeline::IngestOptions options_of(const FixedConfig& config) const;
 
     std::filesystem::path drop_;
     std::shared_ptr<StationRule> stations_;

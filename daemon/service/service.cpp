@@ -15,9 +15,6 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Scans take at most about a tenth of the time, however often something calls for one.
-constexpr std::chrono::milliseconds least_scan_gap{100};
-constexpr int scan_rest = 10;
 constexpr std::chrono::seconds longest_sleep{10};
 constexpr std::chrono::seconds time_to_drain{20};
 constexpr std::chrono::seconds between_held_back{1};
@@ -32,23 +29,6 @@ constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
 
-// The socket of a configuration that names none was chosen at the start.
-bool same_listening(const Config& fresh, const Config& running) {
-    const bool same_socket =
-        fresh.status.socket.empty() || fresh.status.socket == running.status.socket;
-    return same_socket && fresh.status.http_port == running.status.http_port;
-}
-
-// What is taken from the configuration once.
-bool same_at_the_start(const Config& fresh, const Config& running) {
-    return fresh.living == running.living && fresh.bunzip == running.bunzip &&
-           fresh.ingest.living.chunk_timeout == running.ingest.living.chunk_timeout &&
-           fresh.ingest.living.chunk_grace == running.ingest.living.chunk_grace &&
-           fresh.refill == running.refill && fresh.packing == running.packing &&
-           fresh.stations.same_as(running.stations) &&
-           fresh.added_stations == running.added_stations;
-}
-
 Result<Taken> take(Sink& sink, const Job& job) {
     const bool is_last = job.failures + 1 >= Intake::most_tries;
     return sink.take(job.path, job.finish_partial,
@@ -59,20 +39,25 @@ Result<Taken> note(Sink& sink, const Job& job) {
     const auto noted = sink.note(job.path);
     if (!noted) return pass_on(noted);
     Taken taken;
-    taken.ingest.result = *noted;
+    if (*noted == pipeline::Noted::gone) {
+        taken.ingest.ending = pipeline::ended::Vanished{};
+    } else {
+        taken.ingest.ending = pipeline::ended::Registered{};
+    }
     return taken;
 }
 
 }  // namespace
 
-Service::Service(Config config, std::filesystem::path config_file, ServiceParts parts)
-    : config_(std::move(config)),
+Service::Service(const Config& config, std::filesystem::path config_file, ServiceParts parts)
+    : fixed_(config.fixed),
+      config_(config.reloadable),
       config_file_(std::move(config_file)),
       parts_(std::move(parts)),
-      intake_(config_, parts_.clock),
-      watcher_(config_.drop, parts_.events, intake_),
-      status_(config_.drop, config_.cache),
-      status_file_(parts_.file_system, config_.state, parts_.notifier),
+      intake_(config, parts_.clock),
+      watcher_(fixed_.paths.drop, parts_.events, intake_),
+      status_(fixed_.paths.drop, fixed_.paths.cache),
+      status_file_(parts_.file_system, fixed_.paths.state, parts_.notifier),
       watchdog_(parts_.notifier.watchdog()),
       pool_([this](const Job& job) { return take(parts_.sink, job); }, "ingest",
             config_.worker_count(), [this] { wake_up_.set(); }),
@@ -80,15 +65,12 @@ Service::Service(Config config, std::filesystem::path config_file, ServiceParts 
                  [this] { wake_up_.set(); }),
       row_keeper_(parts_.sink),
       cache_keeper_(parts_.sink, [this] { wake_up_.set(); }),
-      loop_keeper_(config_.cache, [this] { wake_up_.set(); }) {
-    need([this]() -> Status {
-        if (!drop_missing_) return {};
-        return fail(ErrorCode::not_found, "drop directory {}", drop_problem_);
-    });
-    need([this] { return can_write_in(parts_.file_system, config_.state); });
+      loop_keeper_(fixed_.paths.cache, [this] { wake_up_.set(); }) {
+    need([this] { return drop_trouble_.is_over(); });
+    need([this] { return can_write_in(parts_.file_system, fixed_.paths.state); });
     need([this] { return parts_.sink.can_store(); });
     watcher_.on_step([this] { keep_workers_busy(); });
-    status_.set_listening(config_.status.socket, config_.status.http_port);
+    status_.set_listening(parts_.socket, fixed_.status.http_port);
     watch("missing", row_keeper_.pulse());
     watch("cache", cache_keeper_.pulse());
     watch("loops", loop_keeper_.pulse());
@@ -138,7 +120,7 @@ void Service::get_ready() {
     publish(true);
     parts_.notifier.send("READY=1");
     log_info({Event::ready}, "ready: watching {} ({}), {} to look at, {}",
-             printable(config_.drop.native()),
+             printable(fixed_.paths.drop.native()),
              counted(watcher_.directory_count(), "directory", "directories"),
              counted(pending.waiting + pending.growing, "file"),
              counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"));
@@ -162,16 +144,16 @@ void Service::turn() {
 }
 
 SteadyTime Service::next_time() const {
-    SteadyTime time =
-        std::min({parts_.clock.steady() + longest_sleep, next_scan_, cache_keeper_.next_time()});
+    SteadyTime time = std::min(
+        {parts_.clock.steady() + longest_sleep, scan_times_.next(), cache_keeper_.next_time()});
     const auto work = intake_.next_time(pool_.has_free_worker(), registrar_.has_free_worker());
     for (const auto& due :
          {work, status_file_.next_time(), watchdog_.next_time(), readiness_.next_time()}) {
         if (due) time = std::min(time, *due);
     }
-    if (intake_.needs_scan()) time = std::min(time, rested_);
+    if (intake_.needs_scan()) time = std::min(time, scan_times_.rested());
     if (const auto again = intake_.look_again_at())
-        time = std::min(time, std::max(*again, rested_));
+        time = std::min(time, std::max(*again, scan_times_.rested()));
     return time;
 }
 
@@ -204,40 +186,19 @@ void Service::reload() {
 }
 
 void Service::apply(const Config& fresh) {
-    if (fresh.drop != config_.drop || fresh.state != config_.state ||
-        fresh.cache != config_.cache) {
-        log_warning({Event::reload_ignored},
-                    "reload: [paths] cannot change while the service runs: restart it");
-    }
-    if (!same_grids(fresh.ingest, config_.ingest) || fresh.queue_limit != config_.queue_limit) {
-        log_warning({Event::reload_ignored},
-                    "reload: the grid, mosaics, threads and queue_limit change at a restart only");
-    }
-    if (!same_at_the_start(fresh, config_)) {
-        log_warning({Event::reload_ignored},
-                    "reload: stations, living, bunzip, the chunks' times, refill_hours and "
-                    "compression change at a restart only");
-    }
-    if (!same_listening(fresh, config_))
-        log_warning({Event::reload_ignored}, "reload: [status] changes at a restart only");
-    config_.workers = fresh.workers;
-    config_.quiet = fresh.quiet;
-    config_.reread = fresh.reread;
-    config_.rescan = fresh.rescan;
-    config_.poll = fresh.poll;
-    if (fresh.budgets != config_.budgets) cache_keeper_.roll_soon();
-    config_.budgets = fresh.budgets;
-    config_.gone_kept = fresh.gone_kept;
-    config_.log_level = fresh.log_level;
-    config_.loops = fresh.loops;
-    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
-    pool_.resize(config_.worker_count());
-    intake_.set_times(config_);
-    next_scan_ = std::min(next_scan_, parts_.clock.steady() + config_.rescan);
-    set_log_level(config_.log_level);
+    const auto& [fixed, reloadable] = fresh;  // all that there is
+    for (const std::string& sentence : needs_restart(fixed, fixed_))
+        log_warning({Event::reload_ignored}, "reload: {}", sentence);
+    if (reloadable.budgets != config_.budgets) cache_keeper_.roll_soon();
+    config_ = reloadable;
+    if (parts_.keeps_loops) loop_keeper_.set(reloadable.loops);
+    pool_.resize(reloadable.worker_count());
+    intake_.reload(reloadable);
+    scan_times_.no_later_than(parts_.clock.steady() + reloadable.rescan);
+    set_log_level(reloadable.log_level);
     log_info({Event::reloaded}, "reloaded: {}, quiet after {} s, log level {}",
-             counted(static_cast<std::uint64_t>(config_.worker_count()), "worker"),
-             std::chrono::duration<double>(config_.quiet).count(), config_.log_level);
+             counted(static_cast<std::uint64_t>(reloadable.worker_count()), "worker"),
+             std::chrono::duration<double>(reloadable.quiet).count(), reloadable.log_level);
 }
 
 void Service::collect() {
@@ -248,28 +209,14 @@ void Service::collect() {
     }
     for (const Finished& noted : registrar_.collect()) {
         const bool is_gone =
-            noted.taken && noted.taken->ingest.result == pipeline::IngestResult::vanished;
+            noted.taken && noted.taken->ingest.result() == pipeline::IngestResult::vanished;
         if (is_gone) status_.add(noted);
         intake_.registered(noted);
     }
 }
 
 void Service::scan_if_due() {
-    const SteadyTime now = parts_.clock.steady();
-    if (now >= next_scan_ || (intake_.needs_scan() && now >= rested_)) scan();
-}
-
-void Service::note_drop(const Status& scanned) {
-    if (!scanned && !drop_missing_) {
-        log_error({Event::drop_lost}, "drop directory {}; looking again every {} s",
-                  printable(scanned.error().message),
-                  std::chrono::duration<double>(config_.rescan).count());
-    } else if (scanned && drop_missing_) {
-        log_info({Event::drop_back}, "drop directory {} is back", printable(config_.drop.native()));
-    }
-    drop_missing_ = !scanned;
-    drop_problem_ = scanned ? std::string{} : scanned.error().message;
-    status_.set_drop_lost(scanned ? std::string{} : printable(scanned.error().message));
+    if (scan_times_.is_due(parts_.clock.steady(), intake_.needs_scan())) scan();
 }
 
 // Called between two parts of what takes long: a scan of many files takes seconds, a burst of
@@ -281,21 +228,21 @@ void Service::keep_workers_busy() {
 
 void Service::scan() {
     const SteadyTime began = parts_.clock.steady();
-    const bool is_poll = watcher_.is_blind() && !intake_.needs_scan() && began < next_rescan_;
+    const bool is_poll =
+        watcher_.is_blind() && !intake_.needs_scan() && !scan_times_.is_regular(began);
     intake_.begin_scan();
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
-    note_drop(scanned);
+    drop_trouble_.scanned(scanned, fixed_.paths.drop, config_.rescan, status_);
     if (scanned && !is_poll) row_keeper_.look(began, config_.gone_kept);
     status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
-    rested_ = ended + std::max<SteadyTime::duration>(least_scan_gap, scan_rest * (ended - began));
-    if (!is_poll) next_rescan_ = ended + config_.rescan;
+    if (!is_poll) scan_times_.set_next_regular(ended + config_.rescan);
     auto gap = watcher_.is_blind() ? std::min(config_.poll, config_.rescan) : config_.rescan;
     if (!scanned && !readiness_.is_ready())
         gap = std::min<std::chrono::milliseconds>(gap, between_first_scans);
-    next_scan_ = std::max(ended + gap, rested_);
+    scan_times_.scanned(began, ended, gap);
 }
 
 void Service::start_jobs() {
@@ -312,6 +259,59 @@ void Service::start_jobs() {
     }
 }
 
+void Service::look_for_troubles(SteadyTime now) {
+    if (parts_.state != nullptr && state_trouble_.look(now, *parts_.state, fixed_.paths.state))
+        status_file_.changed();
+    const std::vector<std::string> repairs = parts_.sink.take_repairs();
+    for (const std::string& line : repairs)
+        log_error({Event::database_mended}, "{}", printable(line));
+    if (!repairs.empty()) intake_.forget_seen();
+    look_at_catalog(now);
+    backlog_trouble_.look(now, intake_, status_);
+    const bool has_news =
+        others_loops_.look(now, fixed_.paths.state, config_.loops, parts_.keeps_loops, status_);
+    if (has_news) status_file_.changed();
+}
+
+void Service::look_at_catalog(SteadyTime now) {
+    if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
+}
+
+// What fails because of a database in trouble is named once, with the trouble.
+void Service::report(const Finished& finished) {
+    if (!finished.taken) {
+        catalog_trouble_.look_soon();
+        look_at_catalog(parts_.clock.steady());
+    }
+    const auto& troubles = status_.facts().catalog.troubles;
+    const bool is_named =
+        !finished.taken && std::any_of(troubles.begin(), troubles.end(), [&](const auto& trouble) {
+            return trouble.second == finished.taken.error().message;
+        });
+    Reporter::report(finished, is_named ? Named::before : Named::not_yet);
+}
+
+void Service::sites_compared(pipeline::PairReport report) {
+    {
+        const std::scoped_lock lock(compared_mutex_);
+        compared_.push_back(std::move(report));
+    }
+    wake_up_.set();
+}
+
+void Service::report_sites() {
+    std::vector<pipeline::PairReport> reports;
+    {
+        const std::scoped_lock lock(compared_mutex_);
+        reports.swap(compared_);
+    }
+    for (pipeline::PairReport& report : reports) {
+        Reporter::report_sites(report);
+        status_.add(std::move(report));
+        status_file_.changed();
+    }
+}
+
 void Service::keep_house() {
     const SteadyTime now = parts_.clock.steady();
     if (const std::uint64_t overflows = intake_.take_overflows(); overflows > 0) {
@@ -320,11 +320,8 @@ void Service::keep_house() {
         log_warning({Event::overflow},
                     "the kernel dropped events (fs.inotify.max_queued_events): scanning");
     }
-    keep_state(now);
     status_.count_unseen(intake_.take_unseen());
-    report_repairs();
-    report_catalog(now);
-    report_backlog(now);
+    look_for_troubles(now);
     report_sites();
     for (const Error& problem : intake_.take_directory_problems())
         Reporter::report_directory(problem);
@@ -344,9 +341,31 @@ void Service::keep_house() {
         status_.set_loops(std::move(*loops));
         status_file_.changed();
     }
-    look_at_others_loops(now);
     publish(false);
     feed(watchdog_, parts_.notifier, now, oldest_step());
+}
+
+void Service::publish(bool at_once) {
+    const Pending pending = intake_.pending();
+    if (pending != published_) status_file_.changed();
+    published_ = pending;
+    const std::size_t directories = watcher_.directory_count();
+    if (directories != status_.facts().directories) status_file_.changed();
+    status_.set_directories(directories);
+    if (!status_file_.publish(status_, pending, parts_.clock.steady(), at_once)) return;
+    if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
+}
+
+std::optional<Step> Service::oldest_step() const {
+    std::optional<Step> oldest = pulses_.oldest();
+    const auto look_at = [&](const char* what, const WorkerPool& pool) {
+        const auto job = pool.oldest();
+        if (job && (!oldest || job->since < oldest->since))
+            oldest = Step{what + job->path.native(), job->since};
+    };
+    look_at("ingest of ", pool_);
+    look_at("registration of ", registrar_);
+    return oldest;
 }
 
 Stopped Service::stop() {

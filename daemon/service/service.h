@@ -5,7 +5,8 @@
 //   start    scan the drop directory and queue what is there; say READY once drop directory, state,
 //            cache and sockets answer (readiness.h). Until then what can be taken in is
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
-//   SIGHUP   the configuration is read again; paths, grid and queue limit stay until a restart
+//   SIGHUP   the configuration is read again; its reloadable part counts, the fixed part stays
+//            until a restart (daemon/config/config.h)
 // Loops are other programs, which end with the service (daemon/loops/loop_keeper.h), unless a
 // service of their own keeps them. The cache is brought within its budgets every few seconds, in a
 // thread of its own. Thread contract: run() once; request_stop(), is_idle() and sites_compared()
@@ -31,6 +32,8 @@
 #include "daemon/queue/intake.h"
 #include "daemon/queue/sink.h"
 #include "daemon/queue/worker_pool.h"
+#include "daemon/service/scan_times.h"
+#include "daemon/service/troubles.h"
 #include "daemon/status/reporter.h"
 #include "daemon/status/status_board.h"
 #include "daemon/status/status_file.h"
@@ -52,6 +55,7 @@ struct ServiceParts {
     bool keeps_loops = true;       // false: another process does (daemon/loops/loops_service.h)
     StatusBoard* board = nullptr;  // none: the status is in its file alone
     StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
+    std::filesystem::path socket = {};  // where the status is answered, to be named in it
 };
 
 enum class Stopped {
@@ -62,7 +66,7 @@ enum class Stopped {
 class Service {
   public:
     // `config_file` is what SIGHUP reads again.
-    Service(Config config, std::filesystem::path config_file, ServiceParts parts);
+    Service(const Config& config, std::filesystem::path config_file, ServiceParts parts);
 
     // Before run(): a station of the catalog and its newest volume.
     void know_station(const std::string& station, UtcTime newest_volume);
@@ -90,22 +94,19 @@ class Service {
     void scan_if_due();
     void scan();
     void keep_workers_busy();
-    void note_drop(const Status& scanned);
     void get_ready();
     void start_jobs();
-    void report_backlog(SteadyTime now);
     void keep_house();
-    void report_repairs();
-    void report_catalog(SteadyTime now);
+    void look_for_troubles(SteadyTime now);
+    void look_at_catalog(SteadyTime now);
     void report(const Finished& finished);
     void report_sites();
-    void look_at_others_loops(SteadyTime now);
-    void keep_state(SteadyTime now);
     void publish(bool at_once);
     [[nodiscard]] std::optional<Step> oldest_step() const;
     [[nodiscard]] SteadyTime next_time() const;
 
-    Config config_;
+    const FixedConfig fixed_;
+    ReloadableConfig config_;
     std::filesystem::path config_file_;
     ServiceParts parts_;
     Intake intake_;
@@ -121,19 +122,14 @@ class Service {
     std::mutex compared_mutex_;
     std::vector<pipeline::PairReport> compared_;  // not reported yet; guarded by compared_mutex_
     Readiness readiness_;
-    bool drop_missing_ = false;
-    std::string drop_problem_;
-    // The earliest next scan, the regular one, and the next that looks for rows of missing files
-    // when the regular ones are polls.
-    SteadyTime rested_{}, next_scan_{}, next_rescan_{};
-    SteadyTime next_state_look_{};
-    bool state_lost_ = false;  // and it stands in the log
-    bool is_behind_ = false;   // the same
-    SteadyTime next_backlog_{}, next_behind_line_{};
-    SteadyTime next_catalog_look_{}, next_held_back_{}, next_memory_look_{};
-    SteadyTime next_loops_look_{};
-    bool loops_kept_twice_ = false;  // and it stands in the log
-    WorkerPool pool_;                // last: its threads, and the next one's, use what stands above
+    DropTrouble drop_trouble_;
+    StateTrouble state_trouble_;
+    CatalogTrouble catalog_trouble_;
+    BacklogTrouble backlog_trouble_;
+    OthersLoops others_loops_;
+    ScanTimes scan_times_;
+    SteadyTime next_held_back_{}, next_memory_look_{};
+    WorkerPool pool_;  // last: its threads, and the next one's, use what stands above
     WorkerPool registrar_;
     // The last members: their threads are waited for before the rest goes.
     RowKeeper row_keeper_;

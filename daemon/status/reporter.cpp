@@ -1,5 +1,7 @@
 #include "daemon/status/reporter.h"
 
+#include <variant>
+
 #include "base/printable.h"
 #include "daemon/queue/intake.h"
 #include "daemon/status/status.h"
@@ -41,7 +43,7 @@ std::string describe_gridded(const Finished& finished) {
 
 // Sweeps have entered the grid of a volume that goes on growing.
 bool shows_living(const IngestOutcome& outcome) {
-    return outcome.result != IngestResult::gridded && !outcome.living.empty();
+    return outcome.result() != IngestResult::gridded && !outcome.living.empty();
 }
 
 std::string describe_living(const Finished& finished) {
@@ -66,7 +68,7 @@ std::string describe(const Finished& finished) {
     }
     const IngestOutcome& outcome = finished.taken->ingest;
     if (shows_living(outcome)) return describe_living(finished);
-    switch (outcome.result) {
+    switch (outcome.result()) {
         case IngestResult::gridded:
             return describe_gridded(finished);
         case IngestResult::no_moment:
@@ -96,11 +98,12 @@ About about(const Finished& finished) {
                 .reason = name_of(finished.taken.error().code)};
     }
     const IngestOutcome& outcome = finished.taken->ingest;
-    About subject{.event = event_of(outcome.result),
+    About subject{.event = event_of(outcome.result()),
                   .station = printable(outcome.station),
                   .volume = outcome.volume_time,
                   .file = finished.job.path};
-    if (outcome.rejected_with) subject.reason = name_of(*outcome.rejected_with);
+    if (const auto* rejected = std::get_if<pipeline::ended::Rejected>(&outcome.ending))
+        subject.reason = name_of(rejected->with);
     if (shows_living(outcome)) subject.event = Event::living;
     if (!outcome.grids.empty() || !outcome.living.empty()) subject.latency_s = latency_of(finished);
     subject.took_s = std::chrono::duration<double>(finished.ended - finished.started).count();
@@ -110,7 +113,7 @@ About about(const Finished& finished) {
 void Reporter::report(const Finished& finished, Named named) {
     const auto severity = [&] {
         if (!finished.taken) return named == Named::before ? Severity::debug : Severity::error;
-        switch (finished.taken->ingest.result) {
+        switch (finished.taken->ingest.result()) {
             case IngestResult::gridded:
                 return finished.taken->ingest.no_room ? Severity::warning : Severity::info;
             case IngestResult::no_moment:

@@ -44,10 +44,10 @@ void StationBook::add(const pipeline::IngestOutcome& outcome, std::optional<doub
     StationState* state = find(outcome.station);
     if (state == nullptr) return;
     state->data_at = std::max(state->data_at, std::optional{at});
-    ++state->results.at(index_of(outcome.result));
+    ++state->results.at(index_of(outcome.result()));
     state->living += outcome.living.size();
     if (!outcome.living.empty() && latency_s) state->close_to_living.add(*latency_s);
-    if (outcome.result != pipeline::IngestResult::gridded) return;
+    if (outcome.result() != pipeline::IngestResult::gridded) return;
     state->ingested_at = std::max(state->ingested_at, std::optional{at});
     advance(state->volume_time, outcome.volume_time, at);
     advance(state->newest_radial, outcome.newest_radial, at);

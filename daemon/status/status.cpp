@@ -1,6 +1,7 @@
 #include "daemon/status/status.h"
 
 #include <utility>
+#include <variant>
 
 #include "base/printable.h"
 #include "daemon/status/status_json.h"
@@ -47,10 +48,11 @@ bool StatusBook::add(const Finished& finished, UtcTime at) {
         facts_.stations.add_data(outcome.station, at);
         return false;
     }
-    ++facts_.results.at(index_of(outcome.result));
+    ++facts_.results.at(index_of(outcome.result()));
     facts_.living_left_out += outcome.living_left_out ? 1 : 0;
     facts_.given_up += outcome.given_up;
-    facts_.lone_chunks += outcome.lone_chunk && outcome.result != IngestResult::incomplete ? 1 : 0;
+    facts_.lone_chunks +=
+        outcome.lone_chunk && outcome.result() != IngestResult::incomplete ? 1 : 0;
     facts_.stations.add(outcome, latency_of(finished), at);
     if (!outcome.missing_chunks.empty()) {
         facts_.stations.add_missing_chunks(outcome.station,
@@ -60,8 +62,9 @@ bool StatusBook::add(const Finished& finished, UtcTime at) {
                                             .count = outcome.missing_chunks.size()});
     }
     if (!outcome.living.empty()) add_living(finished);
-    if (outcome.result == IngestResult::gridded) add_ingested(finished, at);
-    if (outcome.result == IngestResult::rejected) add_rejected(finished, at);
+    if (outcome.result() == IngestResult::gridded) add_ingested(finished, at);
+    if (const auto* rejected = std::get_if<pipeline::ended::Rejected>(&outcome.ending))
+        add_rejected(finished, rejected->with, at);
     return true;
 }
 
@@ -100,9 +103,8 @@ void StatusBook::add_living(const Finished& finished) {
     if (const auto latency_s = latency_of(finished)) facts_.close_to_living.add(*latency_s);
 }
 
-void StatusBook::add_rejected(const Finished& finished, UtcTime at) {
+void StatusBook::add_rejected(const Finished& finished, ErrorCode code, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
-    const ErrorCode code = outcome.rejected_with.value_or(ErrorCode::internal);
     ++facts_.rejected.at(index_of(code));
     std::string file = printable(finished.job.path.native());
     std::erase_if(facts_.rejected_files, [&](const RejectedFile& one) { return one.file == file; });

@@ -119,7 +119,7 @@ class StatusBook {
 
   private:
     void add_ingested(const Finished& finished, UtcTime at);
-    void add_rejected(const Finished& finished, UtcTime at);
+    void add_rejected(const Finished& finished, ErrorCode code, UtcTime at);
     void add_living(const Finished& finished);
 
     StatusFacts facts_;

@@ -80,7 +80,7 @@ class Ledger {
 };
 
 std::string reason_of(const IngestOutcome& outcome, level2::Moment moment) {
-    switch (outcome.result) {
+    switch (outcome.result()) {
         case IngestResult::vanished:
             return "is gone";
         case IngestResult::no_moment:
@@ -136,7 +136,7 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, const std::filesys
         } else {
             ledger.failed(outcome.error());
         }
-    } else if (outcome->result == IngestResult::gridded) {
+    } else if (outcome->result() == IngestResult::gridded) {
         ledger.made(volume.path, *outcome);
     } else {
         ledger.left_out(volume.path, reason_of(*outcome, moment));

@@ -56,7 +56,7 @@ Result<std::vector<fs::path>> files_below(const fs::path& directory, RebuildRepo
 }
 
 void count(const IngestOutcome& outcome, RebuildReport& report) {
-    switch (outcome.result) {
+    switch (outcome.result()) {
         case IngestResult::unchanged:
             ++report.unchanged;
             break;

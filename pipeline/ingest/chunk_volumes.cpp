@@ -1,228 +1,18 @@
 #include "pipeline/ingest/chunk_volumes.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
-#include "base/beneath.h"
-#include "base/checksum.h"
 #include "pipeline/drop/drop_names.h"
+#include "pipeline/options/ingest_options.h"
 
 namespace stormcellar::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
-
-// No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
-constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
-// Of chunks that are read in the name of another. What is left comes in its own name.
-constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
-constexpr std::size_t most_refused_at_once = 4;
-constexpr std::chrono::minutes longest_failing{2};
-constexpr std::chrono::seconds between_catching_up{1};
-// Beyond it all are forgotten, and read again with their next chunk.
-constexpr std::size_t most_chunks_not_again = 4096;
-
-// The pieces of chunks beside the sweeps that they make.
-class ShelfDepot final : public level2::SweepDepot {
-  public:
-    explicit ShelfDepot(SweepShelf& shelf) : shelf_(shelf) {}
-    std::optional<std::uint64_t> put(const level2::Sweep& sweep) override {
-        const auto place = shelf_.put(sweep);
-        if (!place) return std::nullopt;
-        places_.push_back(*place);
-        return places_.size() - 1;
-    }
-    Result<level2::Sweep> get(std::uint64_t place) const override {
-        auto sweep = shelf_.get(places_.at(place));
-        // Ours, whatever it is: the chunks are as they were.
-        if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
-        return sweep;
-    }
-
-  private:
-    SweepShelf& shelf_;
-    std::vector<SweepShelf::Place> places_;
-};
-
-// A volume that is put together again after a restart, or after it was given up for others, has
-// waited since its files came.
-level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp) {
-    const std::int64_t wall_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                     std::chrono::system_clock::now().time_since_epoch())
-                                     .count();
-    const std::chrono::nanoseconds age{std::max<std::int64_t>(0, wall_ns - stamp.changed_ns)};
-    return level2::LiveVolume::Clock::now() -
-           std::chrono::duration_cast<level2::LiveVolume::Clock::duration>(age);
-}
-
-// Null where there is no room for one.
-std::unique_ptr<KeptVolume> kept_volume_in(const fs::path& directory) {
-    auto shelf = SweepShelf::make_in(directory);
-    if (!shelf) return nullptr;
-    auto kept = std::make_unique<KeptVolume>();
-    kept->shelf = std::move(*shelf);
-    return kept;
-}
+// Of volumes that found no place. Beyond it all are forgotten.
+constexpr std::size_t most_waiters = 4096;
 
 }  // namespace
-
-ChunkVolume::ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live)
-    : moment_(options.moment),
-      beneath_(options.beneath),
-      kept_(kept_volume_in(options.scratch)),
-      depot_(kept_ ? std::make_unique<ShelfDepot>(*kept_->shelf) : nullptr),
-      live_(with_depot(live)) {}
-
-level2::LiveOptions ChunkVolume::with_depot(level2::LiveOptions live) const {
-    live.depot = depot_.get();
-    return live;
-}
-
-Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
-    const auto known = files_.find(chunk.path);
-    if (known != files_.end() && known->second.stamp == stamp) {
-        return known->second.is_whole ? Added::added : Added::unfinished;
-    }
-    const auto refused = refused_.find(chunk.path);
-    if (refused != refused_.end() && refused->second == stamp) return Added::not_ours;
-    const auto added = read_and_add(chunk, stamp);
-    if (added && *added == Added::not_ours) refused_.insert_or_assign(chunk.path, stamp);
-    return added;
-}
-
-Result<ChunkVolume::Added> ChunkVolume::read_and_add(const ChunkPath& chunk,
-                                                     const FileStamp& stamp) {
-    const auto bytes = read_beneath(beneath_, chunk.path, most_chunk_bytes);
-    if (!bytes) {
-        const ErrorCode code = bytes.error().code;
-        if (code == ErrorCode::io || is_shortage(code)) return pass_on(bytes);
-        return Added::not_ours;
-    }
-    read_bytes_ += bytes->size();
-    File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
-    const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
-    if (!added) {
-        const ErrorCode code = added.error().code;
-        if (is_shortage(code)) {
-            return fail(code, "{}: {}", chunk.path.native(), added.error().message);
-        }
-        if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
-        file.is_whole = false;
-        files_.insert_or_assign(chunk.path, file);
-        return Added::unfinished;
-    }
-    if (*added == level2::LiveVolume::Added::another_volume) return Added::not_ours;
-    files_.insert_or_assign(chunk.path, file);
-    former_waiter_ = std::exchange(waiter_, chunk.path);
-    shelve_new_sweeps();
-    return Added::added;
-}
-
-bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
-    return volume.read_bytes_ - read_bytes > most_read_at_once ||
-           volume.refused_.size() - refused >= most_refused_at_once;
-}
-
-Status ChunkVolume::add_siblings(const ChunkPath& of) {
-    const InOneJob before{read_bytes_, refused_.size()};
-    waiter_ = of.path;
-    const auto found = chunks_beside(of, beneath_);
-    if (!found) {
-        const ErrorCode code = found.error().code;
-        if (code == ErrorCode::io || is_shortage(code)) return pass_on(found);
-        return {};
-    }
-    Status all;
-    for (const ChunkPath& chunk : *found) {
-        if (before.is_enough(*this)) break;
-        const auto stamp = stamp_of(chunk.path, beneath_);
-        if (!stamp && stamp.error().code != ErrorCode::not_found) all = pass_on(stamp);
-        if (!stamp || !stamp->regular) continue;
-        if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
-    }
-    waiter_ = of.path;
-    former_waiter_.clear();  // nobody was told to ask for it
-    const auto now = level2::LiveVolume::Clock::now();
-    if (!all && !fails_since_) fails_since_ = now;
-    // One bad sector must not keep the rest of the volume from everybody.
-    if (!all && now - *fails_since_ < longest_failing) return all;
-    return {};
-}
-
-// What fails here comes in its own name.
-void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
-    const auto now = level2::LiveVolume::Clock::now();
-    const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;
-    if (live_.missing_numbers().empty() || is_early) return;
-    next_catching_up_ = now + between_catching_up;
-    const auto found = chunks_beside(of, beneath_);
-    if (!found) return;
-    const fs::path waiter = waiter_, former = former_waiter_;
-    const InOneJob before{read_bytes_, refused_.size()};
-    for (const ChunkPath& chunk : *found) {
-        if (before.is_enough(*this)) break;
-        if (files_.contains(chunk.path)) continue;
-        const auto stamp = stamp_of(chunk.path, beneath_);
-        if (stamp && stamp->regular) (void)add(chunk, *stamp);
-    }
-    waiter_ = waiter;
-    former_waiter_ = former;
-}
-
-bool ChunkVolume::waits(const ChunkPath& chunk) {
-    const auto waiter = files_.find(waiter_);
-    if (waiter == files_.end() || !waiter->second.is_whole) waiter_ = chunk.path;
-    return chunk.path == waiter_;
-}
-
-bool ChunkVolume::is_waiter(const fs::path& path) const {
-    const auto waiter = files_.find(path);
-    return path == waiter_ && waiter != files_.end() && waiter->second.is_whole;
-}
-
-fs::path ChunkVolume::first_file() const {
-    const auto first =
-        std::min_element(files_.begin(), files_.end(), [](const auto& a, const auto& b) {
-            return std::tuple(!a.second.is_whole, a.second.number, a.first) <
-                   std::tuple(!b.second.is_whole, b.second.number, b.first);
-        });
-    return first->first;
-}
-
-// Sweeps are told apart by their cut, which no late chunk changes.
-void ChunkVolume::shelve(const level2::Sweep& sweep) {
-    if (!kept_) return;
-    const auto place = kept_->shelf->put(sweep);
-    if (!place) return;
-    const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
-    const bool has_moment = sweep.find(moment_) != nullptr;
-    kept_->places.insert_or_assign(cut, *place);
-    kept_->sweeps.insert_or_assign(cut, KeptVolume::Kept{has_moment, sweep.mean_elevation_deg()});
-    if (!has_moment) return;
-    news_.any = true;
-    news_.low = news_.low || kept_->is_lowest(sweep.mean_elevation_deg());
-}
-
-void ChunkVolume::shelve_new_sweeps() {
-    for (const level2::LiveSweep& live : live_.take_sweeps())
-        shelve(live.sweep);
-    if (kept_) kept_->facts = live_.facts();
-}
-
-Result<level2::Decoded> ChunkVolume::finish() {
-    auto decoded = live_.finish();
-    if (!decoded || !kept_) return decoded;
-    kept_->facts = decoded->volume;
-    kept_->facts.sweeps.clear();
-    for (const level2::Sweep& sweep : decoded->volume.sweeps) {
-        if (!kept_->places.contains(
-                static_cast<std::size_t>(std::max(0, sweep.elevation_number)))) {
-            shelve(sweep);
-        }
-    }
-    return decoded;
-}
 
 bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
     const auto beside = chunks_beside(chunk, options_.beneath);
@@ -243,27 +33,21 @@ bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
 
 std::filesystem::path ChunkVolumes::wait_for_place(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
-    if (waiters_.size() >= most_chunks_not_again && !waiters_.contains(chunk.key)) waiters_.clear();
+    if (waiters_.size() >= most_waiters && !waiters_.contains(chunk.key)) waiters_.clear();
     std::filesystem::path former = std::exchange(waiters_[chunk.key], chunk.path);
     return former == chunk.path ? std::filesystem::path{} : former;
 }
 
-std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
-                                                Expected expected) {
+ChunkVolumes::Shared ChunkVolumes::find(const ChunkPath& chunk, const std::string& station,
+                                        Expected expected) {
     const std::scoped_lock lock(mutex_);
-    if (auto known = volumes_.find(chunk.key)) return known;
-    const auto now = std::chrono::steady_clock::now();
-    const auto given_up = not_again_.find(chunk.key);
-    if (given_up != not_again_.end()) {
+    if (Shared known = volumes_.find(chunk.key)) return known;
+    if (volumes_.was_given_up(chunk.key)) {
         if (expected == Expected::more) return nullptr;
-        if (expected == Expected::its_end_is_there &&
-            std::exchange(given_up->second.was_read_at_end, true)) {
+        if (expected == Expected::its_end_is_there && !volumes_.take_second_try(chunk.key))
             return nullptr;
-        }
-    } else {
-        const bool has_place = volumes_.has_place(station, now);
-        note_given_up();
-        if (!has_place && expected == Expected::more) return nullptr;
+    } else if (!volumes_.make_place(station) && expected == Expected::more) {
+        return nullptr;
     }
     level2::LiveOptions live;
     live.timeout = options_.chunk_timeout;
@@ -273,55 +57,42 @@ std::shared_ptr<ChunkVolume> ChunkVolumes::find(const ChunkPath& chunk, const st
     live.decode.selection = options_.selection;
     live.decode.fallback_station = station_of_path(chunk.path);
     waiters_.erase(chunk.key);
-    auto made = std::make_shared<ChunkVolume>(options_, live);
-    volumes_.add(chunk.key, made, station, now);
+    auto made = std::make_shared<Guarded<ChunkVolume>>(options_, live);
+    volumes_.add(chunk.key, made, station);
     return made;
 }
 
-std::shared_ptr<ChunkVolume> ChunkVolumes::find_known(const ChunkPath& chunk) const {
+ChunkVolumes::Shared ChunkVolumes::find_known(const ChunkPath& chunk) const {
     const std::scoped_lock lock(mutex_);
     return volumes_.find(chunk.key);
 }
 
-bool ChunkVolumes::grew(const ChunkPath& chunk, const ChunkVolume& volume,
+bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                         const std::string& station) {
     const std::scoped_lock lock(mutex_);
     // Forgotten meanwhile, as when it is read anew: that is nobody's fault.
-    if (volumes_.find(chunk.key).get() != &volume) return !not_again_.contains(chunk.key);
-    const bool stands =
-        volumes_.grew(chunk.key, &volume, station,
-                      {volume.held_bytes(), volume.shelf_bytes(), volume.has_sweeps()},
-                      std::chrono::steady_clock::now());
-    note_given_up();
-    return stands;
-}
-
-void ChunkVolumes::note_given_up() {
-    for (const std::string& key : volumes_.take_given_up()) {
-        if (not_again_.size() >= most_chunks_not_again) not_again_.clear();
-        not_again_.try_emplace(key);
-        ++given_up_;
-    }
+    if (volumes_.find(chunk.key) != volume) return !volumes_.was_given_up(chunk.key);
+    return volumes_.grew(chunk.key, volume.get(), station, growth);
 }
 
 std::uint64_t ChunkVolumes::take_given_up() {
     const std::scoped_lock lock(mutex_);
-    return std::exchange(given_up_, 0);
+    return volumes_.take_given_up();
+}
+
+void ChunkVolumes::forget_key(const std::string& key) {
+    volumes_.forget(key);
+    waiters_.erase(key);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
-    volumes_.erase(chunk.key);
-    not_again_.erase(chunk.key);
-    waiters_.erase(chunk.key);
+    forget_key(chunk.key);
 }
 
-void ChunkVolumes::forget(const ChunkPath& chunk, const ChunkVolume* volume) {
+void ChunkVolumes::forget(const ChunkPath& chunk, const Shared& volume) {
     const std::scoped_lock lock(mutex_);
-    if (volumes_.find(chunk.key).get() != volume) return;
-    volumes_.erase(chunk.key);
-    not_again_.erase(chunk.key);
-    waiters_.erase(chunk.key);
+    if (volumes_.find(chunk.key) == volume) forget_key(chunk.key);
 }
 
 std::size_t ChunkVolumes::count() const {

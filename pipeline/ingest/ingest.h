@@ -39,9 +39,9 @@ class Ingestor {
     // finish_partial: grid a volume that has not ended (the file was quiet long enough).
     Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial,
                                  Tries tries = Tries::more_follow);
-    // Writes a file into the catalog as seen, unread, unless it stands there (registered), or marks
-    // its rows when it is gone (vanished; registered where a volume of chunks waits in its name).
-    Result<IngestResult> note(const std::filesystem::path& path);
+    // Writes a file into the catalog as seen, unread, unless it stands there (stands), or marks
+    // its rows when it is gone (gone; stands where a volume of chunks waits in its name).
+    Result<Noted> note(const std::filesystem::path& path);
     // The same as ingest() for a file that was settled before: its volumes are gridded again, as
     // they are. Where `is_the_same` fails for what was read nothing is done, and its error is
     // given.

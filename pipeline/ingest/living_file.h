@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/checksum.h"
+#include "pipeline/ingest/growing_set.h"
 #include "pipeline/keep/sweep_shelf.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/growing_volume.h"
@@ -96,9 +97,10 @@ class LivingFile {
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
-    // On the shelf, and in memory, about.
-    [[nodiscard]] std::uint64_t shelf_bytes() const { return kept_->shelf->bytes(); }
-    [[nodiscard]] std::uint64_t held_bytes() const { return growing_.held_bytes(); }
+    // What it holds in memory, about, and on the shelf.
+    [[nodiscard]] Growth growth() const {
+        return {growing_.held_bytes(), kept_->shelf->bytes(), !kept_->places.empty()};
+    }
 
     [[nodiscard]] Result<level2::Decoded> finish();
     // After finish(), for the next volume of the site.

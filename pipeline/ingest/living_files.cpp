@@ -6,15 +6,11 @@
 namespace stormcellar::pipeline {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-// Beyond it all are forgotten, and may be followed once more.
-constexpr std::size_t most_not_again = 4096;
 constexpr std::chrono::minutes farthest_ahead{10};  // of a clock that is fast
 
 }  // namespace
 
-std::shared_ptr<LivingFile> LivingFiles::find(const std::filesystem::path& path) {
+std::shared_ptr<LivingFile> LivingFiles::find(const std::filesystem::path& path) const {
     const std::scoped_lock lock(mutex_);
     return files_.find(path);
 }
@@ -24,10 +20,7 @@ std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path
                                                const std::string& station) {
     {
         const std::scoped_lock lock(mutex_);
-        const bool has_place =
-            !not_again_.contains(path) && files_.has_place(station, Clock::now());
-        note_given_up();
-        if (!has_place) return nullptr;
+        if (files_.was_given_up(path) || !files_.make_place(station)) return nullptr;
     }
     LivingFile::Options options = options_;
     options.fallback_station = fallback_station;
@@ -35,37 +28,21 @@ std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path
     if (!begun) return nullptr;
     std::shared_ptr<LivingFile> file = std::move(*begun);
     const std::scoped_lock lock(mutex_);
-    files_.add(path, file, station, Clock::now());
+    files_.add(path, file, station);
     return file;
 }
 
 bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file,
                        const std::string& station) {
     const std::scoped_lock lock(mutex_);
-    const bool stands = files_.grew(
-        path, &file, station, {file.held_bytes(), file.shelf_bytes(), !file.kept().places.empty()},
-        Clock::now());
-    note_given_up();
+    const bool stands = files_.grew(path, &file, station, file.growth());
     drop_last_beyond_limits();
     return stands;
 }
 
-void LivingFiles::note_given_up() {
-    for (const std::filesystem::path& path : files_.take_given_up())
-        note_given_up(path);
-}
-
-void LivingFiles::note_given_up(const std::filesystem::path& path) {
-    if (not_again_.size() >= most_not_again) not_again_.clear();
-    not_again_.insert(path);
-    ++given_up_;
-}
-
 void LivingFiles::give_up(const std::filesystem::path& path) {
     const std::scoped_lock lock(mutex_);
-    if (!files_.find(path)) return;
-    files_.erase(path);
-    note_given_up(path);
+    files_.give_up(path);
 }
 
 void LivingFiles::drop_last_beyond_limits() {
@@ -85,13 +62,12 @@ void LivingFiles::drop_last_beyond_limits() {
 
 std::uint64_t LivingFiles::take_given_up() {
     const std::scoped_lock lock(mutex_);
-    return std::exchange(given_up_, 0);
+    return files_.take_given_up();
 }
 
 void LivingFiles::forget(const std::filesystem::path& path) {
     const std::scoped_lock lock(mutex_);
-    files_.erase(path);
-    not_again_.erase(path);
+    files_.forget(path);
 }
 
 void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {

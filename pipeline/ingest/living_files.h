@@ -1,7 +1,7 @@
 // pipeline/ingest/living_files.h -- the files that are being followed while they grow, and what the
 // sites' last volumes left for the next ones.
 //
-// Bounded for each station and in all (pipeline/ingest/growing_set.h). The sites' last volumes give
+// Bounded for each station and in all (pipeline/ingest/followed.h). The sites' last volumes give
 // way first where the disk is concerned, the oldest first: living grids then have less that stands.
 // A file that was given up is not followed again, and is read whole when its volume has ended.
 // Nothing of this outlives the process. Inside the pipeline room only. Thread contract: all may be
@@ -13,10 +13,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 
-#include "pipeline/ingest/growing_set.h"
+#include "pipeline/ingest/followed.h"
 #include "pipeline/ingest/living_file.h"
 #include "pipeline/options/ingest_options.h"
 
@@ -28,7 +27,7 @@ class LivingFiles {
         : options_(std::move(options)), limits_(limits), files_(limits) {}
 
     // Null where the file is not followed.
-    [[nodiscard]] std::shared_ptr<LivingFile> find(const std::filesystem::path& path);
+    [[nodiscard]] std::shared_ptr<LivingFile> find(const std::filesystem::path& path) const;
     // `station`: whose the file says that it is. Null where it cannot be followed: there is no
     // place for it, no descriptor, no room, or it was given up before.
     [[nodiscard]] std::shared_ptr<LivingFile> begin(const std::filesystem::path& path,
@@ -51,16 +50,12 @@ class LivingFiles {
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
-    void note_given_up();
-    void note_given_up(const std::filesystem::path& path);
     void drop_last_beyond_limits();
 
     LivingFile::Options options_;
     GrowingLimits limits_;
     mutable std::mutex mutex_;  // guards what follows
-    GrowingSet<std::filesystem::path, LivingFile> files_;
-    std::set<std::filesystem::path> not_again_;  // those that were given up
-    std::uint64_t given_up_ = 0;
+    Followed<std::filesystem::path, LivingFile> files_;
     std::map<std::string, std::shared_ptr<const KeptVolume>> last_;
 };
 

@@ -45,7 +45,7 @@ void note_no_room(IngestOutcome& outcome, const Error& why) {
 
 bool SiteGrids::has_place(const level2::Volume& volume, IngestOutcome& outcome) {
     if (level2::antenna_position(volume) && !volume.station.empty()) return true;
-    outcome.result = IngestResult::no_position;
+    outcome.ending = ended::NoPosition{};
     outcome.reason = "neither the file nor the station table says where the radar stands";
     return false;
 }

@@ -85,7 +85,8 @@ struct IngestOptions {
     // Likewise one that unpacks to more.
     std::uint64_t most_output_bytes = most_unpacked_bytes;
     // For so long the members of an archive are taken in at a time; then the archive is incomplete,
-    // and goes on with the next one when it is offered again (has_next_turn). None: all at once.
+    // and goes on with the next one when it is offered again (ended::Incomplete). None: all at
+    // once.
     std::optional<std::chrono::milliseconds> archive_turn;
     // Asked of each file that was read, before anything is made of it: its error rejects the file,
     // as where it is no longer the one that was cataloged. Empty: every file is taken.

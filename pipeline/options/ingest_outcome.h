@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "stormcellar/base/result.h"
@@ -15,48 +16,112 @@
 
 namespace stormcellar::pipeline {
 
+// The ways in which taking in a file can end, as they are counted and named; ended::X below holds
+// what belongs to one of them alone.
 enum class IngestResult {
-    gridded,      // registered, and every volume with the moment is in the cache, or too old for it
-    no_moment,    // registered; holds no sweep of the moment, so there is nothing to grid
-    no_position,  // registered; neither the file nor the table says where the radar stands
-    other_station,  // registered; of no station that is taken in, so nothing is gridded
-    incomplete,  // not settled: the volume has not ended and finish_partial is false, or the file
-                 // changed while it was read; ask again when it was closed or quiet
-    rejected,    // registered as rejected: no volume, or none that can be gridded
-    unchanged,   // settled before; nothing was done
-    vanished,    // the file is gone; its rows, if any, are marked so. One in whose name a volume of
-                 // chunks waits is incomplete instead, and to be asked for again all the same
-    registered,  // registered; the Ingestor has no cache
+    gridded,
+    no_moment,
+    no_position,
+    other_station,
+    incomplete,
+    rejected,
+    unchanged,
+    vanished,
+    registered,
 };
 
+namespace ended {
+
+// Registered, and every volume with the moment is in the cache, or too old for it.
+struct Gridded {
+    static constexpr IngestResult result = IngestResult::gridded;
+};
+// Registered; holds no sweep of the moment, so there is nothing to grid.
+struct NoMoment {
+    static constexpr IngestResult result = IngestResult::no_moment;
+};
+// Registered; neither the file nor the table says where the radar stands.
+struct NoPosition {
+    static constexpr IngestResult result = IngestResult::no_position;
+};
+// Registered; of no station that is taken in, so nothing is gridded.
+struct OtherStation {
+    static constexpr IngestResult result = IngestResult::other_station;
+};
+// Not settled: the volume has not ended and finish_partial is false, or the file changed while it
+// was read, or an archive has more members than one turn takes. The file must be offered again.
+struct Incomplete {
+    static constexpr IngestResult result = IngestResult::incomplete;
+    bool is_followed = false;    // what is appended will be read without the rest
+    bool has_next_turn = false;  // an archive of which more can be taken in at once
+};
+// Registered as rejected: no volume, or none that can be gridded.
+struct Rejected {
+    static constexpr IngestResult result = IngestResult::rejected;
+    ErrorCode with = ErrorCode::internal;  // of what kind the reason is
+};
+// Settled before; nothing was done.
+struct Unchanged {
+    static constexpr IngestResult result = IngestResult::unchanged;
+};
+// The file is gone; its rows, if any, are marked so. A file that is asked for again on behalf of a
+// volume of chunks ends as Incomplete instead, and must be offered again although it is gone.
+struct Vanished {
+    static constexpr IngestResult result = IngestResult::vanished;
+};
+// Registered, and nothing else is to be done: the Ingestor has no cache, or the file is a chunk of
+// a volume that goes on, and another of its chunks is offered again on behalf of all.
+struct Registered {
+    static constexpr IngestResult result = IngestResult::registered;
+};
+
+}  // namespace ended
+
+using Ending = std::variant<ended::Gridded, ended::NoMoment, ended::NoPosition, ended::OtherStation,
+                            ended::Incomplete, ended::Rejected, ended::Unchanged, ended::Vanished,
+                            ended::Registered>;
+
 struct IngestOutcome {
-    IngestResult result = IngestResult::rejected;
+    Ending ending = ended::Rejected{};
+    [[nodiscard]] IngestResult result() const {
+        return std::visit([](const auto& end) { return end.result; }, ending);
+    }
+
+    // What the file says.
     std::string station;  // empty: unknown
     std::optional<UtcTime> volume_time;
-    std::optional<UtcTime> newest_radial;    // by the radar's clock; plausible times alone
-    std::optional<ErrorCode> rejected_with;  // of what kind the reason is; rejected files alone
-    std::string reason;     // why rejected, or what is wrong or worth saying; one line
-    bool followed = false;  // incomplete: what is appended will be read without the rest
-    // Incomplete or registered: its volume is followed, and a sweep of it has closed.
-    bool goes_on = false;
-    bool has_next_turn = false;  // incomplete: an archive of which more can be taken in at once
+    std::optional<UtcTime> newest_radial;  // by the radar's clock; plausible times alone
+    std::string reason;  // why rejected, or what is wrong or worth saying; one line
     // It looks like one chunk of a volume, and its name is none that chunks are put together by.
     bool lone_chunk = false;
-    bool partial = false;  // gridded: some volume had not ended, or was damaged
+
+    // What was made of it.
+    bool partial = false;  // some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic/mosaic_keeper.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
-    std::vector<int> missing_chunks;              // of a volume of chunks that was finished
-    std::vector<std::filesystem::path> living;    // of volumes that have not ended
-    bool living_left_out = false;                 // for want of time
+    bool no_room = false;  // some volume was not gridded: the cache's budgets left no room for it
+    int not_kept = 0;      // volumes that the cache's budgets do not keep: nothing was made of them
+
+    // Where its volume grows, or grew.
+    bool goes_on = false;  // the volume is followed, and a sweep of it has closed
+    std::vector<std::filesystem::path> living;  // grids of volumes that have not ended
+    bool living_left_out = false;               // for want of time
+    std::vector<int> missing_chunks;            // of a volume of chunks that was finished
     // Growing volumes that made room for this one: what was put aside of them is gone, and they are
     // read again from their files.
     std::uint64_t given_up = 0;
-    // Of a volume of chunks: the one that was to be asked again until this one came.
+    // The chunk that was to be offered again until this one came.
     std::filesystem::path instead_of;
-    bool no_room = false;  // gridded: of some volume, but the cache's budgets left no room for it
-    int not_kept = 0;      // volumes that the cache's budgets do not keep: nothing was made of them
+
+    // How long each step took.
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
+};
+
+// What became of a file that was only noted, not read.
+enum class Noted {
+    stands,  // there is something to do: Ingestor::ingest()
+    gone,    // there is nothing left to do
 };
 
 }  // namespace stormcellar::pipeline

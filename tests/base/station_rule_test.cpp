@@ -61,10 +61,10 @@ TEST(StationRule, AListIsAllThereIs) {
 TEST(StationRule, TheSameRuleWhateverWasAdmitted) {
     StationRule rule = StationRule::any(2);
     EXPECT_TRUE(rule.admits("XAAA"));
-    EXPECT_TRUE(rule.same_as(StationRule::any(2)));
-    EXPECT_FALSE(rule.same_as(StationRule::any(3)));
-    EXPECT_FALSE(rule.same_as(StationRule{}));
-    EXPECT_FALSE(StationRule::listed({"KTLX"}).same_as(StationRule::listed({"KOKX"})));
+    EXPECT_EQ(rule, StationRule::any(2));
+    EXPECT_NE(rule, StationRule::any(3));
+    EXPECT_NE(rule, StationRule{});
+    EXPECT_NE(StationRule::listed({"KTLX"}), StationRule::listed({"KOKX"}));
     const StationRule copy = rule;
     EXPECT_TRUE(copy.knows("XAAA"));
 }

@@ -384,7 +384,7 @@ TEST_F(Loop, RealVolumesBecomeALoop) {
         const auto outcome =
             ingestor.ingest(*testing::data_directory() / "sequence-kbgm" / name, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
-        ASSERT_EQ(outcome->result, pipeline::IngestResult::gridded) << outcome->reason;
+        ASSERT_EQ(outcome->result(), pipeline::IngestResult::gridded) << outcome->reason;
     }
     const auto result = run({"KBGM", "-o", out("a.webp"), "--no-labels"});
     ASSERT_EQ(result.status, 0) << result.err;

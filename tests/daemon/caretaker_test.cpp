@@ -18,10 +18,11 @@ class CaretakerTest : public ::testing::Test {
   protected:
     CaretakerTest() {
         Config config;
-        config.drop = directory_ / "drop";
-        config.state = directory_ / "state";
-        config.cache = directory_ / "cache";
-        for (const fs::path& path : {config.drop, config.state, config.cache})
+        PathsConfig& paths = config.fixed.paths;
+        paths.drop = directory_ / "drop";
+        paths.state = directory_ / "state";
+        paths.cache = directory_ / "cache";
+        for (const fs::path& path : {paths.drop, paths.state, paths.cache})
             fs::create_directories(path);
         auto sink = IngestSink::open(config);
         if (sink) sink_ = std::move(*sink);

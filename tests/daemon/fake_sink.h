@@ -35,14 +35,13 @@ class FakeSink final : public Sink {
         return taken;
     }
 
-    Result<pipeline::IngestResult> note(const std::filesystem::path& path) override {
+    Result<pipeline::Noted> note(const std::filesystem::path& path) override {
         {
             const std::lock_guard lock(mutex_);
             noted_.push_back(path.filename().native());
         }
         called_.notify_all();
-        return std::filesystem::exists(path) ? pipeline::IngestResult::registered
-                                             : pipeline::IngestResult::vanished;
+        return std::filesystem::exists(path) ? pipeline::Noted::stands : pipeline::Noted::gone;
     }
     Result<int> mark_missing(const OnStep& step) override {
         ++missing_looks_;
@@ -83,9 +82,36 @@ class FakeSink final : public Sink {
     std::vector<std::string> calls_, noted_;
 };
 
+// The way to end that is counted so, with nothing more to say of it.
+inline pipeline::Ending ending_of(pipeline::IngestResult result) {
+    using pipeline::IngestResult;
+    namespace ended = pipeline::ended;
+    switch (result) {
+        case IngestResult::gridded:
+            return ended::Gridded{};
+        case IngestResult::no_moment:
+            return ended::NoMoment{};
+        case IngestResult::no_position:
+            return ended::NoPosition{};
+        case IngestResult::other_station:
+            return ended::OtherStation{};
+        case IngestResult::incomplete:
+            return ended::Incomplete{};
+        case IngestResult::rejected:
+            return ended::Rejected{};
+        case IngestResult::unchanged:
+            return ended::Unchanged{};
+        case IngestResult::vanished:
+            return ended::Vanished{};
+        case IngestResult::registered:
+            return ended::Registered{};
+    }
+    return ended::Rejected{};
+}
+
 inline pipeline::IngestOutcome outcome_of(pipeline::IngestResult result) {
     pipeline::IngestOutcome outcome;
-    outcome.result = result;
+    outcome.ending = ending_of(result);
     outcome.station = "KTLX";
     outcome.volume_time = UtcTime{std::chrono::milliseconds{1'647'475'722'000}};
     if (result == pipeline::IngestResult::gridded) outcome.grids = {"/c/grid.scg"};

@@ -22,10 +22,10 @@ class IntakeTest : public ::testing::Test {
   protected:
     static Config config() {
         Config made;
-        made.workers = 100;  // the tests end few of their jobs
-        made.quiet = std::chrono::seconds{30};
-        made.reread = std::chrono::milliseconds{500};
-        made.queue_limit = 4;
+        made.reloadable.workers = 100;  // the tests end few of their jobs
+        made.reloadable.quiet = std::chrono::seconds{30};
+        made.reloadable.reread = std::chrono::milliseconds{500};
+        made.fixed.queue_limit = 4;
         return made;
     }
     [[nodiscard]] std::filesystem::path at(const char* name) const { return directory_ / name; }

@@ -12,7 +12,7 @@ using std::chrono::seconds;
 // Of the files in a directory that is moved away the kernel says nothing.
 TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
-    followed.followed = true;
+    followed.ending = pipeline::ended::Incomplete{.is_followed = true};
     std::filesystem::create_directories(at("day"));
     for (const char* name : {"day/a", "day2"}) {
         intake_.file_closed(at(name), make(name));
@@ -29,7 +29,7 @@ TEST_F(IntakeTest, FollowedFilesGoWithTheirDirectory) {
 
 TEST_F(IntakeTest, AScanFindsOutWhichFollowedFilesAreGone) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
-    followed.followed = true;
+    followed.ending = pipeline::ended::Incomplete{.is_followed = true};
     for (const char* name : {"a", "b"}) {
         intake_.file_closed(at(name), make(name));
         next();

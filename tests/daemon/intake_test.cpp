@@ -22,7 +22,7 @@ TEST_F(IntakeTest, AClosedFileIsAJobAtOnceWithTheTimeOfItsClose) {
 
 TEST_F(IntakeTest, AFollowedFileIsReadAtEveryWriteWithoutAPause) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
-    followed.followed = true;
+    followed.ending = pipeline::ended::Incomplete{.is_followed = true};
     intake_.file_closed(at("a"), make("a"));
     EXPECT_FALSE(intake_.follows(at("a")));
     EXPECT_EQ(next(), "a");
@@ -116,7 +116,8 @@ TEST_F(IntakeTest, OneChunkOfAVolumeIsWaitedForTheNewest) {
 // The end of a volume, while the station's next one comes and another station sends much.
 TEST_F(IntakeTest, WhatGoesOnComesBeforeTheBeginningsOfAllStations) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
-    followed.followed = followed.goes_on = true;
+    followed.ending = pipeline::ended::Incomplete{.is_followed = true};
+    followed.goes_on = true;
     intake_.file_closed(at("KTLX20240101_000000"), make("KTLX20240101_000000"));
     ASSERT_EQ(next(), "KTLX20240101_000000");
     end("KTLX20240101_000000", followed);
@@ -134,7 +135,7 @@ TEST_F(IntakeTest, WhatGoesOnComesBeforeTheBeginningsOfAllStations) {
 
 TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedNeedNot) {
     pipeline::IngestOutcome followed = outcome_of(IngestResult::incomplete);
-    followed.followed = true;
+    followed.ending = pipeline::ended::Incomplete{.is_followed = true};
     intake_.file_closed(at("a"), make("a"));
     ASSERT_EQ(next(), "a");
     end("a", followed);
@@ -149,7 +150,7 @@ TEST_F(IntakeTest, WhatHasToWaitIsRegisteredButWhatIsFollowedNeedNot) {
     EXPECT_EQ(job->path, at("b"));
     const auto noted = [&](const Job& of, IngestResult result) {
         Finished finished{.job = of, .taken = Taken{}, .started = now_, .ended = now_};
-        finished.taken->ingest.result = result;
+        finished.taken->ingest.ending = ending_of(result);
         intake_.registered(finished);
     };
     noted(*job, IngestResult::registered);
@@ -179,7 +180,7 @@ TEST_F(IntakeTest, AnIncompleteFileIsFinishedWhenItWasQuiet) {
 
 TEST_F(IntakeTest, AnArchiveGoesOnAtOnceBehindWhatHasCome) {
     pipeline::IngestOutcome turn = outcome_of(IngestResult::incomplete);
-    turn.has_next_turn = true;
+    turn.ending = pipeline::ended::Incomplete{.has_next_turn = true};
     intake_.file_closed(at("archive"), make("archive"));
     ASSERT_EQ(next(), "archive");
     intake_.file_closed(at("new"), make("new"));

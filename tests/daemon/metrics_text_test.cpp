@@ -117,7 +117,7 @@ TEST(Metrics, SayWhatTheBookCounted) {
         book.add(one, asked_at - seconds{10});
     }
     Finished rejected = finished("KOUN", IngestResult::rejected, 1);
-    rejected.taken->ingest.rejected_with = ErrorCode::corrupt;
+    rejected.taken->ingest.ending = pipeline::ended::Rejected{ErrorCode::corrupt};
     book.add(rejected, asked_at - seconds{5});
     Finished sweep = finished("KTLX", IngestResult::incomplete, 600);
     sweep.taken->ingest.living = {"/c/living.scg"};

@@ -12,7 +12,7 @@ using pipeline::IngestResult;
 pipeline::IngestOutcome rejected(const std::string& reason, ErrorCode code = ErrorCode::corrupt) {
     pipeline::IngestOutcome outcome = outcome_of(IngestResult::rejected);
     outcome.reason = reason;
-    outcome.rejected_with = code;
+    outcome.ending = pipeline::ended::Rejected{code};
     return outcome;
 }
 

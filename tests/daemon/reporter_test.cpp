@@ -77,7 +77,7 @@ TEST(LogLine, SaysWhatItIsAbout) {
     EXPECT_FALSE(subject.latency_s) << "nobody saw the close";
     EXPECT_DOUBLE_EQ(subject.took_s.value_or(0), 0.08);
     made = finished(IngestResult::rejected);
-    made.taken->ingest.rejected_with = ErrorCode::truncated;
+    made.taken->ingest.ending = pipeline::ended::Rejected{ErrorCode::truncated};
     subject = about(made);
     EXPECT_EQ(subject.event, Event::rejected);
     EXPECT_EQ(subject.reason, "truncated");

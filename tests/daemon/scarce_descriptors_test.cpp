@@ -40,11 +40,11 @@ class ScarceDescriptors : public ::testing::Test {
         GTEST_SKIP()
             << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
 #endif
-        config_.drop = directory_.path();
+        config_.fixed.paths.drop = directory_.path();
         events_ = std::move(*open_inotify());
         const Clock clock{[this] { return now_; }, [this] { return wall_ns_; }};
         intake_ = std::make_unique<Intake>(config_, clock);
-        watcher_ = std::make_unique<Watcher>(config_.drop, *events_, *intake_);
+        watcher_ = std::make_unique<Watcher>(config_.fixed.paths.drop, *events_, *intake_);
         ASSERT_TRUE(scan());
     }
     bool scan() {
@@ -56,7 +56,7 @@ class ScarceDescriptors : public ::testing::Test {
     std::set<std::string> jobs() {
         std::set<std::string> names;
         while (const auto job = intake_->next_job())
-            names.insert(job->path.lexically_relative(config_.drop).native());
+            names.insert(job->path.lexically_relative(config_.fixed.paths.drop).native());
         return names;
     }
 
@@ -70,7 +70,7 @@ class ScarceDescriptors : public ::testing::Test {
 };
 
 TEST_F(ScarceDescriptors, AFileOfWhichAnEventToldIsFoundSoon) {
-    write_file(config_.drop / "a", "1");
+    write_file(config_.fixed.paths.drop / "a", "1");
     {
         const WithoutDescriptors none;
         watcher_->read_events();
@@ -91,8 +91,8 @@ TEST_F(ScarceDescriptors, AFileOfWhichAnEventToldIsFoundSoon) {
 }
 
 TEST_F(ScarceDescriptors, ADirectoryOfWhichAnEventToldIsReadSoon) {
-    fs::create_directory(config_.drop / "day");
-    write_file(config_.drop / "day/a", "1");
+    fs::create_directory(config_.fixed.paths.drop / "day");
+    write_file(config_.fixed.paths.drop / "day/a", "1");
     {
         const WithoutDescriptors none;
         watcher_->read_events();

@@ -30,12 +30,12 @@ class ServiceTest : public ::testing::Test {
     ServiceTest() {
         fs::create_directories(root_ / "drop");
         fs::create_directories(root_ / "state");
-        config_.drop = root_ / "drop";
-        config_.state = root_ / "state";
-        config_.cache = root_ / "cache";
-        config_.workers = 2;
-        config_.quiet = std::chrono::milliseconds{1000};
-        config_.reread = std::chrono::milliseconds{0};
+        config_.fixed.paths.drop = root_ / "drop";
+        config_.fixed.paths.state = root_ / "state";
+        config_.fixed.paths.cache = root_ / "cache";
+        config_.reloadable.workers = 2;
+        config_.reloadable.quiet = std::chrono::milliseconds{1000};
+        config_.reloadable.reread = std::chrono::milliseconds{0};
     }
     ~ServiceTest() override { stop(); }
 
@@ -90,11 +90,11 @@ class ServiceTest : public ::testing::Test {
 };
 
 TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
-    write_file(config_.drop / "before", "1");
+    write_file(config_.fixed.paths.drop / "before", "1");
     start(always(IngestResult::gridded));
     ASSERT_TRUE(wait_for_message("READY=1"));
     ASSERT_TRUE(sink_->wait_for_calls(1));
-    write_file(config_.drop / "during", "1");
+    write_file(config_.fixed.paths.drop / "during", "1");
     ASSERT_TRUE(sink_->wait_for_calls(2));
     EXPECT_EQ(stop(), Stopped::cleanly);
     EXPECT_EQ(sink_->calls(), (std::vector<std::string>{"before", "during"}));
@@ -106,7 +106,7 @@ TEST_F(ServiceTest, TakesWhatStoodThereAndWhatComes) {
 
 TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
     for (int i = 0; i < 20'000; ++i)
-        write_file(config_.drop / std::to_string(i), "1");
+        write_file(config_.fixed.paths.drop / std::to_string(i), "1");
     std::atomic<bool> began_before_the_end = false;
     start([&](const auto&, bool) {
         if (!has_message("READY=1")) began_before_the_end = true;
@@ -119,7 +119,7 @@ TEST_F(ServiceTest, FilesAreTakenInWhileAScanGoesOn) {
 
 // Two of three workers are held up by files that take long, of no station; the last is for others.
 TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
-    config_.workers = 3;
+    config_.reloadable.workers = 3;
     std::atomic<int> held = 0;
     std::promise<void> go_on;
     const std::shared_future<void> released = go_on.get_future().share();
@@ -131,11 +131,11 @@ TEST_F(ServiceTest, WhatHasToWaitIsRegisteredMeanwhile) {
         return outcome_of(IngestResult::gridded);
     });
     ASSERT_TRUE(wait_for_message("READY=1"));
-    write_file(config_.drop / "slow1", "1");
-    write_file(config_.drop / "slow2", "1");
+    write_file(config_.fixed.paths.drop / "slow1", "1");
+    write_file(config_.fixed.paths.drop / "slow2", "1");
     ASSERT_TRUE(wait_for([&] { return held == 2; }));
-    write_file(config_.drop / "waits1", "1");
-    write_file(config_.drop / "waits2", "1");
+    write_file(config_.fixed.paths.drop / "waits1", "1");
+    write_file(config_.fixed.paths.drop / "waits2", "1");
     EXPECT_EQ(sink_->wait_for_noted(2), (std::vector<std::string>{"waits1", "waits2"}));
     EXPECT_TRUE(sink_->calls().empty());
     go_on.set_value();
@@ -149,7 +149,7 @@ TEST_F(ServiceTest, FinishesAnIncompleteFileThatStaysQuiet) {
         return outcome_of(finish ? IngestResult::gridded : IngestResult::incomplete);
     });
     ASSERT_TRUE(wait_for_message("READY=1"));
-    write_file(config_.drop / "a", "1");
+    write_file(config_.fixed.paths.drop / "a", "1");
     ASSERT_TRUE(sink_->wait_for_calls(2));
     stop();
     EXPECT_EQ(sink_->calls(), (std::vector<std::string>{"a", "a!"}));
@@ -161,7 +161,7 @@ TEST_F(ServiceTest, TriesAgainWhatCouldNotBeStored) {
         if (++attempts < 3) return fail(ErrorCode::no_space, "cache: full");
         return outcome_of(IngestResult::gridded);
     });
-    write_file(config_.drop / "a", "1");
+    write_file(config_.fixed.paths.drop / "a", "1");
     ASSERT_TRUE(sink_->wait_for_calls(3));
     stop();
     EXPECT_EQ(status()["failures"], 2);
@@ -169,11 +169,11 @@ TEST_F(ServiceTest, TriesAgainWhatCouldNotBeStored) {
 }
 
 TEST_F(ServiceTest, LivesOnRescansWhereThereAreNoEvents) {
-    config_.rescan = std::chrono::milliseconds{200};
+    config_.reloadable.rescan = std::chrono::milliseconds{200};
     start(always(IngestResult::gridded), no_events());
     ASSERT_TRUE(wait_for_message("READY=1"));
-    fs::create_directory(config_.drop / "day");
-    write_file(config_.drop / "day/a", "1");
+    fs::create_directory(config_.fixed.paths.drop / "day");
+    write_file(config_.fixed.paths.drop / "day/a", "1");
     EXPECT_TRUE(sink_->wait_for_calls(1));
 }
 
@@ -192,12 +192,12 @@ TEST_F(ServiceTest, PollsWhereChangesComeWithoutEvents) {
       private:
         int watches_ = 0;
     };
-    config_.rescan = std::chrono::hours{1};
-    config_.poll = std::chrono::milliseconds{100};
+    config_.reloadable.rescan = std::chrono::hours{1};
+    config_.reloadable.poll = std::chrono::milliseconds{100};
     start(always(IngestResult::gridded), std::make_unique<Silent>());
     ASSERT_TRUE(wait_for_message("READY=1"));
     for (int i = 1; i <= 3; ++i) {
-        write_file(config_.drop / std::to_string(i), "1");
+        write_file(config_.fixed.paths.drop / std::to_string(i), "1");
         ASSERT_TRUE(sink_->wait_for_calls(static_cast<std::size_t>(i)));
     }
     EXPECT_EQ(sink_->missing_looks(), 1) << "polls do not look at every row of the catalog";
@@ -222,7 +222,7 @@ TEST_F(ServiceTest, ScansWhenEventsWereLost) {
     start(always(IngestResult::gridded), std::make_unique<Overflowing>());
     ASSERT_TRUE(wait_for_message("READY=1"));
     for (int i = 0; i < 100; ++i)
-        write_file(config_.drop / std::to_string(i), "1");
+        write_file(config_.fixed.paths.drop / std::to_string(i), "1");
     ASSERT_TRUE(sink_->wait_for_calls(100));
     stop();
     std::vector<std::string> calls = sink_->calls();
@@ -232,43 +232,43 @@ TEST_F(ServiceTest, ScansWhenEventsWereLost) {
 }
 
 TEST_F(ServiceTest, ASmallQueueLosesNothing) {
-    config_.queue_limit = 16;
+    config_.fixed.queue_limit = 16;
     for (int i = 0; i < 200; ++i)
-        write_file(config_.drop / std::to_string(i), "1");
+        write_file(config_.fixed.paths.drop / std::to_string(i), "1");
     start(always(IngestResult::gridded));
     EXPECT_TRUE(sink_->wait_for_calls(200));
 }
 
 TEST_F(ServiceTest, GoesOnWhenTheDropDirectoryVanishesAndReturns) {
-    config_.rescan = std::chrono::milliseconds{200};
+    config_.reloadable.rescan = std::chrono::milliseconds{200};
     start(always(IngestResult::gridded));
     ASSERT_TRUE(wait_for_message("READY=1"));
-    fs::remove_all(config_.drop);
+    fs::remove_all(config_.fixed.paths.drop);
     std::this_thread::sleep_for(std::chrono::milliseconds{300});
-    fs::create_directory(config_.drop);
-    write_file(config_.drop / "a", "1");
+    fs::create_directory(config_.fixed.paths.drop);
+    write_file(config_.fixed.paths.drop / "a", "1");
     EXPECT_TRUE(sink_->wait_for_calls(1));
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
 // 2026-11-22: as of the last scan, a minute ago, it was.
 TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
-    config_.rescan = std::chrono::hours{1};
+    config_.reloadable.rescan = std::chrono::hours{1};
     start(always(IngestResult::gridded));
     ASSERT_TRUE(wait_for_message("READY=1"));
     ASSERT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
-    fs::create_directories(config_.drop / "KTLX/494");
+    fs::create_directories(config_.fixed.paths.drop / "KTLX/494");
     EXPECT_TRUE(wait_for([&] { return status()["directories"] == 3; }));
-    fs::remove_all(config_.drop / "KTLX");
+    fs::remove_all(config_.fixed.paths.drop / "KTLX");
     EXPECT_TRUE(wait_for([&] { return status()["directories"] == 1; }));
 }
 
 // 2026-11-22: a drop directory that was mounted late, or that a group was let into late, ended the
 // start, and systemd gave up after ten of them. 2026-11-25: READY was said without it.
 TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
-    fs::remove(config_.drop);
+    fs::remove(config_.fixed.paths.drop);
     start(always(IngestResult::gridded));
-    const std::string why = config_.drop.native() + ": No such file or directory";
+    const std::string why = config_.fixed.paths.drop.native() + ": No such file or directory";
     EXPECT_TRUE(
         wait_for_message("STATUS=waiting: drop directory " + why + "\nEXTEND_TIMEOUT_USEC="));
     EXPECT_TRUE(wait_for_message("STATUS=drop directory " + why + "; ingested 0"));
@@ -276,15 +276,15 @@ TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     EXPECT_EQ(status()["state"], "starting");
     EXPECT_FALSE(has_message("READY=1"));
     EXPECT_EQ(status()["drop_lost"], why);
-    EXPECT_FALSE(fs::exists(config_.drop)) << "it belongs to LDM, so it is not made";
+    EXPECT_FALSE(fs::exists(config_.fixed.paths.drop)) << "it belongs to LDM, so it is not made";
     EXPECT_EQ(sink_->missing_looks(), 0)
         << "no file is gone because its directory is not there yet";
     fs::create_directory(root_ / "made");
     write_file(root_ / "made/a", "1");
-    fs::rename(root_ / "made", config_.drop);
+    fs::rename(root_ / "made", config_.fixed.paths.drop);
     EXPECT_TRUE(sink_->wait_for_calls(1));
     EXPECT_TRUE(wait_for_message("READY=1"));
-    write_file(config_.drop / "b", "1");
+    write_file(config_.fixed.paths.drop / "b", "1");
     EXPECT_TRUE(sink_->wait_for_calls(2));
     EXPECT_EQ(stop(), Stopped::cleanly);
     EXPECT_TRUE(status()["drop_lost"].is_null());
@@ -292,20 +292,20 @@ TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
 
 // 2026-11-25: READY was said while every socket, the state and the cache failed.
 TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
-    fs::remove_all(config_.state);
-    write_file(config_.state, "no directory");
+    fs::remove_all(config_.fixed.paths.state);
+    write_file(config_.fixed.paths.state, "no directory");
     std::atomic<bool> answers = false;
     needs_ = [&]() -> Status {
         if (answers) return {};
         return fail(ErrorCode::io, "the socket is taken");
     };
     start(always(IngestResult::gridded));
-    EXPECT_TRUE(wait_for_message("STATUS=waiting: " + config_.state.native()));
+    EXPECT_TRUE(wait_for_message("STATUS=waiting: " + config_.fixed.paths.state.native()));
     EXPECT_FALSE(has_message("READY=1"));
-    fs::remove(config_.state);
-    fs::create_directory(config_.state);
+    fs::remove(config_.fixed.paths.state);
+    fs::create_directory(config_.fixed.paths.state);
     EXPECT_TRUE(wait_for_message("STATUS=waiting: the socket is taken"));
-    write_file(config_.drop / "a", "1");
+    write_file(config_.fixed.paths.drop / "a", "1");
     EXPECT_TRUE(sink_->wait_for_calls(1)) << "what can be taken in is";
     EXPECT_FALSE(has_message("READY=1"));
     answers = true;
@@ -315,9 +315,9 @@ TEST_F(ServiceTest, IsReadyWhenAllThatItNeedsAnswers) {
 
 // As /srv/drop -> /mnt/spool/nexrad2 where /mnt/spool is mounted later.
 TEST_F(ServiceTest, StartsBeforeWhatItsDropDirectoryLinksTo) {
-    config_.rescan = std::chrono::milliseconds{200};
-    fs::remove(config_.drop);
-    fs::create_directory_symlink(root_ / "spool", config_.drop);
+    config_.reloadable.rescan = std::chrono::milliseconds{200};
+    fs::remove(config_.fixed.paths.drop);
+    fs::create_directory_symlink(root_ / "spool", config_.fixed.paths.drop);
     start(always(IngestResult::gridded));
     ASSERT_TRUE(wait_for_message("STATUS=waiting: drop directory "));
     fs::create_directory(root_ / "spool");
@@ -327,18 +327,18 @@ TEST_F(ServiceTest, StartsBeforeWhatItsDropDirectoryLinksTo) {
 }
 
 TEST_F(ServiceTest, AFileInPlaceOfTheDropDirectoryIsWaitedOutToo) {
-    config_.rescan = std::chrono::milliseconds{200};
-    fs::remove(config_.drop);
-    write_file(config_.drop, "1");
+    config_.reloadable.rescan = std::chrono::milliseconds{200};
+    fs::remove(config_.fixed.paths.drop);
+    write_file(config_.fixed.paths.drop, "1");
     start(always(IngestResult::gridded));
-    EXPECT_TRUE(
-        wait_for_message("STATUS=drop directory " + config_.drop.native() + ": Not a directory; "));
+    EXPECT_TRUE(wait_for_message("STATUS=drop directory " + config_.fixed.paths.drop.native() +
+                                 ": Not a directory; "));
     EXPECT_EQ(stop(), Stopped::cleanly);
 }
 
 TEST_F(ServiceTest, StopsWithoutTakingTheRestOfTheQueue) {
     for (int i = 0; i < 50; ++i)
-        write_file(config_.drop / std::to_string(i), "1");
+        write_file(config_.fixed.paths.drop / std::to_string(i), "1");
     start([](const auto&, bool) {
         std::this_thread::sleep_for(std::chrono::milliseconds{100});
         return outcome_of(IngestResult::gridded);
@@ -382,7 +382,7 @@ TEST_P(HangingThread, StarvesTheWatchdog) {
     notifier_.period = std::chrono::milliseconds{200};
     const std::string who = GetParam();
     const bool ingests = who == "ingest";
-    if (ingests) write_file(config_.drop / "file", "1");
+    if (ingests) write_file(config_.fixed.paths.drop / "file", "1");
     looks_ = [&](const Sink::OnStep& step) {
         if (who == "missing") hold(step, false);
     };

@@ -63,7 +63,7 @@ TEST(StationBook, AGrowingVolumesChunksAreDataAndItsSweepsHaveTimes) {
     EXPECT_EQ(state.close_to_living.count(), 0U) << "no sweep was complete with it";
     chunk.living = {"/c/living.scg"};
     book.add(chunk, 0.3, volume_start + seconds{15});
-    chunk.result = IngestResult::registered;  // one file a chunk
+    chunk.ending = ending_of(IngestResult::registered);  // one file a chunk
     book.add(chunk, std::nullopt, volume_start + seconds{20});
     EXPECT_EQ(state.data_at, volume_start + seconds{20});
     EXPECT_EQ(state.living, 2U);

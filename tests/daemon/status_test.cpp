@@ -110,7 +110,8 @@ TEST(StatusBook, SaysWhatWasWrongWithTheLastRejectedFiles) {
     for (int i = 0; i < 100; ++i) {
         Finished rejected = finished("/d/r\n" + std::to_string(i), IngestResult::rejected, 1);
         rejected.taken->ingest.reason = "bad\nmagic" + std::string(10'000, 'x');
-        rejected.taken->ingest.rejected_with = i < 70 ? ErrorCode::corrupt : ErrorCode::empty;
+        rejected.taken->ingest.ending =
+            pipeline::ended::Rejected{i < 70 ? ErrorCode::corrupt : ErrorCode::empty};
         book.add(rejected, at);
     }
     Finished failed = finished("/d/f", IngestResult::gridded, 1);
@@ -136,7 +137,7 @@ TEST(StatusBook, AFileThatIsRejectedAgainAndAgainCountsOnce) {
     const auto reject = [&](const std::string& path, const std::string& reason) {
         Finished rejected = finished(path, IngestResult::rejected, 1);
         rejected.taken->ingest.reason = reason;
-        rejected.taken->ingest.rejected_with = ErrorCode::not_level2;
+        rejected.taken->ingest.ending = pipeline::ended::Rejected{ErrorCode::not_level2};
         return book.add(rejected);
     };
     EXPECT_TRUE(reject("/d/a", "not a Level II file"));

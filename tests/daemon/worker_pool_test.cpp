@@ -48,7 +48,7 @@ TEST(WorkerPool, GivesBackEachJobWithItsResultAndTimes) {
     ASSERT_EQ(ended.size(), 1U);
     EXPECT_EQ(ended[0].job.path, "a");
     ASSERT_TRUE(ended[0].taken);
-    EXPECT_EQ(ended[0].taken->ingest.result, IngestResult::gridded);
+    EXPECT_EQ(ended[0].taken->ingest.result(), IngestResult::gridded);
     EXPECT_LE(ended[0].started, ended[0].ended);
     EXPECT_TRUE(pool.drain(seconds{20}));
     EXPECT_EQ(wakes, 1);

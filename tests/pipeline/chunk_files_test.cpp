@@ -72,11 +72,11 @@ TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
         fs::copy_file(*testing::data_directory() / "chunks/OPENRADAR_KLOT" / path.filename(), path);
         const auto outcome = ingestor.ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
-        if (outcome->result == IngestResult::incomplete) {
+        if (outcome->result() == IngestResult::incomplete) {
             EXPECT_EQ(outcome->instead_of, i == 0 ? fs::path{} : paths_[i - 1]);
         }
         EXPECT_TRUE(outcome->living.empty());
-        gridded += outcome->result == IngestResult::gridded ? 1 : 0;
+        gridded += outcome->result() == IngestResult::gridded ? 1 : 0;
     }
     EXPECT_EQ(gridded, 1);
     EXPECT_EQ(store.list("KLOT", level2::Moment::ref, std::nullopt, std::nullopt)->size(), 1U);

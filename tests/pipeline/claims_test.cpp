@@ -92,7 +92,7 @@ TEST_F(Claims, AFileOfAnotherStationIsCatalogedAndNotGridded) {
     Ingestor& ingestor = with(std::make_shared<StationRule>());
     const auto outcome = ingestor.ingest(put("KTLX20220317_010000", volume_of("XAAA")), false);
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(outcome->result, IngestResult::other_station);
+    EXPECT_EQ(outcome->result(), IngestResult::other_station);
     EXPECT_EQ(outcome->station, "");
     EXPECT_EQ(store_.domains()->size(), 0U);
     const auto entries = rows("");
@@ -102,26 +102,27 @@ TEST_F(Claims, AFileOfAnotherStationIsCatalogedAndNotGridded) {
     EXPECT_TRUE(entries[0].reason.starts_with("of XAAA, of which no data are taken in"))
         << entries[0].reason;
     EXPECT_FALSE(fs::exists(directory_ / "catalog/XAAA.sqlite"));
-    EXPECT_EQ(ingestor.ingest(drop() / "KTLX20220317_010000", false)->result,
+    EXPECT_EQ(ingestor.ingest(drop() / "KTLX20220317_010000", false)->result(),
               IngestResult::unchanged);
 }
 
 TEST_F(Claims, AListLeavesOutWhatTheTableKnows) {
     Ingestor& ingestor = with(std::make_shared<StationRule>(StationRule::listed({"XAAA"})));
-    EXPECT_EQ(ingestor.ingest(put("KTLX_a", volume_of("KTLX")), false)->result,
+    EXPECT_EQ(ingestor.ingest(put("KTLX_a", volume_of("KTLX")), false)->result(),
               IngestResult::other_station);
-    EXPECT_EQ(ingestor.ingest(put("any", volume_of("XAAA")), false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(put("any", volume_of("XAAA")), false)->result(),
+              IngestResult::gridded);
     EXPECT_FALSE(fs::exists(directory_ / "catalog/KTLX.sqlite"));
     EXPECT_EQ(rows("XAAA").size(), 1U);
 }
 
 TEST_F(Claims, AnyTakesSoManyFurtherStations) {
     Ingestor& ingestor = with(std::make_shared<StationRule>(StationRule::any(2)));
-    EXPECT_EQ(ingestor.ingest(put("a", volume_of("XAAA")), false)->result, IngestResult::gridded);
-    EXPECT_EQ(ingestor.ingest(put("b", volume_of("XBBB")), false)->result, IngestResult::gridded);
-    EXPECT_EQ(ingestor.ingest(put("c", volume_of("XCCC")), false)->result,
+    EXPECT_EQ(ingestor.ingest(put("a", volume_of("XAAA")), false)->result(), IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(put("b", volume_of("XBBB")), false)->result(), IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(put("c", volume_of("XCCC")), false)->result(),
               IngestResult::other_station);
-    EXPECT_EQ(ingestor.ingest(put("d", volume_of("KTLX")), false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(put("d", volume_of("KTLX")), false)->result(), IngestResult::gridded);
     EXPECT_EQ(store_.domains(), (std::vector<std::string>{"KTLX", "XAAA", "XBBB"}));
 }
 
@@ -131,10 +132,10 @@ TEST_F(Claims, AGrowingFileOfAnotherStationIsReadWhenItIsQuiet) {
     const fs::path path = put("KTLX_a", endless_sweep("XAAA", 2));
     const auto outcome = ingestor.ingest(path, false);
     ASSERT_TRUE(outcome);
-    EXPECT_EQ(outcome->result, IngestResult::incomplete);
-    EXPECT_FALSE(outcome->followed);
+    EXPECT_EQ(outcome->result(), IngestResult::incomplete);
+    EXPECT_FALSE(std::get<ended::Incomplete>(outcome->ending).is_followed);
     EXPECT_EQ(outcome->decode_s, 0);
-    EXPECT_EQ(ingestor.ingest(path, true)->result, IngestResult::other_station);
+    EXPECT_EQ(ingestor.ingest(path, true)->result(), IngestResult::other_station);
 }
 
 // 2026-11-25: a volume without any time was gridded at 1970-01-01.
@@ -152,7 +153,7 @@ TEST_F(Claims, AVolumeWithoutATimeIsNotGridded) {
     const auto outcome = ingestor.ingest(
         put("KTLX_zero", wire::join({header, wire::ldm_record(messages, true)})), true);
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(outcome->result, IngestResult::rejected) << outcome->reason;
+    EXPECT_EQ(outcome->result(), IngestResult::rejected) << outcome->reason;
     EXPECT_EQ(store_.domains()->size(), 0U);
 }
 
@@ -167,12 +168,12 @@ TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
     EXPECT_EQ(rows("KTLX").at(0).state, FileState::seen);
     const auto last = ingestor.ingest(path, false, Tries::last);
     ASSERT_TRUE(last) << last.error().message;
-    EXPECT_EQ(last->result, IngestResult::rejected);
+    EXPECT_EQ(last->result(), IngestResult::rejected);
     EXPECT_TRUE(last->reason.starts_with("given up: ")) << last->reason;
     EXPECT_EQ(rows("KTLX").at(0).state, FileState::rejected);
     // When it is offered once more, as after a restart, it is tried again.
     fs::remove(directory_ / "cache/KTLX");
-    EXPECT_EQ(ingestor.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(path, false)->result(), IngestResult::gridded);
     EXPECT_EQ(rows("KTLX").size(), 1U);
 }
 
@@ -198,9 +199,9 @@ TEST_F(LivingMemory, AnOpenSweepCounts) {
     const auto file = read(files, path, "KTLX");
     ASSERT_TRUE(file);
     EXPECT_TRUE(file->is_whole());
-    EXPECT_GT(file->held_bytes(), 24'000'000U);
-    EXPECT_LT(file->held_bytes(), 40'000'000U);
-    EXPECT_EQ(files.held_bytes(), file->held_bytes());
+    EXPECT_GT(file->growth().held_bytes, 24'000'000U);
+    EXPECT_LT(file->growth().held_bytes, 40'000'000U);
+    EXPECT_EQ(files.held_bytes(), file->growth().held_bytes);
 }
 
 TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
@@ -211,7 +212,7 @@ TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
     bytes.insert(bytes.end(), record.begin(), record.end());
     const auto file = read(files, put("KTLX_a", bytes), "KTLX");
     ASSERT_TRUE(file);
-    EXPECT_GE(file->held_bytes(), 4'000'000U);
+    EXPECT_GE(file->growth().held_bytes, 4'000'000U);
 }
 
 // All of it comes in one stretch: some kilobytes.
@@ -224,7 +225,7 @@ TEST_F(LivingMemory, AnOpenSweepIsReadNoFurtherThanItsBound) {
     const Status read = file->read_to(fs::file_size(a), {});
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::over_budget);
-    EXPECT_LT(file->held_bytes(), 12'000'000U);
+    EXPECT_LT(file->growth().held_bytes, 12'000'000U);
     files.give_up(a);
     EXPECT_EQ(files.take_given_up(), 1U);
     EXPECT_EQ(files.count(), 0U);
@@ -275,7 +276,7 @@ TEST_F(LivingMemory, AFileThatIsNotFollowedIsReadAtItsEnd) {
     const fs::path endless = put("KTLX_b", endless_sweep("KTLX", 1));
     ASSERT_TRUE(LivingFile::growing(endless));
     EXPECT_FALSE(LivingFile::has_ended(endless, *LivingFile::growing(endless)));
-    EXPECT_EQ(ingestor.ingest(drop() / "KTLX_a", false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor.ingest(drop() / "KTLX_a", false)->result(), IngestResult::gridded);
 }
 
 // The whole file has a bound of its own, far above that of any volume.
@@ -284,7 +285,7 @@ TEST_F(LivingMemory, AVolumeWithoutEndIsRefusedWhenItIsReadWhole) {
     wire::Bytes bytes = endless_sweep("KTLX", 70);
     const auto outcome = ingestor.ingest(put("KTLX_a", bytes), true);
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(outcome->result, IngestResult::rejected) << outcome->reason;
+    EXPECT_EQ(outcome->result(), IngestResult::rejected) << outcome->reason;
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ using ::testing::IsEmpty;
 
 constexpr std::uint64_t mib = std::uint64_t{1} << 20;
 
-struct Followed {};
+struct Thing {};
 
 class GrowingSetTest : public ::testing::Test {
   protected:
-    using Set = GrowingSet<std::string, Followed>;
+    using Set = GrowingSet<std::string, Thing>;
 
     static GrowingLimits limits() {
         GrowingLimits limits;
@@ -32,7 +32,7 @@ class GrowingSetTest : public ::testing::Test {
     }
     bool add(const std::string& key, const std::string& station) {
         if (!set_.has_place(station, now_)) return false;
-        set_.add(key, std::make_shared<Followed>(), station, now_);
+        set_.add(key, std::make_shared<Thing>(), station, now_);
         return true;
     }
     bool grow(const std::string& key, const std::string& station, const Growth& growth) {
@@ -127,7 +127,7 @@ TEST_F(GrowingSetTest, WhatHasClosedNoSweepHasABoundOfItsOwn) {
     limits.beginnings_held_bytes = 3 * mib;
     Set set{limits};
     const auto put = [&](const std::string& station, const Growth& growth) {
-        if (!set.find(station)) set.add(station, std::make_shared<Followed>(), station, now_);
+        if (!set.find(station)) set.add(station, std::make_shared<Thing>(), station, now_);
         return set.grew(station, set.find(station).get(), station, growth, now_);
     };
     ASSERT_TRUE(put("KTLX", {.held_bytes = 5 * mib, .has_sweeps = true}));
@@ -150,7 +150,7 @@ TEST_F(GrowingSetTest, DiskIsBoundedByItself) {
 TEST_F(GrowingSetTest, OneThatWasReplacedDoesNotGrow) {
     ASSERT_TRUE(add("a", "KTLX"));
     const auto before = set_.find("a");
-    set_.add("a", std::make_shared<Followed>(), "KTLX", now_);
+    set_.add("a", std::make_shared<Thing>(), "KTLX", now_);
     EXPECT_FALSE(set_.grew("a", before.get(), "KTLX", {.held_bytes = mib}, now_));
     EXPECT_EQ(set_.held_bytes(), 0U);
     set_.erase("a");

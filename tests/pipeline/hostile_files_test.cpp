@@ -46,7 +46,7 @@ class Hostile : public ::testing::Test {
     std::string take(const fs::path& path, bool finish_partial = true) {
         const auto outcome = ingestor_.ingest(path, finish_partial);
         if (!outcome) return "error: " + outcome.error().message;
-        switch (outcome->result) {
+        switch (outcome->result()) {
             case IngestResult::rejected:
                 return "rejected: " + outcome->reason;
             case IngestResult::vanished:

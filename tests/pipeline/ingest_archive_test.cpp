@@ -69,7 +69,7 @@ TEST_F(IngestArchiveTest, ItsVolumesAreGriddedAndCatalogedByTheirNames) {
         EXPECT_THAT(outcome->reason, HasSubstr(kind == archive::Kind::tar ? "2 taken in, 1 rejected"
                                                                           : "3 known already"));
     }
-    EXPECT_EQ(ingestor_.ingest(directory_ / "order.bin", false)->result, IngestResult::unchanged);
+    EXPECT_EQ(ingestor_.ingest(directory_ / "order.bin", false)->result(), IngestResult::unchanged);
 }
 
 TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
@@ -81,7 +81,7 @@ TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
     EXPECT_TRUE(raw->bytes == real("KBGM20050822_025549.gz"));
     const auto again = ingestor_.ingest_again(volumes()[1].path);
     ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(again->result, IngestResult::gridded);
+    EXPECT_EQ(again->result(), IngestResult::gridded);
     // Another member in its place is not what was cataloged.
     auto others = two_volumes();
     others[2].bytes = real("KBGM20050822_024414.gz");
@@ -97,10 +97,10 @@ TEST_F(IngestArchiveTest, OneThatIsStillBeingWrittenIsWaitedFor) {
     const auto all = bytes;
     bytes.resize(whole - 300'000);
     const fs::path path = put("order.tar", bytes);
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::incomplete);
     EXPECT_EQ(grids(), 0U);
     put("order.tar", all);
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::gridded);
     EXPECT_EQ(grids(), 2U);
 }
 
@@ -109,7 +109,7 @@ TEST_F(IngestArchiveTest, OfOneThatStaysCutWhatIsWholeIsTaken) {
     bytes.resize(bytes.size() - 300'000);
     const auto outcome = ingestor_.ingest(put("order.tar", bytes), true);
     ASSERT_TRUE(outcome);
-    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_EQ(grids(), 1U);
     EXPECT_THAT(outcome->reason, HasSubstr("cut or damaged"));
 }
@@ -120,14 +120,14 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     Ingestor by_turns(catalog_, store_, options);
     const fs::path path =
         put("order.tar", archive::make_archive(archive::Kind::tar, two_volumes()));
-    EXPECT_EQ(by_turns.ingest(path, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(by_turns.ingest(path, false)->result(), IngestResult::incomplete);
     EXPECT_EQ(grids(), 1U);
     int turns = 1;
-    while (by_turns.ingest(path, true)->result == IngestResult::incomplete && turns < 10)
+    while (by_turns.ingest(path, true)->result() == IngestResult::incomplete && turns < 10)
         ++turns;
     EXPECT_EQ(turns, 3) << "a file that is no volume has one, too";
     EXPECT_EQ(grids(), 2U);
-    EXPECT_EQ(by_turns.ingest(path, true)->result, IngestResult::unchanged);
+    EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
 }
 
 TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
@@ -140,8 +140,8 @@ TEST_F(IngestArchiveTest, APackedOneIsTakenToo) {
         for (; turns < 10; ++turns) {
             const auto outcome = by_turns.ingest(path, true);
             ASSERT_TRUE(outcome);
-            if (outcome->result != IngestResult::incomplete) break;
-            EXPECT_TRUE(outcome->has_next_turn);
+            if (outcome->result() != IngestResult::incomplete) break;
+            EXPECT_TRUE(std::get<ended::Incomplete>(outcome->ending).has_next_turn);
         }
         EXPECT_EQ(turns, 4) << "three members, and the end";
         EXPECT_EQ(grids(), 2U);
@@ -161,7 +161,7 @@ TEST_F(IngestArchiveTest, ItsRowsAreGoneWhenItIs) {
 
 TEST_F(IngestArchiveTest, AFileWithAMarkInItsNameIsAFile) {
     const fs::path path = put("KBGM!20050822", real("KBGM20050822_024414.gz"));
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::gridded);
     EXPECT_EQ(volumes().at(0).path, path);
 }
 

@@ -62,9 +62,8 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     const fs::path path = real("sequence-kbgm/KBGM20050822_024414.gz");
     const auto outcome = ingestor_.ingest(path, false);
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_EQ(outcome->station, "KBGM");
-    EXPECT_FALSE(outcome->rejected_with);
     EXPECT_EQ(only_entry("KBGM").state, FileState::complete);
     EXPECT_EQ(outcome->newest_radial, only_entry("KBGM").volume.end_time);
     EXPECT_GT(*outcome->newest_radial, *outcome->volume_time + std::chrono::minutes{4});
@@ -75,22 +74,22 @@ TEST_F(IngestTest, WholeVolumeIsGriddedOnceAndThenUnchanged) {
     EXPECT_EQ(file->description().provenance.source_files,
               std::vector<std::string>{"KBGM20050822_024414.gz"});
     EXPECT_FALSE(file->description().provenance.partial);
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::unchanged);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::unchanged);
 }
 
 TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     STORMCELLAR_NEED_DATA();
     const fs::path path = directory_ / "KBGM20050822_024414.gz";
-    EXPECT_EQ(ingestor_.note(path).value(), IngestResult::vanished);
+    EXPECT_EQ(ingestor_.note(path).value(), Noted::gone);
     EXPECT_TRUE(catalog_.station_names()->empty());
     fs::copy_file(real("sequence-kbgm/KBGM20050822_024414.gz"), path);
-    EXPECT_EQ(ingestor_.note(path).value(), IngestResult::registered);
+    EXPECT_EQ(ingestor_.note(path).value(), Noted::stands);
     EXPECT_EQ(only_entry("KBGM").state, FileState::seen);
     EXPECT_EQ(only_entry("KBGM").size_bytes, fs::file_size(path));
     EXPECT_FALSE(only_entry("KBGM").volume.start_time);
     EXPECT_TRUE(*catalog_.is_known(path));
     EXPECT_FALSE(*catalog_.is_known(directory_ / "other"));
-    ASSERT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    ASSERT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::gridded);
     EXPECT_EQ(only_entry("KBGM").state, FileState::complete);
     EXPECT_EQ(only_entry("KBGM").generation, 0);
     ASSERT_TRUE(ingestor_.note(path));
@@ -99,7 +98,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     ASSERT_TRUE(ingestor_.note(directory_ / "KBGM-link"));
     EXPECT_EQ(only_entry("KBGM").path, path);
     fs::remove(path);
-    EXPECT_EQ(ingestor_.note(path).value(), IngestResult::vanished);
+    EXPECT_EQ(ingestor_.note(path).value(), Noted::gone);
     EXPECT_EQ(only_entry("KBGM").state, FileState::gone);
 }
 
@@ -128,12 +127,12 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
               1U);
     const auto old = ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false);
     ASSERT_TRUE(old) << old.error().message;
-    EXPECT_EQ(old->result, IngestResult::gridded);
+    EXPECT_EQ(old->result(), IngestResult::gridded);
     EXPECT_EQ(old->not_kept, 1);
     EXPECT_TRUE(old->grids.empty());
     EXPECT_EQ(old->grid_s, 0);
     EXPECT_EQ(old->reason, "older than what the cache keeps");
-    EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false)->result,
+    EXPECT_EQ(ingestor.ingest(real("sequence-kbgm/KBGM20050822_024414.gz"), false)->result(),
               IngestResult::unchanged);
 }
 
@@ -155,11 +154,11 @@ TEST_F(IngestTest, VolumeThatHasNotEndedWaitsUntilItIsFinished) {
         bytes.append(std::istreambuf_iterator<char>(file), {});
     }
     const fs::path path = write("KLOT20201019_054806_V06", bytes);
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::incomplete);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::incomplete);
     EXPECT_EQ(only_entry("KLOT").state, FileState::seen);
     EXPECT_TRUE(grids("KLOT").empty());
     const auto outcome = ingestor_.ingest(path, true);
-    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_EQ(only_entry("KLOT").state, FileState::partial);
     EXPECT_NE(only_entry("KLOT").reason, "");
     EXPECT_TRUE(cache::GridFile::open(grids("KLOT").at(0).path)->description().provenance.partial);
@@ -169,7 +168,7 @@ TEST_F(IngestTest, VolumeWithoutRadialsIsPartialAndHasNoGrid) {
     STORMCELLAR_NEED_DATA();
     const auto outcome = ingestor_.ingest(real("volumes/KFDR20160420_214957_V06.gz"), true);
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(outcome->result, IngestResult::no_moment);
+    EXPECT_EQ(outcome->result(), IngestResult::no_moment);
     EXPECT_EQ(only_entry("KFDR").state, FileState::partial);
     EXPECT_TRUE(grids("KFDR").empty());
 }
@@ -178,36 +177,36 @@ TEST_F(IngestTest, GarbageIsRejectedWithAReasonAndIsNotTriedAgain) {
     const fs::path path = write("KTLX_nonsense", std::string(5000, 'x'));
     const auto outcome = ingestor_.ingest(path, false);
     ASSERT_TRUE(outcome);
-    EXPECT_EQ(outcome->result, IngestResult::rejected);
-    EXPECT_EQ(outcome->rejected_with, ErrorCode::not_level2);
+    EXPECT_EQ(outcome->result(), IngestResult::rejected);
+    EXPECT_EQ(std::get<ended::Rejected>(outcome->ending).with, ErrorCode::not_level2);
     EXPECT_FALSE(outcome->newest_radial);
     EXPECT_EQ(only_entry("KTLX").state, FileState::rejected);
     EXPECT_NE(only_entry("KTLX").reason, "");
-    EXPECT_EQ(ingestor_.ingest(path, true)->result, IngestResult::unchanged);
+    EXPECT_EQ(ingestor_.ingest(path, true)->result(), IngestResult::unchanged);
 }
 
 TEST_F(IngestTest, EmptyFileWaitsAndIsRejectedWhenItStaysEmpty) {
     const fs::path path = write("empty", "");
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::incomplete);
-    EXPECT_EQ(ingestor_.ingest(path, true)->result, IngestResult::rejected);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::incomplete);
+    EXPECT_EQ(ingestor_.ingest(path, true)->result(), IngestResult::rejected);
     EXPECT_EQ(only_entry("").state, FileState::rejected);
 }
 
 TEST_F(IngestTest, OddThingsAreRejectedAndNeverFollowed) {
     ASSERT_EQ(::mkfifo((directory_ / "fifo").c_str(), 0600), 0);
-    EXPECT_EQ(ingestor_.ingest(directory_ / "fifo", true)->result, IngestResult::rejected);
+    EXPECT_EQ(ingestor_.ingest(directory_ / "fifo", true)->result(), IngestResult::rejected);
     fs::create_symlink("/etc/passwd", directory_ / "link");
     const auto outcome = ingestor_.ingest(directory_ / "link", true);
-    EXPECT_EQ(outcome->result, IngestResult::rejected);
+    EXPECT_EQ(outcome->result(), IngestResult::rejected);
     EXPECT_EQ(outcome->reason, "is a symbolic link");
-    EXPECT_EQ(outcome->rejected_with, ErrorCode::not_a_file);
+    EXPECT_EQ(std::get<ended::Rejected>(outcome->ending).with, ErrorCode::not_a_file);
 }
 
 // A cut copy, or an older file of the same volume, must not take a whole grid's place.
 TEST_F(IngestTest, AWholeGridIsNotReplacedByAPartOfIt) {
     const auto whole = level2::wire::ldm_volume(3, 360);
     const auto cut = std::span(whole).first(whole.size() * 2 / 3);
-    ASSERT_EQ(ingestor_.ingest(put("KTLX_whole", whole), false)->result, IngestResult::gridded);
+    ASSERT_EQ(ingestor_.ingest(put("KTLX_whole", whole), false)->result(), IngestResult::gridded);
     const auto of_cut = ingestor_.ingest(put("KTLX_cut", cut), true);
     ASSERT_TRUE(of_cut);
     EXPECT_TRUE(of_cut->partial);
@@ -219,7 +218,7 @@ TEST_F(IngestTest, AWholeGridIsNotReplacedByAPartOfIt) {
 TEST_F(IngestTest, APartIsReplacedByTheWholeVolume) {
     const auto whole = level2::wire::ldm_volume(3, 360);
     const auto cut = std::span(whole).first(whole.size() * 2 / 3);
-    ASSERT_EQ(ingestor_.ingest(put("KTLX_cut", cut), true)->result, IngestResult::gridded);
+    ASSERT_EQ(ingestor_.ingest(put("KTLX_cut", cut), true)->result(), IngestResult::gridded);
     EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_cut");
     const fs::path path = put("KTLX_whole", whole);
     fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(1));
@@ -233,8 +232,8 @@ TEST_F(IngestTest, AFileOfTheFutureIsAsOldAsItsReading) {
     const auto bytes = level2::wire::ldm_volume(3, 360);
     const fs::path future = put("KTLX_future", bytes);
     fs::last_write_time(future, fs::file_time_type::clock::now() + std::chrono::hours(600'000));
-    ASSERT_EQ(ingestor_.ingest(future, false)->result, IngestResult::gridded);
-    ASSERT_EQ(ingestor_.ingest(put("KTLX_real", bytes), false)->result, IngestResult::gridded);
+    ASSERT_EQ(ingestor_.ingest(future, false)->result(), IngestResult::gridded);
+    ASSERT_EQ(ingestor_.ingest(put("KTLX_real", bytes), false)->result(), IngestResult::gridded);
     EXPECT_EQ(source_of_only_grid("KTLX"), "KTLX_real");
 }
 
@@ -274,7 +273,7 @@ TEST_F(IngestTest, ImpossibleDatesAreNoReasonToTryForEver) {
     level2::wire::overwrite_u32(header_only, 12, 0x10000000);
     const auto by_radials = ingestor_.ingest(put("KTLX_a", header_only), false);
     ASSERT_TRUE(by_radials) << by_radials.error().message;
-    EXPECT_EQ(by_radials->result, IngestResult::gridded);
+    EXPECT_EQ(by_radials->result(), IngestResult::gridded);
     EXPECT_EQ(format_utc(*by_radials->volume_time).substr(0, 10), "2022-03-17");
     EXPECT_NE(by_radials->reason, "") << "it is said";
 }
@@ -285,17 +284,17 @@ TEST_F(IngestTest, AFileThatCouldNotBeReadIsReadWhenItCan) {
     fs::permissions(path, fs::perms::none);
     const auto refused = ingestor_.ingest(path, false);
     ASSERT_TRUE(refused);
-    EXPECT_EQ(refused->result, IngestResult::rejected);
+    EXPECT_EQ(refused->result(), IngestResult::rejected);
     EXPECT_NE(refused->reason.find("ermission"), std::string::npos);
     fs::permissions(path, fs::perms::owner_read);
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::gridded);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::gridded);
 }
 
 TEST_F(IngestTest, FileThatIsGoneIsMarkedSo) {
     const fs::path path = write("KTLX_nonsense", std::string(5000, 'x'));
     ASSERT_TRUE(ingestor_.ingest(path, false));
     fs::remove(path);
-    EXPECT_EQ(ingestor_.ingest(path, false)->result, IngestResult::vanished);
+    EXPECT_EQ(ingestor_.ingest(path, false)->result(), IngestResult::vanished);
     EXPECT_EQ(only_entry("KTLX").state, FileState::gone);
 }
 

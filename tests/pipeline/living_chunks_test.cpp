@@ -21,19 +21,19 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
     std::size_t shown = 0;
     for (std::size_t i = 0; i + 1 < names_.size(); ++i) {
         const IngestOutcome outcome = take(house_, i);
-        EXPECT_EQ(outcome.result, IngestResult::incomplete) << i;
+        EXPECT_EQ(outcome.result(), IngestResult::incomplete) << i;
         shown += outcome.living.size();
     }
     EXPECT_GT(shown, 5U);
-    EXPECT_EQ(take(house_, 0, true).result, IngestResult::registered) << "not in the name of all";
-    EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
+    EXPECT_EQ(take(house_, 0, true).result(), IngestResult::registered) << "not in the name of all";
+    EXPECT_EQ(take(house_, names_.size() - 2, true).result(), IngestResult::incomplete);
     const IngestOutcome last = take(house_, names_.size() - 1);
-    EXPECT_EQ(last.result, IngestResult::gridded);
+    EXPECT_EQ(last.result(), IngestResult::gridded);
     EXPECT_EQ(last.station, "KLOT");
     expect_same_cells(house_);
     expect_one_volume(house_);
     for (std::size_t i = 0; i < names_.size(); ++i)
-        EXPECT_EQ(take(house_, i, true).result, IngestResult::unchanged) << i;
+        EXPECT_EQ(take(house_, i, true).result(), IngestResult::unchanged) << i;
 }
 
 TEST_F(LivingChunks, MayComeInAnyOrder) {
@@ -41,8 +41,8 @@ TEST_F(LivingChunks, MayComeInAnyOrder) {
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = (i * 17 + 5) % order.size();  // 55 has no factor 17
     for (std::size_t i = 0; i + 1 < order.size(); ++i)
-        EXPECT_NE(take(house_, order[i]).result, IngestResult::gridded) << order[i];
-    EXPECT_EQ(take(house_, order.back()).result, IngestResult::gridded);
+        EXPECT_NE(take(house_, order[i]).result(), IngestResult::gridded) << order[i];
+    EXPECT_EQ(take(house_, order.back()).result(), IngestResult::gridded);
     expect_same_cells(house_);
     expect_one_volume(house_);
 }
@@ -60,13 +60,13 @@ TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
 TEST_F(LivingChunks, OneThatIsLostLeavesAPartialVolumeUntilItComes) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i == 20) continue;
-        EXPECT_NE(take(house_, i).result, IngestResult::gridded);
+        EXPECT_NE(take(house_, i).result(), IngestResult::gridded);
     }
     const IngestOutcome partial = take(house_, names_.size() - 1, true);
-    EXPECT_EQ(partial.result, IngestResult::gridded);
+    EXPECT_EQ(partial.result(), IngestResult::gridded);
     EXPECT_TRUE(partial.partial);
     EXPECT_NE(partial.reason.find("missing chunks: 21"), std::string::npos) << partial.reason;
-    EXPECT_EQ(take(house_, 20).result, IngestResult::gridded);
+    EXPECT_EQ(take(house_, 20).result(), IngestResult::gridded);
     expect_same_cells(house_);
     expect_one_volume(house_);
 }
@@ -76,7 +76,7 @@ TEST_F(LivingChunks, TheBeginningThatComesLateLeavesNoOtherGrid) {
     constexpr std::size_t late = 10;
     for (std::size_t i = late; i < names_.size(); ++i)
         take(house_, i);
-    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result(), IngestResult::gridded);
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
     const UtcTime first_radial = house_.grids("KLOT")[0].time;
     // One that holds another volume stays.
@@ -101,12 +101,12 @@ TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20 && i != 30) take(house_, i);
     }
-    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result(), IngestResult::gridded);
     EXPECT_TRUE(notes().empty()) << "the end of it, not a living grid";
-    EXPECT_EQ(take(house_, 20).result, IngestResult::incomplete) << "it waits in the name of all";
+    EXPECT_EQ(take(house_, 20).result(), IngestResult::incomplete) << "it waits in the name of all";
     EXPECT_TRUE(notes().empty()) << "a living grid is no better than an ended one";
     const IngestOutcome again = take(house_, 20, true);
-    EXPECT_EQ(again.result, IngestResult::gridded);
+    EXPECT_EQ(again.result(), IngestResult::gridded);
     EXPECT_NE(again.reason.find("missing chunks: 31"), std::string::npos) << again.reason;
     const auto rows = house_.catalog->list("KLOT", {std::nullopt, std::nullopt, true});
     for (const auto& row : *rows)
@@ -118,9 +118,9 @@ TEST_F(LivingChunks, AnEndThatIsCutDoesNotKeepTheVolumeWaiting) {
         take(house_, i);
     const fs::path cut = drop_ / names_.back();
     append_to(cut, parts_.back().first(100));
-    EXPECT_EQ(house_.ingestor->ingest(cut, false)->result, IngestResult::incomplete);
-    EXPECT_EQ(house_.ingestor->ingest(cut, true)->result, IngestResult::rejected);
-    EXPECT_EQ(take(house_, names_.size() - 2, true).result, IngestResult::incomplete);
+    EXPECT_EQ(house_.ingestor->ingest(cut, false)->result(), IngestResult::incomplete);
+    EXPECT_EQ(house_.ingestor->ingest(cut, true)->result(), IngestResult::rejected);
+    EXPECT_EQ(take(house_, names_.size() - 2, true).result(), IngestResult::incomplete);
 }
 
 // 2026-11-22: who waits in the name of all was deleted before the volume was due, and nobody asked
@@ -131,15 +131,15 @@ TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
     }
     const fs::path waiter = drop_ / names_.back();
     fs::remove(waiter);
-    EXPECT_EQ(house_.ingestor->note(waiter).value(), IngestResult::registered);
+    EXPECT_EQ(house_.ingestor->note(waiter).value(), Noted::stands);
     const auto gone = house_.ingestor->ingest(waiter, false);
     ASSERT_TRUE(gone) << gone.error().message;
-    EXPECT_EQ(gone->result, IngestResult::incomplete);
+    EXPECT_EQ(gone->result(), IngestResult::incomplete);
     fs::remove(drop_ / names_[3]);
-    EXPECT_EQ(house_.ingestor->ingest(drop_ / names_[3], false)->result, IngestResult::vanished);
+    EXPECT_EQ(house_.ingestor->ingest(drop_ / names_[3], false)->result(), IngestResult::vanished);
     const auto outcome = house_.ingestor->ingest(waiter, true);
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_TRUE(outcome->partial);
     EXPECT_EQ(outcome->missing_chunks, std::vector<int>{21}) << "what was deleted was read before";
     EXPECT_NE(outcome->reason.find("was deleted"), std::string::npos) << outcome->reason;
@@ -149,7 +149,7 @@ TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
         EXPECT_EQ(row.state == catalog::FileState::gone, !fs::exists(row.path)) << row.path;
         EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
     }
-    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::vanished) << "once";
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result(), IngestResult::vanished) << "once";
 }
 
 TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
@@ -157,13 +157,13 @@ TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
         take(house_, i);
     const fs::path waiter = drop_ / names_[9];
     fs::remove(waiter);
-    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::incomplete)
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result(), IngestResult::incomplete)
         << "not due: its end has not come";
     const IngestOutcome next = take(house_, 10);
-    EXPECT_EQ(next.result, IngestResult::incomplete);
+    EXPECT_EQ(next.result(), IngestResult::incomplete);
     EXPECT_EQ(next.instead_of, waiter);
-    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result, IngestResult::vanished);
-    EXPECT_EQ(house_.ingestor->note(waiter).value(), IngestResult::vanished);
+    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result(), IngestResult::vanished);
+    EXPECT_EQ(house_.ingestor->note(waiter).value(), Noted::gone);
     for (std::size_t i = 11; i < names_.size(); ++i)
         take(house_, i);
     expect_same_cells(house_);
@@ -182,9 +182,8 @@ TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
     options.scratch = directory_ / "living";
     ChunkVolumes volumes(options);
     const auto first = ChunkPath::of(directory / names_[0]).value();
-    const auto volume = volumes.find(first, "A");
-    ASSERT_TRUE(volume->add(first, stamp_of(first.path).value()));
-    ASSERT_TRUE(volume->add_siblings(first));
+    const auto volume = volumes.find(first, "A")->lock();
+    ASSERT_TRUE(volume->add_with_siblings(first, stamp_of(first.path).value()));
     EXPECT_EQ(volume->files().size(), 1U) << "after four that are none the rest is left";
     const auto later = ChunkPath::of(directory / names_[11]).value();
     EXPECT_EQ(volume->add(later, stamp_of(later.path).value()).value(), ChunkVolume::Added::added)
@@ -207,8 +206,9 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
             append_to(chunk.path, parts_[i]);
             const auto volume = volumes.find(chunk, site);
             if (!volume) return std::pair(false, chunk);
-            EXPECT_TRUE(volume->add(chunk, stamp_of(chunk.path).value()));
-            has_its_share = volumes.grew(chunk, *volume, site) && has_its_share;
+            const auto held = volume->lock();
+            EXPECT_TRUE(held->add(chunk, stamp_of(chunk.path).value()));
+            has_its_share = volumes.grew(chunk, volume, held->growth(), site) && has_its_share;
         }
         return std::pair(has_its_share, ChunkPath::of(directory / names_[0]).value());
     };
@@ -216,7 +216,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     options.scratch = directory_ / "living";
     ChunkVolumes ample(options);
     const auto first = grow(ample, "A").second;
-    const std::uint64_t of_one = ample.find_known(first)->shelf_bytes();
+    const std::uint64_t of_one = ample.find_known(first)->lock()->growth().shelf_bytes;
     EXPECT_GT(of_one, 1'000'000U);
     grow(ample, "B");
     EXPECT_EQ(ample.count(), 2U);
@@ -240,8 +240,9 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     EXPECT_EQ(each.find(given_up, "A"), nullptr) << "it would be read again with each chunk";
     const auto at_its_end = each.find(given_up, "A", ChunkVolumes::Expected::its_end_is_there);
     ASSERT_TRUE(at_its_end) << "its grid waits for nothing else";
-    EXPECT_TRUE(at_its_end->add_siblings(given_up));
-    EXPECT_FALSE(each.grew(given_up, *at_its_end, "A"));
+    const auto held = at_its_end->lock();
+    EXPECT_TRUE(held->add_with_siblings(given_up, stamp_of(given_up.path).value()));
+    EXPECT_FALSE(each.grew(given_up, at_its_end, held->growth(), "A"));
     EXPECT_EQ(each.find(given_up, "A", ChunkVolumes::Expected::its_end_is_there), nullptr)
         << "whoever sends one end after the other would have it read each time";
     EXPECT_TRUE(each.find(given_up, "A", ChunkVolumes::Expected::nothing)) << "it is quiet";
@@ -254,7 +255,7 @@ TEST_F(LivingChunks, AVolumeThatWasGivenUpIsGriddedWhenItsEndComes) {
     for (std::size_t i = 0; i + 1 < names_.size(); ++i)
         given_up += take(house_, i).given_up;
     EXPECT_EQ(given_up, 1U);
-    EXPECT_EQ(take(house_, names_.size() - 1).result, IngestResult::gridded);
+    EXPECT_EQ(take(house_, names_.size() - 1).result(), IngestResult::gridded);
     expect_same_cells(house_);
     expect_one_volume(house_);
 }
@@ -277,9 +278,9 @@ TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20) take(house_, i);
     }
-    ASSERT_EQ(take(house_, names_.size() - 1, true).result, IngestResult::gridded);
+    ASSERT_EQ(take(house_, names_.size() - 1, true).result(), IngestResult::gridded);
     fs::remove(house_.grids("KLOT").at(0).path);
-    EXPECT_EQ(house_.ingestor->ingest_again(drop_ / names_[0])->result, IngestResult::gridded);
+    EXPECT_EQ(house_.ingestor->ingest_again(drop_ / names_[0])->result(), IngestResult::gridded);
     EXPECT_EQ(house_.grids("KLOT").size(), 1U);
     EXPECT_EQ(house_.catalog->list("KLOT", {})->size(), 1U);
 }
@@ -298,7 +299,7 @@ TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
             std::this_thread::sleep_for(std::chrono::milliseconds{10 * i});
             const auto outcome = house_.ingestor->ingest(drop_ / name, false);
             EXPECT_TRUE(outcome);
-            gridded += outcome && outcome->result == IngestResult::gridded ? 1 : 0;
+            gridded += outcome && outcome->result() == IngestResult::gridded ? 1 : 0;
         });
     }
     for (std::thread& worker : workers)
@@ -327,7 +328,7 @@ TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
         const auto outcome = house_.ingestor->ingest(drop_ / names_.back(), false);
         ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
         if (outcome) {
-            EXPECT_EQ(outcome->result, IngestResult::gridded) << most;
+            EXPECT_EQ(outcome->result(), IngestResult::gridded) << most;
             break;
         }
         EXPECT_EQ(outcome.error().cause(), Cause::system) << outcome.error().message;
@@ -344,10 +345,10 @@ TEST_F(LivingChunks, OneThatIsNotWholeIsNoneToWaitFor) {
         append_to(drop_ / names_[i], parts_[i]);
     const fs::path empty = drop_ / names_[names_.size() - 2];
     std::ofstream{empty};
-    ASSERT_EQ(house_.ingestor->ingest(empty, false)->result, IngestResult::incomplete);
+    ASSERT_EQ(house_.ingestor->ingest(empty, false)->result(), IngestResult::incomplete);
     // The next that is asked is waited for in its place.
-    EXPECT_EQ(take(house_, 3).result, IngestResult::incomplete);
-    EXPECT_EQ(take(house_, 4).result, IngestResult::registered);
+    EXPECT_EQ(take(house_, 3).result(), IngestResult::incomplete);
+    EXPECT_EQ(take(house_, 4).result(), IngestResult::registered);
 }
 
 TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
@@ -360,7 +361,7 @@ TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
         workers.emplace_back([&] {
             for (std::size_t at = next++; at < names_.size(); at = next++) {
                 const auto outcome = house_.ingestor->ingest(drop_ / names_[at], false);
-                gridded += outcome && outcome->result == IngestResult::gridded ? 1 : 0;
+                gridded += outcome && outcome->result() == IngestResult::gridded ? 1 : 0;
             }
         });
     }
@@ -370,7 +371,7 @@ TEST_F(LivingChunks, WorkersThatComeTogetherMakeItOnce) {
     expect_same_cells(house_);
     expect_one_volume(house_);
     for (const std::string& name : names_) {
-        EXPECT_EQ(house_.ingestor->ingest(drop_ / name, true)->result, IngestResult::unchanged);
+        EXPECT_EQ(house_.ingestor->ingest(drop_ / name, true)->result(), IngestResult::unchanged);
     }
 }
 
@@ -392,9 +393,9 @@ TEST_F(LivingChunks, OneThatIsNoneIsRejectedByItself) {
     const fs::path path = drop_ / "20220317-000842-011-I";
     append_to(path, std::vector<std::byte>(5000, std::byte{7}));
     const auto rejected = house_.ingestor->ingest(path, true);
-    EXPECT_EQ(rejected->result, IngestResult::rejected);
+    EXPECT_EQ(rejected->result(), IngestResult::rejected);
     EXPECT_EQ(rejected->station, "KLOT") << "by its directory";
-    EXPECT_EQ(take(house_, 9, true).result, IngestResult::incomplete) << "the volume goes on";
+    EXPECT_EQ(take(house_, 9, true).result(), IngestResult::incomplete) << "the volume goes on";
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ class LivingChunks : public Living {
         // What the whole file gives.
         const fs::path file = directory_ / "KLOT20220317_000842_V06";
         append_to(file, bytes_);
-        ASSERT_EQ(whole_.ingestor->ingest(file, false)->result, IngestResult::gridded);
+        ASSERT_EQ(whole_.ingestor->ingest(file, false)->result(), IngestResult::gridded);
     }
     // As another process would, with so much room for what is put aside.
     void begin_again_with(std::uint64_t put_aside_bytes) {

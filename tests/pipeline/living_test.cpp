@@ -40,16 +40,16 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     ASSERT_GT(outcomes.size(), 20U);
     std::size_t shown = 0;
     for (std::size_t i = 0; i + 1 < outcomes.size(); ++i) {
-        EXPECT_EQ(outcomes[i].result, IngestResult::incomplete) << i;
+        EXPECT_EQ(outcomes[i].result(), IngestResult::incomplete) << i;
         shown += outcomes[i].living.size();
     }
-    EXPECT_EQ(outcomes.back().result, IngestResult::gridded);
+    EXPECT_EQ(outcomes.back().result(), IngestResult::gridded);
     const level2::Volume volume = level2::decode(bytes)->volume;
     EXPECT_EQ(shown, volume.sweeps.size() - 1);  // the last one ends the volume
 
     // Another house takes the complete file.
     House whole(directory_ / "whole", false);
-    ASSERT_EQ(whole.ingestor->ingest(path, false)->result, IngestResult::gridded);
+    ASSERT_EQ(whole.ingestor->ingest(path, false)->result(), IngestResult::gridded);
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
     ASSERT_EQ(whole.grids("KLOT").size(), 1U);
     EXPECT_EQ(*read_file(house_.grids("KLOT")[0].path), *read_file(whole.grids("KLOT")[0].path));
@@ -65,7 +65,7 @@ TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
 TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
     const std::vector<std::byte> first_bytes = real_bytes(busy);
     const fs::path first_path = directory_ / "KLOT20220317_000842_V06";
-    ASSERT_EQ(grow(house_, first_path, first_bytes).back().result, IngestResult::gridded);
+    ASSERT_EQ(grow(house_, first_path, first_bytes).back().result(), IngestResult::gridded);
     const level2::Volume first = level2::decode(first_bytes)->volume;
     const level2::Volume second = later(first, std::chrono::minutes{12});
     const auto encoded = level2::encode(second);
@@ -164,7 +164,7 @@ TEST_F(Living, AFileThatIsRewrittenMeanwhileIsReadAsItIs) {
     ASSERT_EQ(fs::file_size(path), other.size());
     const auto outcome = house_.ingestor->ingest(path, true);
     ASSERT_TRUE(outcome);
-    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_EQ(outcome->station, "KLBB");
     EXPECT_FALSE(outcome->partial);
 }
@@ -177,10 +177,10 @@ TEST_F(Living, AVolumeThatStopsIsWhatItIsWhenReadWhole) {
     date(path);
     const auto outcome = house_.ingestor->ingest(path, true);
     ASSERT_TRUE(outcome);
-    EXPECT_EQ(outcome->result, IngestResult::gridded);
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_TRUE(outcome->partial);
     House whole(directory_ / "whole", false);
-    ASSERT_EQ(whole.ingestor->ingest(path, true)->result, IngestResult::gridded);
+    ASSERT_EQ(whole.ingestor->ingest(path, true)->result(), IngestResult::gridded);
     EXPECT_EQ(*read_file(house_.grids("KLOT")[0].path), *read_file(whole.grids("KLOT")[0].path));
 }
 

@@ -31,7 +31,7 @@ class MendCache : public ::testing::Test {
             fs::copy_file(*testing::data_directory() / "sequence-kbgm" / name, raw);
             const auto outcome = ingestor_.ingest(raw, false);
             ASSERT_TRUE(outcome) << outcome.error().message;
-            ASSERT_EQ(outcome->result, IngestResult::gridded) << outcome->reason;
+            ASSERT_EQ(outcome->result(), IngestResult::gridded) << outcome->reason;
         }
     }
     std::vector<cache::StoreEntry> grids() {
@@ -170,7 +170,7 @@ TEST_F(MendCache, AWipedCacheIsFilledNewestFirst) {
     EXPECT_EQ(steps, 1) << "for each station";
     EXPECT_GT(missing->at(0).time, missing->at(1).time);
     for (const MissingGrid& grid : *missing)
-        EXPECT_EQ(mender_.make(grid)->result, IngestResult::gridded);
+        EXPECT_EQ(mender_.make(grid)->result(), IngestResult::gridded);
     expect_all_good(3);
     EXPECT_TRUE(mender_.missing(hours{6})->empty());
 }

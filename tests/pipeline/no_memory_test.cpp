@@ -29,7 +29,7 @@ int ingest_with_ever_more_memory(House& house, const fs::path& path) {
     for (std::int64_t allocations = 0;; allocations += 1 + allocations / 3) {
         const auto outcome = ingest_with(house, path, allocations);
         if (outcome) {
-            EXPECT_NE(outcome->result, IngestResult::rejected) << outcome->reason;
+            EXPECT_NE(outcome->result(), IngestResult::rejected) << outcome->reason;
             EXPECT_TRUE(outcome->reason.empty()) << outcome->reason;
             return failed;
         }
@@ -68,7 +68,7 @@ TEST_F(Living, WithoutMemoryAFileIsAskedForAgain) {
     append_to(path, bytes);
     EXPECT_GT(ingest_with_ever_more_memory(house_, path), 20);
     House whole(directory_ / "whole", false);
-    ASSERT_EQ(whole.ingestor->ingest(path, false)->result, IngestResult::gridded);
+    ASSERT_EQ(whole.ingestor->ingest(path, false)->result(), IngestResult::gridded);
     ASSERT_EQ(house_.grids("KLOT").size(), 1U);
     const auto a = cache::GridFile::open(house_.grids("KLOT")[0].path);
     const auto b = cache::GridFile::open(whole.grids("KLOT")[0].path);
@@ -86,11 +86,11 @@ TEST_F(Living, WithoutMemoryAGrowingFileIsBegunAnew) {
         (void)ingest_with(house_, path, static_cast<std::int64_t>(from % 1000));
         const auto outcome = house_.ingestor->ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
-        ASSERT_EQ(outcome->result,
+        ASSERT_EQ(outcome->result(),
                   end == bytes.size() ? IngestResult::gridded : IngestResult::incomplete);
     }
     House whole(directory_ / "whole", false);
-    ASSERT_EQ(whole.ingestor->ingest(path, false)->result, IngestResult::gridded);
+    ASSERT_EQ(whole.ingestor->ingest(path, false)->result(), IngestResult::gridded);
     const auto a = cache::GridFile::open(house_.grids("KLOT").at(0).path);
     const auto b = cache::GridFile::open(whole.grids("KLOT").at(0).path);
     EXPECT_FALSE(a->description().provenance.partial);

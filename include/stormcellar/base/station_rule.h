@@ -46,7 +46,7 @@ class StationRule {
     [[nodiscard]] std::vector<std::string> further() const;
     [[nodiscard]] std::size_t most_further() const { return most_further_; }
     // Returns true if the other rule is configured in the same way, whatever either has admitted.
-    [[nodiscard]] bool same_as(const StationRule& other) const;
+    bool operator==(const StationRule& other) const;
 
   private:
     Kind kind_ = Kind::known;

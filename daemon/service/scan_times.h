@@ -1,0 +1,42 @@
+// daemon/service/scan_times.h -- when the drop directory is scanned.
+//
+// Scans take at most about a tenth of the time, however often something calls for one. A regular
+// scan comes every rescan_seconds; where changes come without events, polls come between them.
+// Thread contract: one thread.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/steady_time.h"
+
+namespace stormcellar::daemon {
+
+class ScanTimes {
+  public:
+    // `is_needed`: something calls for a scan, and waits only until the last one has been rested.
+    [[nodiscard]] bool is_due(SteadyTime now, bool is_needed) const {
+        return now >= next_ || (is_needed && now >= rested_);
+    }
+    [[nodiscard]] bool is_regular(SteadyTime now) const { return now >= next_regular_; }
+    [[nodiscard]] SteadyTime next() const { return next_; }
+    [[nodiscard]] SteadyTime rested() const { return rested_; }
+
+    // A scan began and ended then; the next one comes after `gap`.
+    void scanned(SteadyTime began, SteadyTime ended, SteadyTime::duration gap) {
+        const SteadyTime::duration rest = rest_factor * (ended - began);
+        rested_ = ended + std::max<SteadyTime::duration>(least_gap, rest);
+        next_ = std::max(ended + gap, rested_);
+    }
+    void set_next_regular(SteadyTime time) { next_regular_ = time; }
+    // The next scan comes at that time, if not sooner.
+    void no_later_than(SteadyTime time) { next_ = std::min(next_, time); }
+
+  private:
+    static constexpr std::chrono::milliseconds least_gap{100};
+    static constexpr int rest_factor = 10;
+
+    SteadyTime rested_{}, next_{}, next_regular_{};
+};
+
+}  // namespace stormcellar::daemon

@@ -1,0 +1,231 @@
+#include "pipeline/ingest/chunk_volume.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "base/beneath.h"
+#include "base/checksum.h"
+#include "pipeline/drop/drop_names.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+// No chunk is a hundredth of it; a volume's worth of others is read whole elsewhere.
+constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
+// Of chunks that are read in the name of another. What is left comes in its own name.
+constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
+constexpr std::size_t most_refused_at_once = 4;
+constexpr std::chrono::minutes longest_failing{2};
+constexpr std::chrono::seconds between_catching_up{1};
+
+// The pieces of chunks beside the sweeps that they make.
+class ShelfDepot final : public level2::SweepDepot {
+  public:
+    explicit ShelfDepot(SweepShelf& shelf) : shelf_(shelf) {}
+    std::optional<std::uint64_t> put(const level2::Sweep& sweep) override {
+        const auto place = shelf_.put(sweep);
+        if (!place) return std::nullopt;
+        places_.push_back(*place);
+        return places_.size() - 1;
+    }
+    Result<level2::Sweep> get(std::uint64_t place) const override {
+        auto sweep = shelf_.get(places_.at(place));
+        // Ours, whatever it is: the chunks are as they were.
+        if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
+        return sweep;
+    }
+
+  private:
+    SweepShelf& shelf_;
+    std::vector<SweepShelf::Place> places_;
+};
+
+// Null where there is no room for one.
+std::unique_ptr<KeptVolume> kept_volume_in(const fs::path& directory) {
+    auto shelf = SweepShelf::make_in(directory);
+    if (!shelf) return nullptr;
+    auto kept = std::make_unique<KeptVolume>();
+    kept->shelf = std::move(*shelf);
+    return kept;
+}
+
+}  // namespace
+
+ChunkVolume::ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live)
+    : moment_(options.moment),
+      beneath_(options.beneath),
+      kept_(kept_volume_in(options.scratch)),
+      depot_(kept_ ? std::make_unique<ShelfDepot>(*kept_->shelf) : nullptr),
+      live_(with_depot(live)) {}
+
+level2::LiveOptions ChunkVolume::with_depot(level2::LiveOptions live) const {
+    live.depot = depot_.get();
+    return live;
+}
+
+Result<ChunkVolume::Added> ChunkVolume::add(const ChunkPath& chunk, const FileStamp& stamp) {
+    const auto known = files_.find(chunk.path);
+    if (known != files_.end() && known->second.stamp == stamp) {
+        return known->second.is_whole ? Added::added : Added::unfinished;
+    }
+    const auto refused = refused_.find(chunk.path);
+    if (refused != refused_.end() && refused->second == stamp) return Added::not_ours;
+    const auto added = read_and_add(chunk, stamp);
+    if (added && *added == Added::not_ours) refused_.insert_or_assign(chunk.path, stamp);
+    return added;
+}
+
+Result<ChunkVolume::Added> ChunkVolume::read_and_add(const ChunkPath& chunk,
+                                                     const FileStamp& stamp) {
+    const auto bytes = read_beneath(beneath_, chunk.path, most_chunk_bytes);
+    if (!bytes) {
+        const ErrorCode code = bytes.error().code;
+        if (code == ErrorCode::io || is_shortage(code)) return pass_on(bytes);
+        return Added::not_ours;
+    }
+    read_bytes_ += bytes->size();
+    File file{stamp, xxh3_64(*bytes), chunk.name.number, true};
+    const auto added = live_.add(chunk.name.number, chunk.name.kind, *bytes, arrival_of(stamp));
+    if (!added) {
+        const ErrorCode code = added.error().code;
+        if (is_shortage(code)) {
+            return fail(code, "{}: {}", chunk.path.native(), added.error().message);
+        }
+        if (code != ErrorCode::empty && code != ErrorCode::truncated) return Added::not_ours;
+        file.is_whole = false;
+        files_.insert_or_assign(chunk.path, file);
+        return Added::unfinished;
+    }
+    if (*added == level2::LiveVolume::Added::another_volume) return Added::not_ours;
+    files_.insert_or_assign(chunk.path, file);
+    former_waiter_ = std::exchange(waiter_, chunk.path);
+    shelve_new_sweeps();
+    return Added::added;
+}
+
+Result<ChunkVolume::Added> ChunkVolume::add_with_siblings(const ChunkPath& chunk,
+                                                          const FileStamp& stamp) {
+    auto added = add(chunk, stamp);
+    if (!added || *added == Added::not_ours || is_loaded_) return added;
+    if (const Status all = add_siblings(chunk); !all) return pass_on(all);
+    is_loaded_ = true;
+    return added;
+}
+
+bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
+    return volume.read_bytes_ - read_bytes > most_read_at_once ||
+           volume.refused_.size() - refused >= most_refused_at_once;
+}
+
+// `of` becomes the waiter, whatever is added in its name.
+Status ChunkVolume::add_siblings(const ChunkPath& of) {
+    const InOneJob before{read_bytes_, refused_.size()};
+    waiter_ = of.path;
+    const auto found = chunks_beside(of, beneath_);
+    if (!found) {
+        const ErrorCode code = found.error().code;
+        if (code == ErrorCode::io || is_shortage(code)) return pass_on(found);
+        return {};
+    }
+    Status all;
+    for (const ChunkPath& chunk : *found) {
+        if (before.is_enough(*this)) break;
+        const auto stamp = stamp_of(chunk.path, beneath_);
+        if (!stamp && stamp.error().code != ErrorCode::not_found) all = pass_on(stamp);
+        if (!stamp || !stamp->regular) continue;
+        if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
+    }
+    waiter_ = of.path;
+    former_waiter_.clear();  // nobody was told to ask for it
+    const auto now = level2::LiveVolume::Clock::now();
+    if (!all && !fails_since_) fails_since_ = now;
+    // One bad sector must not keep the rest of the volume from everybody.
+    if (!all && now - *fails_since_ < longest_failing) return all;
+    return {};
+}
+
+// What fails here comes in its own name.
+void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
+    const auto now = level2::LiveVolume::Clock::now();
+    const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;
+    if (live_.missing_numbers().empty() || is_early) return;
+    next_catching_up_ = now + between_catching_up;
+    const auto found = chunks_beside(of, beneath_);
+    if (!found) return;
+    const fs::path waiter = waiter_, former = former_waiter_;
+    const InOneJob before{read_bytes_, refused_.size()};
+    for (const ChunkPath& chunk : *found) {
+        if (before.is_enough(*this)) break;
+        if (files_.contains(chunk.path)) continue;
+        const auto stamp = stamp_of(chunk.path, beneath_);
+        if (stamp && stamp->regular) (void)add(chunk, *stamp);
+    }
+    waiter_ = waiter;
+    former_waiter_ = former;
+}
+
+bool ChunkVolume::has_waiter() const {
+    const auto waiter = files_.find(waiter_);
+    return waiter != files_.end() && waiter->second.is_whole;
+}
+
+bool ChunkVolume::is_waiter(const fs::path& path) const {
+    return path == waiter_ && has_waiter();
+}
+
+fs::path ChunkVolume::first_file() const {
+    const auto first =
+        std::min_element(files_.begin(), files_.end(), [](const auto& a, const auto& b) {
+            return std::tuple(!a.second.is_whole, a.second.number, a.first) <
+                   std::tuple(!b.second.is_whole, b.second.number, b.first);
+        });
+    return first->first;
+}
+
+// Sweeps are told apart by their cut, which no late chunk changes.
+void ChunkVolume::shelve(const level2::Sweep& sweep) {
+    if (!kept_) return;
+    const auto place = kept_->shelf->put(sweep);
+    if (!place) return;
+    const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
+    const bool has_moment = sweep.find(moment_) != nullptr;
+    kept_->places.insert_or_assign(cut, *place);
+    kept_->sweeps.insert_or_assign(cut, KeptVolume::Kept{has_moment, sweep.mean_elevation_deg()});
+    if (!has_moment) return;
+    news_.any = true;
+    news_.low = news_.low || kept_->is_lowest(sweep.mean_elevation_deg());
+}
+
+void ChunkVolume::shelve_new_sweeps() {
+    for (const level2::LiveSweep& live : live_.take_sweeps())
+        shelve(live.sweep);
+    if (kept_) kept_->facts = live_.facts();
+}
+
+Result<level2::Decoded> ChunkVolume::finish() {
+    auto decoded = live_.finish();
+    if (!decoded || !kept_) return decoded;
+    kept_->facts = decoded->volume;
+    kept_->facts.sweeps.clear();
+    for (const level2::Sweep& sweep : decoded->volume.sweeps) {
+        if (!kept_->places.contains(
+                static_cast<std::size_t>(std::max(0, sweep.elevation_number)))) {
+            shelve(sweep);
+        }
+    }
+    return decoded;
+}
+
+level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp) {
+    const std::int64_t wall_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                     std::chrono::system_clock::now().time_since_epoch())
+                                     .count();
+    const std::chrono::nanoseconds age{std::max<std::int64_t>(0, wall_ns - stamp.changed_ns)};
+    return level2::LiveVolume::Clock::now() -
+           std::chrono::duration_cast<level2::LiveVolume::Clock::duration>(age);
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,89 @@
+// pipeline/ingest/ingest_context.h -- what the handlers of all kinds of files share: where they
+// write, what they remember of files that grow, and how rows of the catalog are written.
+//
+// Inside the pipeline room only. Thread contract: that of Ingestor; all functions may be called by
+// many threads, for different files.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pipeline/drop/file_facts.h"
+#include "pipeline/ingest/chunk_volumes.h"
+#include "pipeline/ingest/living_files.h"
+#include "pipeline/ingest/open_archives.h"
+#include "pipeline/keep/site_grids.h"
+#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/options/ingest_options.h"
+#include "pipeline/options/ingest_outcome.h"
+#include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
+#include "stormcellar/level2/decode.h"
+
+namespace stormcellar::pipeline {
+
+struct IngestContext {
+    // `store` is null where files are only registered.
+    IngestContext(catalog::CatalogWriter& catalog, cache::StoreWriter* store,
+                  IngestOptions options);
+
+    catalog::CatalogWriter& catalog;
+    cache::StoreWriter* store;
+    const IngestOptions options;
+    MosaicKeeper mosaics;
+    std::optional<SiteGrids> site_grids;  // where there is a store
+    std::optional<LivingFiles> living;    // where volumes are gridded while they grow
+    ChunkVolumes chunks;
+    OpenArchives archives;
+    std::atomic<int> running{0};  // files that are taken in at this moment
+
+    // One file's part of the threads.
+    [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
+    [[nodiscard]] level2::DecodeOptions decode_options_for(const std::string& station) const;
+
+    // The station itself where its data are taken in, else empty.
+    [[nodiscard]] std::string taken_station(const std::string& station) const;
+    // Whole data of this station have come: the rule may admit a new name.
+    void admit(const std::string& station) const;
+
+    // Into the catalog, among those of no known station where the file's is not taken in.
+    Status record(catalog::FileFacts facts);
+    // The file as rejected: gives the outcome, or the error where that cannot be stored.
+    Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
+    // Rejects a file that was not looked at, with a stamp that settles nothing: it is tried when it
+    // is offered again. `size_bytes`: 0 where it is not known.
+    Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why,
+                                        std::uint64_t size_bytes = 0);
+    // The file is incomplete: its row says that it is there, and no more.
+    Result<IngestOutcome> wait_unread(catalog::FileFacts facts, IngestOutcome outcome);
+    // The same without an outcome. What is known stays as it is.
+    Status note_seen(catalog::FileFacts facts);
+    // Marks the rows of a file that is gone, and follows it no more.
+    Status mark_gone(const std::filesystem::path& path);
+};
+
+// Counts a file in while it is taken in.
+class Running {
+  public:
+    explicit Running(IngestContext& context) : count_(context.running) { ++count_; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { --count_; }
+
+  private:
+    std::atomic<int>& count_;
+};
+
+// Of a file that was not decoded: its path and stamp, and this station.
+[[nodiscard]] catalog::FileFacts facts_unread(const std::filesystem::path& path,
+                                              const FileStamp& stamp, std::string station);
+// The station that the file's name gives, or for a chunk that of its directories.
+[[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
+// The reason without the path that begins it: the catalog has the path beside it.
+[[nodiscard]] std::string without_path(const std::string& message,
+                                       const std::filesystem::path& path);
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,34 @@
+#include "pipeline/ingest/show_living.h"
+
+#include "pipeline/keep/keep_rule.h"
+
+namespace stormcellar::pipeline {
+
+Result<bool> show_living(IngestContext& context, const KeptVolume& kept, LivingNews news,
+                         const std::string& file, std::int64_t modified_ns,
+                         IngestOutcome& outcome) {
+    const IngestOptions& options = context.options;
+    // A grid is named by the start in the header: without it, it would stay beside the whole one.
+    if (!kept.facts.header) return false;
+    const std::string station = context.taken_station(kept.facts.station);
+    if (!context.living || !options.own_grids || station.empty()) return false;
+    // With the next sweep, or when the volume has ended. Low sweeps are what is looked at first.
+    if (!news.low && options.living.has_time && !options.living.has_time()) {
+        outcome.living_left_out = true;
+        return false;
+    }
+    const auto last = context.living->last_of(kept.facts.station);
+    std::size_t standing = 0;
+    const auto volume = living_volume(kept, last.get(), &standing);
+    // Its grid would be named by another time than the whole volume's, and stay beside it.
+    if (!volume || volume->start_time() != kept.facts.header->time()) return true;
+    GridSource source{file, modified_ns, true};
+    source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",
+                                       living_note, volume->sweeps.size() - standing, standing));
+    const int threads = context.share_of(options.grid_threads);
+    const Status shown = context.site_grids->keep_living(*volume, source, threads, outcome);
+    if (!shown && shown.error().cause() != Cause::data) return pass_on(shown);
+    return true;
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,131 @@
+#include <chrono>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "pipeline/drop/drop_names.h"
+#include "pipeline/ingest/finish_chunks.h"
+#include "pipeline/ingest/handlers.h"
+#include "pipeline/ingest/show_living.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+using catalog::FileFacts;
+using catalog::FileState;
+using Added = ChunkVolume::Added;
+
+}  // namespace
+
+// A volume that found no place is read at once when its end has come.
+ChunkVolumes::Expected TakeChunk::expected() const {
+    using Expected = ChunkVolumes::Expected;
+    switch (file_.finish) {
+        case Finish::as_it_is:
+            return Expected::nothing;
+        case Finish::when_quiet:
+            return context_.chunks.may_be_due(chunk_) ? Expected::nothing : Expected::more;
+        case Finish::when_it_ends:
+            break;
+    }
+    const bool is_end = chunk_.name.kind == level2::ChunkKind::end;
+    return is_end ? Expected::its_end_is_there : Expected::more;
+}
+
+Result<IngestOutcome> TakeChunk::take() {
+    const std::string path_station = context_.taken_station(station_of_path(chunk_.path));
+    const ChunkVolumes::Expected to_come = expected();
+    while (true) {
+        const auto shared = context_.chunks.find(chunk_, path_station, to_come);
+        outcome_.given_up += context_.chunks.take_given_up();
+        if (!shared) return wait_for_place();
+        auto volume = shared->lock();
+        if (!volume->is_closed()) return add_to(shared, volume);
+        // Another worker has finished it while this one waited for it.
+        const auto settled =
+            context_.catalog.is_settled(chunk_.path, stamp_.size_bytes, stamp_.modified_ns);
+        if (!settled) return pass_on(settled);
+        if (*settled) {
+            outcome_.ending = ended::Unchanged{};
+            return std::move(outcome_);
+        }
+        context_.chunks.forget(chunk_, shared);
+    }
+}
+
+// One chunk of the volume, the newest, is offered again on behalf of all.
+Result<IngestOutcome> TakeChunk::wait_for_place() {
+    outcome_.instead_of = context_.chunks.wait_for_place(chunk_);
+    return context_.wait_unread(facts_unread(chunk_.path, stamp_, station_of_path(chunk_.path)),
+                                std::move(outcome_));
+}
+
+Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
+                                        Guarded<ChunkVolume>::Locked& volume) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto added = volume->add_with_siblings(chunk_, stamp_);
+    if (!added) return pass_on(added);
+    if (*added == Added::not_ours && volume->files().empty())
+        context_.chunks.forget(chunk_, shared);
+    // One that is still not whole when nothing more is waited for is no chunk either.
+    const bool is_no_chunk =
+        *added == Added::not_ours || (*added == Added::unfinished && file_.may_be_partial());
+    if (is_no_chunk) {
+        volume.unlock();
+        return pipeline::take(context_, file_, kind_by_itself(context_, file_, stamp_));
+    }
+    outcome_.decode_s = seconds_since(start);
+    if (*added == Added::unfinished) {
+        outcome_.ending = ended::Incomplete{};
+        return std::move(outcome_);
+    }
+    volume->add_what_is_missing(chunk_);
+    const std::string station = station_of(*volume, chunk_);
+    outcome_.station = context_.taken_station(station);
+    const bool is_over = volume->is_whole() || file_.finish == Finish::as_it_is ||
+                         (file_.finish == Finish::when_quiet && volume->is_due());
+    return is_over ? finish(shared, *volume, station) : show(shared, *volume, station);
+}
+
+Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
+                                        const std::string& station) {
+    // A volume that could not be stored is put together again. Until then it is found, and waited
+    // for: two of one volume would overwrite each other's rows.
+    volume.close();
+    auto finished =
+        finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));
+    // Nobody need ask for it any more.
+    if (finished) finished->instead_of = volume.take_former_waiter();
+    context_.chunks.forget(chunk_, shared);
+    return finished;
+}
+
+// The volume goes on growing.
+Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
+                                      const std::string& station) {
+    FileFacts facts = facts_unread(chunk_.path, stamp_, station);
+    facts.content_hash = volume.files().at(chunk_.path).content_hash;
+    facts.state = FileState::seen;
+    if (Status stored = context_.record(facts); !stored) return pass_on(stored);
+    const bool has_place = context_.chunks.grew(chunk_, shared, volume.growth(), outcome_.station);
+    if (!has_place) volume.close();
+    outcome_.goes_on = has_place && volume.has_sweeps();
+    outcome_.given_up += context_.chunks.take_given_up();
+    if (volume.news().any && volume.kept() != nullptr) {
+        const auto shown =
+            show_living(context_, *volume.kept(), volume.news(),
+                        volume.first_file().filename().string(), facts.modified_ns, outcome_);
+        if (!shown) return pass_on(shown);
+        if (*shown) volume.set_shown();
+    }
+    // One chunk of a volume is offered again on behalf of all.
+    if (!volume.has_waiter()) volume.set_waiter(chunk_.path);
+    if (volume.is_waiter(chunk_.path)) {
+        outcome_.ending = ended::Incomplete{};
+        outcome_.instead_of = volume.take_former_waiter();
+    } else {
+        outcome_.ending = ended::Registered{};
+    }
+    return std::move(outcome_);
+}
+
+}  // namespace stormcellar::pipeline

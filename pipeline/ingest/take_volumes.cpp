@@ -1,0 +1,191 @@
+#include "pipeline/ingest/take_volumes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <fmt/ranges.h>
+
+#include "base/stopwatch.h"
+#include "level2/decode/volume_checks.h"
+#include "level2/messages/message_2.h"
+
+namespace stormcellar::pipeline {
+namespace {
+
+using catalog::FileState;
+
+// A radar's file holds one, and one that somebody joined some hours. All are gridded in one job.
+constexpr std::size_t most_volumes = 64;
+
+bool has_moment(const level2::Volume& volume, level2::Moment moment) {
+    return std::any_of(volume.sweeps.begin(), volume.sweeps.end(),
+                       [&](const level2::Sweep& sweep) { return sweep.find(moment) != nullptr; });
+}
+
+// The row and the log say whose data stand among those of no known station.
+std::string of_other_station(const std::string& station, const std::string& reason) {
+    const std::string text = fmt::format("of {}, of which no data are taken in", station);
+    return reason.empty() ? text : text + "; " + reason;
+}
+
+// A radar's record holds 120 radials at most.
+constexpr std::size_t most_radials_of_a_chunk = 120;
+
+bool is_lone_chunk(const level2::Decoded& decoded) {
+    return !decoded.volume.header && decoded.report.ldm_records == 1U &&
+           !decoded.volume.sweeps.empty() &&
+           decoded.volume.radial_count() <= most_radials_of_a_chunk;
+}
+
+constexpr std::string_view lone_chunk_text =
+    "looks like one chunk of a volume: chunks are put together where their names hold "
+    "YYYYMMDD-HHMMSS-NUMBER-KIND or LDM's key";
+
+}  // namespace
+
+Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial partial) {
+    note(decoded);
+    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    if (volumes.size() > most_volumes) {
+        return reject(ErrorCode::unsupported,
+                      fmt::format("holds {} volumes, and a raw file may hold {}", volumes.size(),
+                                  most_volumes));
+    }
+    describe(volumes);
+    facts_.state = FileState::seen;
+    if (Status stored = context_.record(facts_); !stored) return pass_on(stored);
+    const bool has_ended = !volumes.empty() && level2::has_ended(volumes.back());
+    if (!has_ended && partial == MayBePartial::no) {
+        outcome_.ending = ended::Incomplete{};
+        return std::move(outcome_);
+    }
+    facts_.state = reading_.is_complete ? FileState::complete : FileState::partial;
+    if (context_.store == nullptr) {
+        outcome_.ending = ended::Registered{};
+        return settle();
+    }
+    outcome_.ending = ended::NoMoment{};
+    if (facts_.volumes.empty()) return settle();
+    return grid_all(volumes);
+}
+
+// What the report says of the file as a whole.
+void TakeVolumes::note(const level2::Decoded& decoded) {
+    facts_.reason = reason_of(decoded.report);
+    outcome_.lone_chunk = is_lone_chunk(decoded);
+    if (outcome_.lone_chunk) {
+        facts_.reason = fmt::format("{}{}{}", lone_chunk_text, facts_.reason.empty() ? "" : "; ",
+                                    facts_.reason);
+    }
+    reading_.is_complete = decoded.report.complete;
+    reading_.damaged = decoded.report.damaged;
+    if (decoded.report.rda_status)
+        reading_.troubles = level2::rda_troubles(*decoded.report.rda_status);
+}
+
+// Into the rows and the outcome: what the volumes are, and whose.
+void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
+    for (const level2::Volume& volume : volumes) {
+        if (volume.radial_count() == 0) continue;  // metadata alone are no volume
+        facts_.volumes.push_back(facts_of(volume, reading_.damaged));
+        outcome_.newest_radial = std::max(outcome_.newest_radial, facts_.volumes.back().end_time);
+    }
+    for (const level2::Volume& volume : volumes)
+        context_.admit(volume.station);
+    if (!volumes.empty()) {
+        facts_.station = volumes.front().station;
+        outcome_.volume_time = volumes.front().start_time();
+    }
+    outcome_.station = context_.taken_station(facts_.station);
+    if (!facts_.station.empty() && outcome_.station.empty())
+        facts_.reason = of_other_station(facts_.station, facts_.reason);
+    outcome_.reason = facts_.reason;
+}
+
+// As grids keep them.
+std::vector<std::string> TakeVolumes::troubles_of(const std::string& station) const {
+    if (reading_.troubles.empty()) return {};
+    return {fmt::format("{}: {}", station, fmt::join(reading_.troubles, ", "))};
+}
+
+bool TakeVolumes::is_partial(const level2::Volume& volume) const {
+    return reading_.damaged || !level2::is_complete(volume);
+}
+
+Result<IngestOutcome> TakeVolumes::reject(ErrorCode code, std::string why) {
+    return context_.reject(facts_, {code, std::move(why)}, std::move(outcome_));
+}
+
+Result<IngestOutcome> TakeVolumes::settle() {
+    if (Status stored = context_.record(facts_); !stored) return pass_on(stored);
+    return std::move(outcome_);
+}
+
+// Grids first, then settles the catalog's row: a crash between the two makes the work be done
+// again, never lost.
+Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
+    bool has_other_station = false;
+    for (const level2::Volume& volume : volumes) {
+        if (!volume.station.empty() && context_.taken_station(volume.station).empty()) {
+            has_other_station = true;
+            continue;
+        }
+        if (!volume.start_time()) {
+            return reject(ErrorCode::corrupt, "cannot be gridded: no time in it is plausible");
+        }
+        if (const Status gridded = grid(volume); !gridded) {
+            if (gridded.error().cause() != Cause::data) return pass_on(gridded);
+            return reject(gridded.error().code, "cannot be gridded: " + gridded.error().message);
+        }
+        if (const Status kept = keep_mosaics(volume); !kept) return pass_on(kept);
+    }
+    const bool has_part = !context_.options.own_grids && !outcome_.partials.empty();
+    if (!outcome_.grids.empty() || has_part || outcome_.not_kept > 0) {
+        outcome_.ending = ended::Gridded{};
+    } else if (has_other_station && std::holds_alternative<ended::NoMoment>(outcome_.ending)) {
+        outcome_.ending = ended::OtherStation{};
+    }
+    return settle();
+}
+
+// The site's own grid, where such grids are made and the volume has the moment.
+Status TakeVolumes::grid(const level2::Volume& volume) {
+    if (!context_.options.own_grids) {
+        (void)SiteGrids::has_place(volume, outcome_);
+        return {};
+    }
+    if (!has_moment(volume, context_.options.moment)) return {};
+    const GridSource source{facts_.path.filename().string(), believed_ns(facts_.modified_ns),
+                            is_partial(volume), troubles_of(volume.station)};
+    return context_.site_grids->keep(volume, source,
+                                     context_.share_of(context_.options.grid_threads), outcome_);
+}
+
+// What a domain cannot use is no reason to reject the file, whose own grid stands.
+Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
+    const auto antenna = level2::antenna_position(volume);
+    if (context_.mosaics.is_idle() || !antenna || volume.station.empty()) return {};
+    const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
+                                  antenna->altitude_m};
+    VolumeSource source{volume, site, facts_.path.filename().string()};
+    source.modified_ns = believed_ns(facts_.modified_ns);
+    source.partial = is_partial(volume);
+    source.radar_troubles = troubles_of(site.icao);
+    if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
+    const auto start = std::chrono::steady_clock::now();
+    const auto kept =
+        context_.mosaics.take_in(source, context_.share_of(context_.options.grid_threads));
+    outcome_.mosaic_s += seconds_since(start);
+    if (!kept) {
+        if (kept.error().cause() != Cause::data) return pass_on(kept);
+        outcome_.reason = "in no mosaic: " + kept.error().message;
+        return {};
+    }
+    outcome_.partials.insert(outcome_.partials.end(), kept->partials.begin(), kept->partials.end());
+    if (!kept->problems.empty()) outcome_.reason = "left out: " + kept->problems.front();
+    outcome_.frames.insert(outcome_.frames.end(), kept->frames.begin(), kept->frames.end());
+    return {};
+}
+
+}  // namespace stormcellar::pipeline

@@ -1,0 +1,53 @@
+// pipeline/ingest/take_volumes.h -- decoded volumes of one file -> rows of the catalog, the grids
+// of their sites, and mosaics.
+//
+// Inside the pipeline room only. Thread contract: an object by one thread; the context must outlive
+// it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/ingest/ingest_context.h"
+#include "stormcellar/level2/decode.h"
+
+namespace stormcellar::pipeline {
+
+// Whether a volume that has not ended is gridded, or waited for.
+enum class MayBePartial : bool { no, yes };
+
+// Made for one file, and used once.
+class TakeVolumes {
+  public:
+    // `facts`: of the file, its contents' hash included. `outcome`: what is known of it so far.
+    TakeVolumes(IngestContext& context, catalog::FileFacts facts, IngestOutcome outcome)
+        : context_(context), facts_(std::move(facts)), outcome_(std::move(outcome)) {}
+
+    // Errors: those of Ingestor::ingest(). A file that holds too much is rejected.
+    Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
+
+  private:
+    // What was met in reading the file, in any of its volumes.
+    struct Reading {
+        bool is_complete = false;
+        bool damaged = false;               // bytes are lost
+        std::vector<std::string> troubles;  // of the radar, by its last message 2
+    };
+
+    void note(const level2::Decoded& decoded);
+    void describe(const std::vector<level2::Volume>& volumes);
+    [[nodiscard]] std::vector<std::string> troubles_of(const std::string& station) const;
+    [[nodiscard]] bool is_partial(const level2::Volume& volume) const;
+    Result<IngestOutcome> reject(ErrorCode code, std::string why);
+    Result<IngestOutcome> settle();
+    Result<IngestOutcome> grid_all(const std::vector<level2::Volume>& volumes);
+    Status grid(const level2::Volume& volume);
+    Status keep_mosaics(const level2::Volume& volume);
+
+    IngestContext& context_;
+    catalog::FileFacts facts_;
+    IngestOutcome outcome_;
+    Reading reading_;
+};
+
+}  // namespace stormcellar::pipeline
