@@ -6,7 +6,9 @@
 #include <map>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "base/name_list.h"
 #include "base/stopwatch.h"
 #include "cli/shared/commands.h"
 #include "grid/plan/effects.h"
@@ -151,12 +153,14 @@ Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
 
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
     app.add_option("--overlap", options.overlap,
-                   "Where several sites see a cell: distance-weighted (the default), mean, maximum "
-                   "or nearest (all that VEL and PHI allow)");
+                   fmt::format("Where several sites see a cell: {} (the default; of VEL and PHI "
+                               "nearest, which is all that they allow)",
+                               names_in(grid::overlap_facts, ", ", " or ")));
     app.add_option("--overlap-km", options.overlap_km,
                    "L of the weight exp(-r^2/L^2) of a site r away; else 250");
     app.add_option("--time-method", effects.time_method,
-                   "Between two volumes of a site: advected (the default), blend or nearest");
+                   fmt::format("Between two volumes of a site: {} (the default)",
+                               names_in(grid::time_method_facts, ", ", " or ")));
 }
 
 Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const EffectOptions& effects,
@@ -178,10 +182,8 @@ Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const Eff
     if (!options.overlap.empty()) {
         const auto overlap = grid::overlap_from_name(options.overlap);
         if (!overlap) {
-            return fail(ErrorCode::bad_argument,
-                        "--overlap takes one of distance-weighted, mean, maximum, nearest, not "
-                        "'{}'",
-                        options.overlap);
+            return fail(ErrorCode::bad_argument, "--overlap takes one of {}, not '{}'",
+                        names_in(grid::overlap_facts), options.overlap);
         }
         mosaic.overlap = *overlap;
     }

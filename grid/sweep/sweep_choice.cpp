@@ -77,11 +77,11 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
     return reach_m;
 }
 
-// Echo from beyond it is lost, or sorted out by what a surveillance sweep saw; velocity, for which
-// it is short by nature, is not chosen by it.
+// Echo from beyond it is lost, or sorted out by what a surveillance sweep saw; a Doppler moment,
+// for which it is short by nature, is not chosen by it.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {
-    if (moment == level2::Moment::vel || moment == level2::Moment::sw) return 0;
+    if (level2::facts_of(moment).is_doppler) return 0;
     std::vector<float> ranges_m;
     for (const std::uint32_t radial : radials) {
         const float range_m = sweep.radials[radial].unambiguous_range_m;

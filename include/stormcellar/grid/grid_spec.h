@@ -27,8 +27,32 @@ enum class Projection {
     latitude_longitude = 1,     // no projection: rows and columns regular in degrees
     lambert_conformal = 2,      // conic, origin at the centre; true to scale along the parallels
 };
-// The CF grid_mapping_name but for lambert_conformal: "azimuthal_equidistant" and so on.
-[[nodiscard]] std::string_view projection_name(Projection projection);
+
+// What is known of a projection beside its formulas, which grid/cells/projection.cpp has. The one
+// list of projections; docs/recipes-facts.md says how to add one.
+struct ProjectionFacts {
+    Projection projection = Projection::azimuthal_equidistant;
+    std::string_view name = {};                        // in options, domain files and JSON
+    std::array<std::string_view, 2> short_names = {};  // on the command line too; empty: none
+    bool in_degrees = false;       // rows and columns are regular in degrees, else in metres
+    bool takes_parallels = false;  // GridSpec::parallels_deg
+    bool is_polar = false;         // true to distance and azimuth from the centre
+};
+inline constexpr auto projection_facts = std::to_array<ProjectionFacts>({
+    {Projection::azimuthal_equidistant, "azimuthal_equidistant", {"aeqd"}, false, false, true},
+    {Projection::latitude_longitude, "latitude_longitude", {"lat-lon", "latlon"}, true},
+    {Projection::lambert_conformal, "lambert_conformal", {"lambert", "lcc"}, false, true},
+});
+inline constexpr ProjectionFacts no_projection = {{}, "unknown", {}};
+// A number of no projection, which a damaged file may hold, has those of `no_projection`.
+[[nodiscard]] constexpr const ProjectionFacts& facts_of(Projection projection) {
+    const auto at = static_cast<std::size_t>(projection);
+    return at < projection_facts.size() ? projection_facts[at] : no_projection;
+}
+[[nodiscard]] constexpr std::string_view projection_name(Projection projection) {
+    return facts_of(projection).name;
+}
+// By the full name alone.
 [[nodiscard]] std::optional<Projection> projection_from_name(std::string_view name);
 
 struct GridSpec {
@@ -38,9 +62,9 @@ struct GridSpec {
     Projection projection = Projection::azimuthal_equidistant;
     double center_latitude_deg = 0;
     double center_longitude_deg = 0;
-    double spacing_m = 1000;  // of a plane projection; 0 for latitude_longitude
-    double spacing_deg = 0;   // of latitude_longitude, along both; else 0
-    // Standard parallels of lambert_conformal, which may be one and the same; else 0.
+    double spacing_m = 1000;  // of a plane projection; 0 for one in degrees
+    double spacing_deg = 0;   // of a projection in degrees, along both; else 0
+    // Standard parallels of a projection that takes them, which may be one and the same; else 0.
     std::array<double, 2> parallels_deg{};
     int nx = 460;
     int ny = 460;
@@ -50,19 +74,20 @@ struct GridSpec {
     double offset_x_cells = 0;
     double offset_y_cells = 0;
 
+    [[nodiscard]] bool in_degrees() const { return facts_of(projection).in_degrees; }
     [[nodiscard]] int nz() const { return static_cast<int>(levels_m.size()); }
     [[nodiscard]] std::size_t column_count() const {
         return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
     }
     [[nodiscard]] std::size_t cell_count() const { return column_count() * levels_m.size(); }
 
-    // A column in metres. Of a plane projection this is its spacing; of latitude_longitude its
+    // A column in metres. Of a plane projection this is its spacing; of one in degrees its
     // width and height at the grid's centre, for all that takes the grid as a plane (pictures).
     [[nodiscard]] double cell_width_m() const {
-        return projection == Projection::latitude_longitude ? width_at_center_m() : spacing_m;
+        return in_degrees() ? width_at_center_m() : spacing_m;
     }
     [[nodiscard]] double cell_height_m() const {
-        return projection == Projection::latitude_longitude ? height_at_center_m() : spacing_m;
+        return in_degrees() ? height_at_center_m() : spacing_m;
     }
     // The column and the row of the centre, which may lie between two and beyond the grid. Exact.
     [[nodiscard]] double center_x() const { return 0.5 * (nx - 1) - offset_x_cells; }

@@ -10,6 +10,8 @@
 //   averaging      in the moment's own unit (dBZ), or in linear Z, which is what adds up
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,7 +39,20 @@ using ChosenCircle = Chosen<true, false>;
 // What a method's name says of its cells; point for a name that none has.
 [[nodiscard]] CellExtent cell_extent_of(std::string_view method_name);
 
-// "nearest", "linear", "eight-point", "beam-weighted".
+struct InterpolationFacts {
+    Interpolation interpolation = Interpolation::nearest;
+    std::string_view name = {};
+    bool takes_one_gate = false;  // of each sweep, so that whole columns are filled at once
+};
+inline constexpr auto interpolation_facts = std::to_array<InterpolationFacts>({
+    {Interpolation::nearest, "nearest", true},
+    {Interpolation::linear, "linear", true},
+    {Interpolation::eight_point, "eight-point"},
+    {Interpolation::beam_weighted, "beam-weighted"},
+});
+[[nodiscard]] constexpr const InterpolationFacts& facts_of(Interpolation interpolation) {
+    return interpolation_facts[static_cast<std::size_t>(interpolation)];
+}
 [[nodiscard]] std::string_view interpolation_name(Interpolation interpolation);
 [[nodiscard]] std::optional<Interpolation> interpolation_from_name(std::string_view name);
 

@@ -31,6 +31,7 @@
 //          weights differ by less than 1e-5 of themselves. What partials were off by is not in it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,10 +46,20 @@
 namespace stormcellar::grid {
 
 enum class Overlap { mean, maximum, nearest, distance_weighted };
-// "mean", "maximum", "nearest", "distance-weighted".
+struct OverlapFacts {
+    Overlap overlap = Overlap::mean;
+    std::string_view name = {};
+};
+inline constexpr auto overlap_facts = std::to_array<OverlapFacts>({
+    {Overlap::mean, "mean"},
+    {Overlap::maximum, "maximum"},
+    {Overlap::nearest, "nearest"},
+    {Overlap::distance_weighted, "distance-weighted"},
+});
 [[nodiscard]] std::string_view overlap_name(Overlap overlap);
 [[nodiscard]] std::optional<Overlap> overlap_from_name(std::string_view name);
-// The default for a moment: nearest for VEL and PHI, else distance_weighted.
+// The default for a moment: nearest where values of different sites are not to be mixed (VEL and
+// PHI), else distance_weighted.
 [[nodiscard]] Overlap default_overlap(level2::Moment moment);
 
 struct MosaicOptions {

@@ -11,15 +11,9 @@
 #include "stormcellar/render/colour_table.h"
 #include "stormcellar/render/integration.h"
 #include "stormcellar/render/light.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::render {
-
-// render/products/flat_field.h says what each is; section: render/products/section.h.
-enum class Product { volume, composite, cappi, section, echo_top, vil, lowest_seen, highest_seen };
-[[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
-[[nodiscard]] std::string_view product_name(Product product);
-// A map of the grid's columns, seen from above: all but volume and section.
-[[nodiscard]] bool is_map(Product product);
 
 // Where a camera stands: metres east and north of the grid's middle, height above sea level.
 struct Eye {
@@ -44,7 +38,7 @@ struct SectionLine {
 
 struct Scene {
     Product product = Product::volume;
-    level2::Moment moment = level2::Moment::ref;        // of the grid; echo_top and vil need REF
+    level2::Moment moment = level2::Moment::ref;        // of the grid; some products need REF
     std::optional<ColourTable> colours = std::nullopt;  // none: see colours_of()
     double cappi_height_m = 3000;                       // above sea level; -1..60 km
     std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
@@ -65,10 +59,5 @@ struct Scene {
 };
 // bad_argument names the first field that is outside its range; NaN is outside every range.
 [[nodiscard]] Status validate(const Scene& scene);
-
-// The scene's table, or else the product's, or else the moment's.
-[[nodiscard]] const ColourTable& colours_of(const Scene& scene);
-// Of what the product shows: "dBZ", "km"; empty for a number without one.
-[[nodiscard]] std::string unit_shown(const Scene& scene);
 
 }  // namespace stormcellar::render
