@@ -136,6 +136,15 @@ void note_left_out(const MosaicSources& sources, const grid::Grid& grid,
     }
 }
 
+// The moments whose values of different sites are not to be mixed: "VEL and PHI".
+std::string never_mixed() {
+    std::vector<level2::MomentFacts> apart;
+    for (const level2::MomentFacts& facts : level2::moment_facts) {
+        if (grid::default_overlap(facts.moment) == grid::Overlap::nearest) apart.push_back(facts);
+    }
+    return names_in(apart, ", ", " and ");
+}
+
 }  // namespace
 
 Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
@@ -152,10 +161,10 @@ Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
 }
 
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
-    app.add_option("--overlap", options.overlap,
-                   fmt::format("Where several sites see a cell: {} (the default; of VEL and PHI "
-                               "nearest, which is all that they allow)",
-                               names_in(grid::overlap_facts, ", ", " or ")));
+    app.add_option(
+        "--overlap", options.overlap,
+        fmt::format("Where several sites see a cell: {} (the default); {} allow nearest alone",
+                    names_in(grid::overlap_facts, ", ", " or "), never_mixed()));
     app.add_option("--overlap-km", options.overlap_km,
                    "L of the weight exp(-r^2/L^2) of a site r away; else 250");
     app.add_option("--time-method", effects.time_method,

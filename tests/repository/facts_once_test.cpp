@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,6 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include "grid/mosaic/time_interpolation.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/grid/method.h"
+#include "stormcellar/grid/mosaic.h"
 #include "stormcellar/level2/moment.h"
 #include "stormcellar/render/product.h"
 #include "tests/testing/data.h"
@@ -176,6 +181,33 @@ TEST(FactsOnce, TheCheckSeesWhatItLooksFor) {
     EXPECT_TRUE(has_default_over_a_table(split.code));
     EXPECT_FALSE(has_default_over_a_table("switch (a) { case Moment::ref: break; } default:"));
     EXPECT_GT(split_sources().size(), 500U);
+}
+
+// How many enumerators an enumeration has, by its text.
+std::size_t enumerators_in(const std::string& header, const std::string& name) {
+    const std::string& code = split_sources().at(header).code;
+    const std::regex definition("enum class " + name + R"( [^{;]*\{([^}]*)\})");
+    std::smatch match;
+    if (!std::regex_search(code, match, definition)) return 0;
+    static const std::regex enumerator(R"(\w+\s*(= \d+)?\s*(,|$))");
+    const std::string list = match[1];
+    return static_cast<std::size_t>(
+        std::distance(std::sregex_iterator(list.begin(), list.end(), enumerator), {}));
+}
+
+TEST(FactsOnce, EveryEnumeratorHasARow) {
+    EXPECT_EQ(enumerators_in("include/stormcellar/level2/moment.h", "Moment"),
+              level2::moment_facts.size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/render/product.h", "Product"),
+              render::all_products().size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/grid/grid_spec.h", "Projection"),
+              grid::projection_facts.size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/grid/method.h", "Interpolation"),
+              grid::interpolation_facts.size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/grid/mosaic.h", "Overlap"),
+              grid::overlap_facts.size());
+    EXPECT_EQ(enumerators_in("grid/mosaic/time_interpolation.h", "TimeMethod"),
+              grid::time_method_facts.size());
 }
 
 // The files of a recipe: those in the numbered list below its heading.
