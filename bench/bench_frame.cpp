@@ -34,11 +34,11 @@ grid::GridSpec spec_of(Projection projection) {
     grid::GridSpec spec = grid::default_spec(36.1, -96.2);
     spec.projection = projection;
     spec.nx = spec.ny = 512;
-    if (projection == Projection::latitude_longitude) {
+    if (spec.in_degrees()) {
         spec.spacing_m = 0;
         spec.spacing_deg = 0.01;
     }
-    if (projection == Projection::lambert_conformal) spec.parallels_deg = {33, 45};
+    if (grid::facts_of(projection).takes_parallels) spec.parallels_deg = {33, 45};
     return spec;
 }
 
@@ -91,10 +91,8 @@ int run(int argc, char** argv) {
     if (!request) return usage_status;
     Table table(request->json);
     int status = 0;
-    for (const Projection projection :
-         {Projection::azimuthal_equidistant, Projection::latitude_longitude,
-          Projection::lambert_conformal}) {
-        status = std::max(status, measure(projection, request->runs, table));
+    for (const grid::ProjectionFacts& facts : grid::projection_facts) {
+        status = std::max(status, measure(facts.projection, request->runs, table));
     }
     table.finish();
     return status;

@@ -9,6 +9,8 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include "stormcellar/level2/moment.h"
+
 namespace stormcellar::bench {
 
 namespace fs = std::filesystem;
@@ -22,7 +24,8 @@ Status GridWatch::watch(const fs::path& cache, std::span<const std::string> stat
     descriptor_ = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     for (const std::string& station : stations) {
         for (const std::string& day : days) {
-            const fs::path directory = cache / station / "REF" / day;
+            const fs::path directory =
+                cache / station / level2::moment_name(level2::Moment::ref) / day;
             std::error_code problem;
             fs::create_directories(directory, problem);
             if (::inotify_add_watch(descriptor_, directory.c_str(), IN_MOVED_TO) < 0) {

@@ -273,7 +273,7 @@ std::vector<std::byte> encode_description(const GridDescription& description) {
         append_text(bytes, RecordKind::note, note);
     for (const auto& trouble : provenance.radar_troubles)
         append_text(bytes, RecordKind::radar_trouble, trouble);
-    if (description.spec.projection == grid::Projection::lambert_conformal) {
+    if (grid::facts_of(description.spec.projection).takes_parallels) {
         append_record(bytes, RecordKind::parallels,
                       std::as_bytes(std::span(description.spec.parallels_deg)));
     }

@@ -27,7 +27,6 @@ inline constexpr std::uint64_t max_description_bytes = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t max_bricks = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t max_metadata_bytes = std::uint64_t{1} << 29;
 inline constexpr std::uint64_t status_block_bytes = 1024;
-inline constexpr std::uint32_t projection_count = 3;
 
 // Bits of required_features.
 inline constexpr std::uint32_t feature_window = 1;  // the offsets are not both 0

@@ -45,14 +45,15 @@ Status check_identity(const FileHeader& header) {
     if (is_window != ((header.required_features & format::feature_window) != 0)) {
         return fail(ErrorCode::corrupt, "the header contradicts itself on being a window");
     }
-    const bool possible =
-        header.header_size == format::page_size && header.nx >= 1 && header.nx <= 16384 &&
-        header.ny >= 1 && header.ny <= 16384 && header.nz >= 1 && header.nz <= 1024 &&
-        (header.code_bytes == 1 || header.code_bytes == 2) &&
-        header.brick_edge == grid::brick_edge && header.projection < format::projection_count &&
-        header.moment < static_cast<std::uint32_t>(level2::moment_count) &&
-        header.description_size <= format::max_description_bytes &&
-        header.states_size <= format::max_metadata_bytes;
+    const bool possible = header.header_size == format::page_size && header.nx >= 1 &&
+                          header.nx <= 16384 && header.ny >= 1 && header.ny <= 16384 &&
+                          header.nz >= 1 && header.nz <= 1024 &&
+                          (header.code_bytes == 1 || header.code_bytes == 2) &&
+                          header.brick_edge == grid::brick_edge &&
+                          header.projection < grid::projection_facts.size() &&
+                          header.moment < static_cast<std::uint32_t>(level2::moment_count) &&
+                          header.description_size <= format::max_description_bytes &&
+                          header.states_size <= format::max_metadata_bytes;
     if (!possible) return fail(ErrorCode::corrupt, "the header holds impossible sizes");
     return {};
 }
@@ -109,7 +110,7 @@ GridDescription description_of(const FileHeader& header, std::span<const std::by
     spec.projection = static_cast<grid::Projection>(header.projection);
     spec.center_latitude_deg = header.center_latitude_deg;
     spec.center_longitude_deg = header.center_longitude_deg;
-    const bool in_degrees = spec.projection == grid::Projection::latitude_longitude;
+    const bool in_degrees = spec.in_degrees();
     spec.spacing_m = in_degrees ? 0 : header.spacing;
     spec.spacing_deg = in_degrees ? header.spacing : 0;
     spec.nx = static_cast<int>(header.nx);

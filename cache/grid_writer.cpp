@@ -123,8 +123,7 @@ format::FileHeader header_of(const GridDescription& description, const BrickView
     header.nz = static_cast<std::uint32_t>(spec.nz());
     header.center_latitude_deg = spec.center_latitude_deg;
     header.center_longitude_deg = spec.center_longitude_deg;
-    header.spacing =
-        spec.projection == grid::Projection::latitude_longitude ? spec.spacing_deg : spec.spacing_m;
+    header.spacing = spec.in_degrees() ? spec.spacing_deg : spec.spacing_m;
     header.moment = static_cast<std::uint32_t>(description.moment);
     header.code_bytes = static_cast<std::uint32_t>(view.quantization.code_bytes);
     header.first_value = view.quantization.first_value;

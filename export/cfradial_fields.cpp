@@ -16,9 +16,9 @@ using level2::SweepMoment;
 
 // No code is negative.
 constexpr int fill_code = -1;
-// The flags of CFP, codes 0 to 7, stand in its status variable as this plus the code.
+// Flags of the clutter filter, which CFP has below its first valid code, stand in the status
+// variable as this plus the code.
 constexpr int first_filter_flag = 16;
-constexpr int filter_flags = 8;
 // A chunk holds at most half a sweep of half-degree radials. Sweeps and chunks do not end together,
 // so the last two chunks are kept at hand: an int takes four bytes.
 constexpr std::size_t chunk_rows = 360;
@@ -30,9 +30,13 @@ struct NamedStatus {
     std::string meaning;
 };
 
+bool has_flags(Moment moment) {
+    return level2::facts_of(moment).first_valid_code > 2;
+}
+
 std::vector<NamedStatus> states_of(Moment moment) {
     constexpr auto number = [](GateStatus status) { return static_cast<int>(status); };
-    if (moment != Moment::cfp) {
+    if (!has_flags(moment)) {
         return {{number(GateStatus::valid), "valid"},
                 {number(GateStatus::below_threshold), "below_threshold"},
                 {number(GateStatus::range_folded), "range_folded"},
@@ -40,14 +44,14 @@ std::vector<NamedStatus> states_of(Moment moment) {
     }
     std::vector<NamedStatus> states = {{number(GateStatus::valid), "valid"},
                                        {number(GateStatus::no_data), "no_data"}};
-    for (int flag = 0; flag < filter_flags; ++flag)
+    for (int flag = 0; flag < level2::facts_of(moment).first_valid_code; ++flag)
         states.push_back({first_filter_flag + flag, fmt::format("filter_flag_{}", flag)});
     return states;
 }
 
 int status_of(const SweepMoment& moment, std::size_t radial, std::int32_t gate) {
     const GateStatus status = moment.status(radial, gate);
-    const bool flag = moment.moment == Moment::cfp && status == GateStatus::no_data &&
+    const bool flag = has_flags(moment.moment) && status == GateStatus::no_data &&
                       gate < moment.gate_counts[radial];
     return flag ? first_filter_flag + moment.code(radial, gate) : static_cast<int>(status);
 }
@@ -89,7 +93,7 @@ int define_codes(const CfradialParts& parts, const CfradialField& field) {
     file.number(codes, "level2_scale", static_cast<double>(kind.scale));
     file.number(codes, "level2_offset", static_cast<double>(kind.offset));
     file.number(codes, "level2_word_size", kind.word_size_bits);
-    if (kind.moment == Moment::phi) {
+    if (level2::facts_of(kind.moment).circle == level2::Circle::full_turn) {
         file.text(codes, "field_folds", "true");
         file.number(codes, "fold_limit_lower", 0.0);
         file.number(codes, "fold_limit_upper", 360.0);
@@ -114,7 +118,7 @@ int define_status(const CfradialParts& parts, const CfradialField& field) {
     file.text(status, "is_quality_field", "true");
     file.text(status, "qualified_variables", field.name);
     file.text(status, "comment",
-              field.kind->moment == Moment::cfp
+              has_flags(field.kind->moment)
                   ? "no_data: the radial has no such gate; filter_flag_N: code N, which is a flag "
                     "of the clutter filter and no power (ICD 2620002)"
                   : "below_threshold: seen, code 0; range_folded: echo from beyond the unambiguous "

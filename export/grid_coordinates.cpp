@@ -10,8 +10,21 @@
 namespace stormcellar::netcdf {
 namespace {
 
-bool in_degrees(const grid::GridSpec& spec) {
-    return spec.projection == grid::Projection::latitude_longitude;
+// How CF names a projection and the longitude of its origin (CF-1.8, appendix F).
+struct MappingNames {
+    const char* mapping;
+    const char* origin_longitude;
+};
+MappingNames names_of(grid::Projection projection) {
+    switch (projection) {
+        case grid::Projection::azimuthal_equidistant:
+            return {"azimuthal_equidistant", "longitude_of_projection_origin"};
+        case grid::Projection::latitude_longitude:
+            return {"latitude_longitude", ""};
+        case grid::Projection::lambert_conformal:
+            return {"lambert_conformal_conic", "longitude_of_central_meridian"};
+    }
+    return {"", ""};
 }
 
 struct Axis {
@@ -33,13 +46,11 @@ void write_axis(NetcdfBuilder& file, int dimension, const Axis& axis,
 }
 
 void write_origin(NetcdfBuilder& file, int mapping, const grid::GridSpec& spec) {
-    const bool conic = spec.projection == grid::Projection::lambert_conformal;
     file.number(mapping, "latitude_of_projection_origin", spec.center_latitude_deg);
-    file.number(mapping, conic ? "longitude_of_central_meridian" : "longitude_of_projection_origin",
-                spec.center_longitude_deg);
+    file.number(mapping, names_of(spec.projection).origin_longitude, spec.center_longitude_deg);
     file.number(mapping, "false_easting", 0.0);
     file.number(mapping, "false_northing", 0.0);
-    if (!conic) return;
+    if (!grid::facts_of(spec.projection).takes_parallels) return;
     const auto [first_deg, second_deg] = spec.parallels_deg;
     if (first_deg == second_deg) {
         file.number(mapping, "standard_parallel", first_deg);
@@ -51,22 +62,14 @@ void write_origin(NetcdfBuilder& file, int mapping, const grid::GridSpec& spec) 
 }  // namespace
 
 const char* mapping_name(grid::Projection projection) {
-    switch (projection) {
-        case grid::Projection::azimuthal_equidistant:
-            break;
-        case grid::Projection::latitude_longitude:
-            return "latitude_longitude";
-        case grid::Projection::lambert_conformal:
-            return "lambert_conformal_conic";
-    }
-    return "azimuthal_equidistant";
+    return names_of(projection).mapping;
 }
 
 void write_mapping(NetcdfBuilder& file, const grid::GridSpec& spec) {
     const char* name = mapping_name(spec.projection);
     const int mapping = file.variable(name, NC_INT, {});
     file.text(mapping, "grid_mapping_name", name);
-    if (!in_degrees(spec)) write_origin(file, mapping, spec);
+    if (!spec.in_degrees()) write_origin(file, mapping, spec);
     file.number(mapping, "semi_major_axis", grid::wgs84_semi_major_m);
     file.number(mapping, "inverse_flattening", 1 / grid::wgs84_flattening);
     file.number(mapping, "longitude_of_prime_meridian", 0.0);
@@ -77,7 +80,7 @@ void write_mapping(NetcdfBuilder& file, const grid::GridSpec& spec) {
 
 void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size) {
     const grid::GridProjection projection(spec);
-    const bool degrees = in_degrees(spec);
+    const bool degrees = spec.in_degrees();
     std::vector<double> rows;
     std::vector<double> columns;
     rows.reserve(static_cast<std::size_t>(spec.ny));
@@ -99,7 +102,7 @@ void write_map_axes(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDi
 
 void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const MapDimensions& size,
                      int deflate_level) {
-    if (in_degrees(spec)) return;
+    if (spec.in_degrees()) return;
     const grid::GridProjection projection(spec);
     std::vector<double> latitudes_deg;
     std::vector<double> longitudes_deg;
@@ -125,7 +128,7 @@ void write_positions(NetcdfBuilder& file, const grid::GridSpec& spec, const MapD
 }
 
 void refer_to_map(NetcdfBuilder& file, int variable, const grid::GridSpec& spec) {
-    if (!in_degrees(spec)) file.text(variable, "coordinates", "lat lon");
+    if (!spec.in_degrees()) file.text(variable, "coordinates", "lat lon");
     file.text(variable, "grid_mapping", mapping_name(spec.projection));
 }
 

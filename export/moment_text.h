@@ -1,4 +1,5 @@
-// export/moment_text.h -- what a moment is called in netCDF files; internal to export.
+// export/moment_text.h -- what a moment is called in netCDF files: export's layer over
+// stormcellar/level2/moment.h.
 #pragma once
 
 #include "stormcellar/level2/volume.h"

@@ -8,7 +8,7 @@ Result<std::vector<accuracy::LadderRow>> ladder_of_mosaic(const MosaicSources& s
                                                           const GridRequest& request,
                                                           const EffectRequest& effects,
                                                           int rounds) {
-    if (request.moment == level2::Moment::vel || request.moment == level2::Moment::phi) {
+    if (level2::is_circular(request.moment)) {
         return fail(ErrorCode::bad_argument,
                     "{} of several volumes has no ladder: its values lie on a circle, and each "
                     "radar has its own",

@@ -150,12 +150,12 @@ nlohmann::ordered_json describe(const GridOptions& options, const grid::Grid& gr
     json["units"] = level2::moment_units(grid.moment);
     json["projection"] = grid::projection_name(grid.spec.projection);
     json["center"] = {grid.spec.center_latitude_deg, grid.spec.center_longitude_deg};
-    if (grid.spec.projection == grid::Projection::latitude_longitude) {
+    if (grid.spec.in_degrees()) {
         json["spacing_deg"] = grid.spec.spacing_deg;
     } else {
         json["spacing_m"] = grid.spec.spacing_m;
     }
-    if (grid.spec.projection == grid::Projection::lambert_conformal) {
+    if (grid::facts_of(grid.spec.projection).takes_parallels) {
         json["parallels_deg"] = grid.spec.parallels_deg;
     }
     json["nx"] = grid.spec.nx;
@@ -198,7 +198,7 @@ void print_facts(const GridOptions& options, const grid::Grid& grid, const Timin
         return 100.0 * static_cast<double>(counts[static_cast<std::size_t>(status)]) /
                static_cast<double>(grid.status.size());
     };
-    const bool in_degrees = grid.spec.projection == grid::Projection::latitude_longitude;
+    const bool in_degrees = grid.spec.in_degrees();
     fmt::print(to, "{}: {} {} of {}, {} x {} x {} cells at {:g} {}\n", printable(options.output),
                printable(fmt::format("{}", fmt::join(grid.provenance.stations, " "))),
                level2::moment_name(grid.moment), format_utc(grid.time), grid.spec.nx, grid.spec.ny,

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "base/name_list.h"
 #include "cli/shared/commands.h"
 #include "grid/place/site_extent.h"
 
@@ -36,6 +38,15 @@ std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& source
     return sites;
 }
 
+// The moments whose values of different sites are not to be mixed: "VEL and PHI".
+std::string never_mixed() {
+    std::vector<level2::MomentFacts> apart;
+    for (const level2::MomentFacts& facts : level2::moment_facts) {
+        if (grid::default_overlap(facts.moment) == grid::Overlap::nearest) apart.push_back(facts);
+    }
+    return names_in(apart, ", ", " and ");
+}
+
 }  // namespace
 
 Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
@@ -54,13 +65,15 @@ Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
 }
 
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects) {
-    app.add_option("--overlap", options.overlap,
-                   "Where several sites see a cell: distance-weighted (the default), mean, maximum "
-                   "or nearest (all that VEL and PHI allow)");
+    app.add_option(
+        "--overlap", options.overlap,
+        fmt::format("Where several sites see a cell: {} (the default); {} allow nearest alone",
+                    names_in(grid::overlap_facts, ", ", " or "), never_mixed()));
     app.add_option("--overlap-km", options.overlap_km,
                    "L of the weight exp(-r^2/L^2) of a site r away; else 250");
     app.add_option("--time-method", effects.time_method,
-                   "Between two volumes of a site: advected (the default), blend or nearest");
+                   fmt::format("Between two volumes of a site: {} (the default)",
+                               names_in(grid::time_method_facts, ", ", " or ")));
 }
 
 Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const EffectOptions& effects,
@@ -82,10 +95,8 @@ Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options, const Eff
     if (!options.overlap.empty()) {
         const auto overlap = grid::overlap_from_name(options.overlap);
         if (!overlap) {
-            return fail(ErrorCode::bad_argument,
-                        "--overlap takes one of distance-weighted, mean, maximum, nearest, not "
-                        "'{}'",
-                        options.overlap);
+            return fail(ErrorCode::bad_argument, "--overlap takes one of {}, not '{}'",
+                        names_in(grid::overlap_facts), options.overlap);
         }
         mosaic.overlap = *overlap;
     }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
+#include "base/name_list.h"
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
 #include "grid/cells/level_range.h"
@@ -46,19 +46,33 @@ Result<std::array<double, 2>> parse_pair(std::string_view option, std::string_vi
     return std::array<double, 2>{(*given)[0], (*given)[1]};
 }
 
-Result<grid::Projection> parse_projection(const std::string& name) {
-    using enum grid::Projection;
-    static const std::map<std::string_view, grid::Projection> short_names = {
-        {"aeqd", azimuthal_equidistant}, {"lat-lon", latitude_longitude},
-        {"latlon", latitude_longitude},  {"lambert", lambert_conformal},
-        {"lcc", lambert_conformal},
+// "azimuthal_equidistant (aeqd), latitude_longitude (lat-lon, latlon)" and so on.
+std::string known_projections(std::string_view before_last) {
+    struct Named {
+        std::string name;
     };
-    if (const auto full = grid::projection_from_name(name)) return *full;
-    if (const auto known = short_names.find(name); known != short_names.end()) return known->second;
-    return fail(ErrorCode::bad_argument,
-                "--projection takes one of azimuthal_equidistant (aeqd), latitude_longitude "
-                "(lat-lon) and lambert_conformal (lambert, lcc), not '{}'",
-                name);
+    std::vector<Named> all;
+    for (const grid::ProjectionFacts& facts : grid::projection_facts) {
+        std::string shorter;
+        for (const std::string_view name : facts.short_names) {
+            if (!shorter.empty() && !name.empty()) shorter += ", ";
+            shorter += name;
+        }
+        all.push_back({shorter.empty() ? std::string(facts.name)
+                                       : fmt::format("{} ({})", facts.name, shorter)});
+    }
+    return names_in(all, ", ", before_last);
+}
+
+Result<grid::Projection> parse_projection(const std::string& name) {
+    for (const grid::ProjectionFacts& facts : grid::projection_facts) {
+        const auto& shorter = facts.short_names;
+        const bool is_short =
+            !name.empty() && std::find(shorter.begin(), shorter.end(), name) != shorter.end();
+        if (is_short || facts.name == name) return facts.projection;
+    }
+    return fail(ErrorCode::bad_argument, "--projection takes one of {}, not '{}'",
+                known_projections(" and "), name);
 }
 
 std::string_view unit_name(SizeUnit unit) {
@@ -99,7 +113,7 @@ Result<int> cells_over(double extent_deg, double spacing_deg) {
 // One spacing and one extent, each in kilometres or in degrees.
 Status parse_size(const GridOptions& options, GridRequest& request) {
     const bool any_degrees = options.spacing_deg || !options.extent_deg.empty();
-    if (any_degrees && request.projection != grid::Projection::latitude_longitude) {
+    if (any_degrees && !grid::facts_of(request.projection).in_degrees) {
         return fail(ErrorCode::bad_argument,
                     "--spacing-deg and --extent-deg are for --projection latitude_longitude");
     }
@@ -136,7 +150,7 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
         request.center_deg = *center;
     }
     if (options.parallels.empty()) return {};
-    if (request.projection != grid::Projection::lambert_conformal) {
+    if (!grid::facts_of(request.projection).takes_parallels) {
         return fail(ErrorCode::bad_argument, "--parallels is for --projection lambert_conformal");
     }
     const auto parallels = parse_pair("--parallels", "LAT1,LAT2 in degrees", options.parallels);
@@ -147,12 +161,8 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
 
 Result<level2::Moment> parse_moment(const std::string& name) {
     if (const auto moment = level2::moment_from_name(name)) return *moment;
-    std::vector<std::string_view> names;
-    names.reserve(level2::all_moments.size());
-    for (const level2::Moment known : level2::all_moments)
-        names.push_back(level2::moment_name(known));
     return fail(ErrorCode::bad_argument, "--moment takes one of {}, not '{}'",
-                fmt::join(names, " "), name);
+                level2::moment_names(" ", " "), name);
 }
 
 constexpr std::string_view counts_field = "counts";
@@ -275,8 +285,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     // Of several sites the extent, and the spacing that goes into it, is known with them.
     const bool has_extent = request.extent_given || options.files.size() == 1;
-    if (has_extent &&
-        (request.center_deg || request.projection == grid::Projection::azimuthal_equidistant)) {
+    if (has_extent && (request.center_deg || grid::facts_of(request.projection).is_polar)) {
         const auto [latitude_deg, longitude_deg] =
             request.center_deg.value_or(std::array<double, 2>{});
         const auto spec = spec_about(request, latitude_deg, longitude_deg);
@@ -290,13 +299,12 @@ Result<grid::GridSpec> spec_about(const GridRequest& request, double center_lati
     grid::GridSpec spec = grid::default_spec(center_latitude_deg, center_longitude_deg);
     spec.projection = request.projection;
     if (!request.levels_m.empty()) spec.levels_m = request.levels_m;
-    if (spec.projection == grid::Projection::lambert_conformal) {
+    if (grid::facts_of(spec.projection).takes_parallels) {
         spec.parallels_deg = request.parallels_deg.value_or(
             std::array<double, 2>{center_latitude_deg, center_latitude_deg});
     }
-    const Status sized = spec.projection == grid::Projection::latitude_longitude
-                             ? size_in_degrees(request, spec)
-                             : size_in_metres(request, spec);
+    const Status sized =
+        spec.in_degrees() ? size_in_degrees(request, spec) : size_in_metres(request, spec);
     if (!sized) return pass_on(sized);
     if (auto valid = grid::validate(spec); !valid) return pass_on(valid);
     return spec;
@@ -327,9 +335,7 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
 void add_place_options(CLI::App& app, GridOptions& options) {
     app.add_option("--center", options.center,
                    "LAT,LON in degrees; else the site, or the middle of the sites");
-    app.add_option("--projection", options.projection,
-                   "azimuthal_equidistant (aeqd) about the centre, latitude_longitude (lat-lon) or "
-                   "lambert_conformal (lambert, lcc)")
+    app.add_option("--projection", options.projection, known_projections(" or "))
         ->capture_default_str();
     app.add_option(
         "--parallels", options.parallels,
@@ -352,7 +358,7 @@ void add_place_options(CLI::App& app, GridOptions& options) {
 void add_spec_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
     add_site_options(app, options.site);
-    app.add_option("--moment", options.moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
+    app.add_option("--moment", options.moment, level2::moment_names(", ", " or "))
         ->capture_default_str();
     app.add_option("--threads", options.threads,
                    options.threads == 0 ? std::string{"Else as many as the machine has"}

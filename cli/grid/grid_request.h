@@ -26,12 +26,12 @@ struct GridOptions {
     std::vector<std::string> files;
     std::string output;
     std::string center;
-    std::string projection = "azimuthal_equidistant";
+    std::string projection{grid::projection_name(grid::Projection::azimuthal_equidistant)};
     std::string parallels;
     std::string extent_km, extent_deg;
     std::optional<double> spacing_km, spacing_deg;
     std::string levels_km;
-    std::string moment = "REF";
+    std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string time, fields;
     SiteOptions site;
     int threads = 0;  // 0: as many as the machine has

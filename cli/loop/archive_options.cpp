@@ -5,7 +5,9 @@
 #include <set>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "base/name_list.h"
 #include "base/number_list.h"
 #include "cli/grid/grid_mosaic.h"
 #include "grid/cells/level_range.h"
@@ -37,7 +39,7 @@ Result<grid::GridSpec> spec_over(const pipeline::Bounds& bounds, GridRequest req
     const auto whole = [&](double extent) {
         return std::ceil(extent / request.spacing - 1e-6) * request.spacing;
     };
-    if (request.projection == grid::Projection::latitude_longitude) {
+    if (grid::facts_of(request.projection).in_degrees) {
         request.extent = {pipeline::width_deg(bounds), bounds[3] - bounds[1]};
         request.extent_unit = SizeUnit::degrees;
         if (request.spacing_unit == SizeUnit::degrees) {
@@ -93,8 +95,8 @@ void add_archive_options(CLI::App& app, ArchiveOptions& options) {
     CLI::App* place = app.add_option_group(group + ": the grid");
     add_place_options(*place, options.place);
     app.add_option("--overlap", options.overlap,
-                   "Where several sites see a cell: distance-weighted (the default), mean, maximum "
-                   "or nearest")
+                   fmt::format("Where several sites see a cell: {} (the default)",
+                               names_in(grid::overlap_facts, ", ", " or ")))
         ->group(group);
     app.add_option("--overlap-km", options.overlap_km,
                    "L of the weight exp(-r^2/L^2) of a site r away; else 250")
@@ -142,10 +144,8 @@ Result<ArchiveRequest> parse_archive(const ArchiveOptions& options) {
     if (!options.overlap.empty()) {
         request.overlap = grid::overlap_from_name(options.overlap);
         if (!request.overlap) {
-            return fail(ErrorCode::bad_argument,
-                        "--overlap takes one of distance-weighted, mean, maximum and nearest, not "
-                        "'{}'",
-                        options.overlap);
+            return fail(ErrorCode::bad_argument, "--overlap takes one of {}, not '{}'",
+                        names_in(grid::overlap_facts, ", ", " and "), options.overlap);
         }
     }
     if (options.overlap_km) request.overlap_length_m = grid::metres_of_km(*options.overlap_km);

@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/name_list.h"
+
 namespace stormcellar::cli {
 
 void add_loop_options(CLI::App& loop, LoopOptions& options) {
@@ -19,8 +21,9 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
                     "From frame to frame, e.g. 60, 90s, 5min: frames between the grids are made as "
                     "they are called for. Else each grid is a frame; of a mosaic from an archive "
                     "every 5min");
-    loop.add_option("--time-method", options.time_method,
-                    "How: advected (the default), blend or nearest");
+    loop.add_option(
+        "--time-method", options.time_method,
+        fmt::format("How: {} (the default)", names_in(grid::time_method_facts, ", ", " or ")));
     loop.add_option("--last", options.last, "Of these only the newest so many")
         ->check(CLI::Range(1, 1'000'000));
     loop.add_option("-o,--output", options.outputs,
@@ -66,9 +69,8 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
     }
     const auto method = grid::time_method_from_name(options.time_method);
     if (!method) {
-        return fail(ErrorCode::bad_argument,
-                    "--time-method takes one of advected, blend and nearest, not '{}'",
-                    options.time_method);
+        return fail(ErrorCode::bad_argument, "--time-method takes one of {}, not '{}'",
+                    names_in(grid::time_method_facts, ", ", " and "), options.time_method);
     }
     rhythm.method = *method;
     return rhythm;

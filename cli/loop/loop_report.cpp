@@ -7,9 +7,9 @@
 
 #include "cli/picture/picture.h"
 #include "cli/shared/commands.h"
-#include "render/products/product.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::cli {
 

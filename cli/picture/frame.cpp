@@ -18,12 +18,12 @@
 #include "cli/shared/output_file.h"
 #include "cli/shared/query_options.h"
 #include "render/frame/probe.h"
-#include "render/products/product.h"
 #include "render/products/section.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/render/png_file.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::cli {
 namespace {

@@ -3,9 +3,9 @@
 #include <fmt/ranges.h>
 
 #include "cli/picture/picture.h"
-#include "render/products/product.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -17,7 +17,7 @@ std::string title_of(const PictureFacts& facts) {
 }
 
 std::string grid_text(const grid::GridSpec& spec) {
-    const bool in_degrees = spec.projection == grid::Projection::latitude_longitude;
+    const bool in_degrees = spec.in_degrees();
     std::string text =
         fmt::format("{} x {} x {} cells of {:g} {}, {}", spec.nx, spec.ny, spec.nz(),
                     in_degrees ? spec.spacing_deg : spec.spacing_m / 1000,
@@ -40,7 +40,7 @@ std::string gridding_text(const grid::Provenance& provenance) {
 }
 
 std::string picture_text(const render::Scene& scene) {
-    if (scene.product != render::Product::volume) {
+    if (render::view_of(scene.product) != render::View::volume) {
         return fmt::format("{} x {} pixels", scene.width, scene.height);
     }
     const bool every_pixel = !(scene.pixel_tolerance > 0);

@@ -134,7 +134,8 @@ Result<std::string> plan_picture(const grid::BrickView& view, const render::Fram
                                  const PicturePlanOptions& options, bool json, int threads,
                                  render::Scene& scene) {
     if (!options.asked()) return std::string{};
-    if (scene.product != render::Product::volume) return without_plan(options, scene.product);
+    if (render::view_of(scene.product) != render::View::volume)
+        return without_plan(options, scene.product);
     const auto request = parse_plan(options, scene.light);
     if (!request) return pass_on(request);
     if (auto valid = render::check_frame(view, facts, scene); !valid) return pass_on(valid);

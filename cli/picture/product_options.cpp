@@ -59,15 +59,15 @@ bool is_used(Users users, Product product) {
 std::string_view text_of(Users users) {
     switch (users) {
         case Users::volume:
-            return "volume";
+            return render::product_name(Product::volume);
         case Users::all_but_section:
             return "any product but section";
         case Users::cappi:
-            return "cappi";
+            return render::product_name(Product::cappi);
         case Users::section:
-            return "section";
+            return render::product_name(Product::section);
         case Users::echo_top:
-            return "echotop";
+            return render::product_name(Product::echo_top);
     }
     return "";
 }

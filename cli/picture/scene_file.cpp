@@ -109,8 +109,8 @@ void read_picture(TomlTable picture, const std::filesystem::path& directory,
               [](const std::string& name) { return status_of(render::product_from_name(name)); });
     read_text(picture, "moment", options.moment, [](const std::string& name) -> Status {
         if (level2::moment_from_name(name)) return {};
-        return fail(ErrorCode::bad_argument, "must be REF, VEL, SW, ZDR, PHI, RHO or CFP, is '{}'",
-                    printable(name));
+        return fail(ErrorCode::bad_argument, "must be {}, is '{}'",
+                    level2::moment_names(", ", " or "), printable(name));
     });
     read_text(picture, "colours", options.colours, [&](const std::string& name) {
         return status_of(

@@ -18,12 +18,10 @@ constexpr const char* group = "Picture";
 
 void add_product_options(CLI::App& app, SceneOptions& options) {
     render::Scene& scene = options.scene;
-    app.add_option("--product", options.product,
-                   "volume, composite (column maximum), cappi, section, echotop, vil, lowest-seen "
-                   "or highest-seen")
+    app.add_option("--product", options.product, render::products_for_help())
         ->group(group)
         ->capture_default_str();
-    app.add_option("--moment", options.moment, "REF, VEL, SW, ZDR, PHI, RHO or CFP")
+    app.add_option("--moment", options.moment, level2::moment_names(", ", " or "))
         ->group(group)
         ->capture_default_str();
     app.add_option("--colours", options.colours,
@@ -123,9 +121,8 @@ Result<render::Scene> scene_of(const SceneOptions& options) {
     scene.product = *product;
     const auto moment = level2::moment_from_name(options.moment);
     if (!moment) {
-        return fail(ErrorCode::bad_argument,
-                    "unknown moment '{}': known are REF, VEL, SW, ZDR, PHI, RHO, CFP",
-                    options.moment);
+        return fail(ErrorCode::bad_argument, "unknown moment '{}': known are {}", options.moment,
+                    level2::moment_names(", ", ", "));
     }
     scene.moment = *moment;
     scene.cappi_height_m = options.height_km * 1e3;

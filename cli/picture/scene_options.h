@@ -8,6 +8,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/level2/moment.h"
 #include "stormcellar/render/render.h"
 #include "stormcellar/render/scene.h"
 
@@ -19,7 +20,7 @@ namespace stormcellar::cli {
 
 struct SceneOptions {
     std::string product = "volume";
-    std::string moment = "REF";
+    std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string colours;   // empty: the product's or the moment's
     double height_km = 3;  // of a CAPPI
     std::string section;   // "LAT,LON,LAT,LON"

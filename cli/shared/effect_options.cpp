@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
+#include "base/name_list.h"
 #include "grid/beam/sounding.h"
 #include "pipeline/mosaic/mosaic_effects.h"
 #include "stormcellar/accuracy/effect.h"
@@ -186,7 +187,7 @@ Result<EffectRequest> parse_effects(const EffectOptions& options, level2::Moment
 
 void add_effect_options(CLI::App& app, EffectOptions& options) {
     app.add_option("--method", options.method,
-                   "nearest, linear (the default), eight-point, beam-weighted or area");
+                   fmt::format("{} or area; default linear", names_in(grid::interpolation_facts)));
     app.add_option("--averaging", options.averaging, "dB (the default) or Z; of REF");
     app.add_option("--effect", options.effects,
                    "NAME=on|off|auto, any number; --explain lists the effects");

@@ -77,10 +77,6 @@ std::vector<AuditRow> pooled_by_sweep(std::span<const AuditRow> rows) {
     return pooled_by(rows, &AuditRow::elevation_deg);
 }
 
-std::string_view difference_unit(level2::Moment moment) {
-    return moment == level2::Moment::ref ? "dB" : level2::moment_units(moment);
-}
-
 std::string range_text(const AuditRow& row) {
     if (std::isinf(row.range_to_m)) return fmt::format("beyond {:.0f} km", row.range_from_m / 1000);
     return fmt::format("{:.0f} to {:.0f} km", row.range_from_m / 1000, row.range_to_m / 1000);

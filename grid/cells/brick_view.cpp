@@ -37,26 +37,6 @@ std::string_view cell_status_name(CellStatus status) {
     return "unknown";
 }
 
-Quantization default_quantization(level2::Moment moment) {
-    switch (moment) {
-        case level2::Moment::ref:
-            return {1, -32, 0.5F};
-        case level2::Moment::vel:
-            return {2, -256, 0.25F};
-        case level2::Moment::sw:
-            return {1, 0, 0.25F};
-        case level2::Moment::zdr:
-            return {2, -32, 0.03125F};
-        case level2::Moment::phi:
-            return {2, 0, 0.25F};
-        case level2::Moment::rho:
-            return {2, 0, 0.001953125F};
-        case level2::Moment::cfp:
-            return {2, -256, 0.25F};
-    }
-    return {};
-}
-
 std::uint16_t BrickView::code_at(std::size_t offset) const {
     if (quantization.code_bytes == 1) return static_cast<std::uint16_t>(codes[offset]);
     std::uint16_t code = 0;

@@ -4,11 +4,14 @@
 #include <numbers>
 
 #include "base/floating_point.h"
+#include "base/name_list.h"
 #include "stormcellar/grid/beam_geometry.h"
 #include "stormcellar/grid/projection.h"
 
 namespace stormcellar::grid {
 namespace {
+
+static_assert(is_in_order(projection_facts, &ProjectionFacts::projection));
 
 constexpr std::uint64_t largest_cell_count = std::uint64_t{1} << 30;  // 5 GiB in memory
 constexpr double lowest_level_m = -1000;
@@ -40,7 +43,7 @@ Status validate_levels(const GridSpec& spec) {
 // A projection has one spacing; the other, and parallels of another projection, would make two
 // specs of one grid.
 Status validate_spacing(const GridSpec& spec) {
-    const bool in_degrees = spec.projection == Projection::latitude_longitude;
+    const bool in_degrees = spec.in_degrees();
     const double spacing = in_degrees ? spec.spacing_deg : spec.spacing_m;
     const double largest = in_degrees ? largest_spacing_deg : largest_spacing_m;
     if (!is_within(spacing, 0.0, largest) || spacing == 0) {
@@ -53,7 +56,7 @@ Status validate_spacing(const GridSpec& spec) {
                     projection_name(spec.projection), in_degrees ? "metres" : "degrees");
     }
     const bool no_parallels = spec.parallels_deg == std::array<double, 2>{};
-    if (spec.projection != Projection::lambert_conformal && !no_parallels) {
+    if (!facts_of(spec.projection).takes_parallels && !no_parallels) {
         return fail(ErrorCode::bad_argument, "a grid of projection {} has no standard parallels",
                     projection_name(spec.projection));
     }
@@ -70,23 +73,9 @@ bool is_window_offset(double offset_cells, int cells) {
 
 }  // namespace
 
-std::string_view projection_name(Projection projection) {
-    switch (projection) {
-        case Projection::azimuthal_equidistant:
-            return "azimuthal_equidistant";
-        case Projection::latitude_longitude:
-            return "latitude_longitude";
-        case Projection::lambert_conformal:
-            return "lambert_conformal";
-    }
-    return "unknown";
-}
-
 std::optional<Projection> projection_from_name(std::string_view name) {
-    for (const Projection projection :
-         {Projection::azimuthal_equidistant, Projection::latitude_longitude,
-          Projection::lambert_conformal}) {
-        if (name == projection_name(projection)) return projection;
+    for (const ProjectionFacts& facts : projection_facts) {
+        if (facts.name == name) return facts.projection;
     }
     return std::nullopt;
 }

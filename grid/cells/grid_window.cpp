@@ -160,7 +160,7 @@ std::optional<GridWindow> site_window(const GridSpec& domain, const SitePosition
     const double radius_m = reach_m * bulge;
     Span x{0, domain.nx};
     Span y{0, domain.ny};
-    if (domain.projection == Projection::latitude_longitude) {
+    if (domain.in_degrees()) {
         const Box box = box_in_degrees(domain, site, radius_m);
         x = whole_bricks_around(box.x, domain);
         y = whole_bricks(box.y, domain.ny);

@@ -102,7 +102,7 @@ GridProjection::GridProjection(const GridSpec& spec)
       center_(spec.center_latitude_deg, spec.center_longitude_deg),
       center_latitude_deg_(spec.center_latitude_deg),
       center_longitude_deg_(spec.center_longitude_deg),
-      spacing_(kind_ == Projection::latitude_longitude ? spec.spacing_deg : spec.spacing_m),
+      spacing_(spec.in_degrees() ? spec.spacing_deg : spec.spacing_m),
       center_x_(spec.center_x()),
       center_y_(spec.center_y()) {
     if (kind_ != Projection::lambert_conformal) return;
@@ -125,18 +125,22 @@ double GridProjection::continuous_longitude_deg(double longitude_deg) const noex
 
 GeoPoint GridProjection::to_geo(ColumnPoint column) const noexcept {
     const MaskedTraps masked;
-    if (kind_ == Projection::latitude_longitude) {
-        return {row_latitude_deg(column.y),
-                GeographicLib::Math::AngNormalize(column_longitude_deg(column.x))};
-    }
     const double x_m = (column.x - center_x_) * spacing_;
     const double y_m = (column.y - center_y_) * spacing_;
-    if (kind_ == Projection::azimuthal_equidistant) {
-        return center_.to_geo(SiteFrame::from_plane(x_m, y_m));
-    }
     GeoPoint point;
-    cone_->Reverse(center_longitude_deg_, x_m, y_m + cone_y_m_, point.latitude_deg,
-                   point.longitude_deg);
+    switch (kind_) {
+        case Projection::azimuthal_equidistant:
+            point = center_.to_geo(SiteFrame::from_plane(x_m, y_m));
+            break;
+        case Projection::latitude_longitude:
+            point = {row_latitude_deg(column.y),
+                     GeographicLib::Math::AngNormalize(column_longitude_deg(column.x))};
+            break;
+        case Projection::lambert_conformal:
+            cone_->Reverse(center_longitude_deg_, x_m, y_m + cone_y_m_, point.latitude_deg,
+                           point.longitude_deg);
+            break;
+    }
     return point;
 }
 

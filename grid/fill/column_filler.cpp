@@ -81,7 +81,7 @@ Fill sampled_fill(bool circular) {
 // in the loops.
 Fill fill_by(const Method& method, Blending blending) {
     const bool nearest = method.interpolation == Interpolation::nearest;
-    const bool sampled = nearest || method.interpolation == Interpolation::linear;
+    const bool sampled = facts_of(method.interpolation).takes_one_gate;
     if (!sampled || method.cell == CellExtent::area) return fill_tiles<MixedColumns>;
     const bool circular = is_circular(blending);
     if (method.radial_elevations) {
@@ -108,8 +108,7 @@ int sweeps_by_pattern(const SweepStack& stack) {
 // Returns how far the samples of a column reach, which tells the plan how far around a tile it must
 // look. With one gate for each sweep they do not reach beyond the column.
 SampleReach reach_of(const SweepStack& stack, const Method& method) {
-    const bool one_gate = method.interpolation == Interpolation::nearest ||
-                          method.interpolation == Interpolation::linear;
+    const bool one_gate = facts_of(method.interpolation).takes_one_gate;
     if (one_gate && method.cell == CellExtent::point) return {0, 0, 1, stack.in_order};
     SampleReach reach{0, 2 * stack.gate_spacing_m, 1, stack.in_order};
     for (const PolarSweep& sweep : stack.sweeps) {

@@ -98,9 +98,7 @@ std::vector<SweepFacts> facts_of(const DetailWork& work, std::optional<UtcTime> 
 }
 
 bool takes_one_gate(const Method& method) {
-    const bool one = method.interpolation == Interpolation::nearest ||
-                     method.interpolation == Interpolation::linear;
-    return one && method.cell == CellExtent::point;
+    return facts_of(method.interpolation).takes_one_gate && method.cell == CellExtent::point;
 }
 
 // Fills the details of columns, one row at a time.

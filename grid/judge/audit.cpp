@@ -9,7 +9,9 @@
 #include "base/parallel.h"
 #include "grid/beam/detection_limit.h"
 #include "grid/beam/gate_places.h"
+#include "grid/cells/moment_rules.h"
 #include "grid/place/site_columns.h"
+#include "grid/sweep/mixture.h"
 #include "grid/sweep/sweep_stack.h"
 #include "stormcellar/grid/beam_model.h"
 #include "stormcellar/grid/grid_sampler.h"
@@ -33,12 +35,6 @@ std::optional<CellStatus> status_of(level2::GateStatus status) {
             break;
     }
     return std::nullopt;
-}
-
-// The circle that a moment's values lie on; 0 where they do not wrap.
-float period_of(level2::Moment moment, const level2::Radial& radial) {
-    if (moment == level2::Moment::phi) return 360;
-    return moment == level2::Moment::vel ? std::max(2 * radial.nyquist_mps, 0.0F) : 0.0F;
 }
 
 float shorter_way(float difference, float period) {
@@ -132,7 +128,7 @@ class KindScan {
         const double offset_deg = static_cast<double>(pointing.elevation_deg) - elevation_deg_;
         const DetectionLimit limit = detection_limit(pointing, moment_, scan_.is_tdwr);
         Gate gate;
-        gate.period = period_of(scan_.moment, pointing);
+        gate.period = 2 * half_period_of(scan_.moment, pointing.nyquist_mps);
         GridSampler::Corners corners;
         for (std::int32_t number = 0; number < moment_.gate_counts[radial]; number += gate_step_) {
             const double range_m = moment_.range_m(number);
@@ -147,7 +143,7 @@ class KindScan {
                 continue;
             }
             gate.value = moment_.value_of(moment_.code(radial, number));
-            if (scan_.moment == level2::Moment::ref && needs_limit(corners)) {
+            if (rules_of(scan_.moment).has_detection_limit && needs_limit(corners)) {
                 gate.limit = static_cast<float>(limit.at(range_m));
             }
             count(range_m, *status, mix(corners, gate), found);

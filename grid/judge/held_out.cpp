@@ -94,7 +94,8 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
                                const TimedView& after, const ColumnGeometry& geometry,
                                int threads) {
     HeldOut result;
-    for (const TimeMethod method : {TimeMethod::nearest, TimeMethod::blend, TimeMethod::advected}) {
+    for (const TimeMethodFacts& facts : time_method_facts) {
+        const TimeMethod method = facts.method;
         const auto start = Clock::now();
         InstantOptions options;
         options.instant = held_out.middle;

@@ -5,6 +5,7 @@
 
 #include "grid/beam/detection_limit.h"
 #include "grid/judge/oracle.h"
+#include "grid/sweep/mixture.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -113,10 +114,8 @@ WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double
         case level2::GateStatus::valid:
             gate.status = CellStatus::value;
             gate.value = static_cast<double>(kind.value_of(kind.code(radial.index, number)));
-            if (setting_.moment == level2::Moment::phi) gate.half_period = 180;
-            if (setting_.moment == level2::Moment::vel) {
-                gate.half_period = static_cast<double>(header.nyquist_mps);
-            }
+            gate.half_period =
+                static_cast<double>(half_period_of(setting_.moment, header.nyquist_mps));
             break;
         case level2::GateStatus::below_threshold:
             gate.status = CellStatus::no_echo;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "grid/beam/fast_log.h"
+#include "grid/cells/moment_rules.h"
 
 namespace stormcellar::grid {
 namespace {
@@ -69,7 +70,7 @@ BrickMerger<Code>::BrickMerger(const MosaicOptions& options, const Quantization&
     : options_(options),
       quantization_(quantization),
       in_z_(options.averaging == Averaging::in_z),
-      with_limits_(options.moment == level2::Moment::ref),
+      with_limits_(rules_of(options.moment).has_detection_limit),
       code_per_log2_(static_cast<Real>(db_per_log2 / static_cast<double>(quantization.step))),
       code_base_(
           static_cast<Real>(first_value_code - static_cast<double>(quantization.first_value) /

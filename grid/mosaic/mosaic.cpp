@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "base/floating_point.h"
+#include "base/name_list.h"
+#include "grid/cells/moment_rules.h"
 #include "grid/mosaic/brick_merge.h"
 #include "grid/mosaic/mosaic_fill.h"
 #include "grid/mosaic/mosaic_sites.h"
@@ -12,20 +14,18 @@
 namespace stormcellar::grid {
 namespace {
 
+static_assert(is_in_order(overlap_facts, &OverlapFacts::overlap));
+
 constexpr double least_length_m = 1000;
 constexpr double largest_length_m = 1e7;
 
 Status check_options(const MosaicOptions& options) {
-    const bool sets_apart =
-        options.moment == level2::Moment::vel || options.moment == level2::Moment::phi;
-    if (sets_apart && options.overlap != Overlap::nearest) {
+    const std::string_view why_apart = rules_of(options.moment).why_sites_stay_apart;
+    if (!why_apart.empty() && options.overlap != Overlap::nearest) {
         return fail(ErrorCode::bad_argument,
                     "{} of different sites is not to be mixed ({}): take the overlap rule nearest, "
                     "not {}",
-                    level2::moment_name(options.moment),
-                    options.moment == level2::Moment::vel ? "each measures along its own beams"
-                                                          : "each has an offset of its own",
-                    overlap_name(options.overlap));
+                    level2::moment_name(options.moment), why_apart, overlap_name(options.overlap));
     }
     if (options.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "only reflectivity is averaged in Z, not {}",
@@ -99,30 +99,19 @@ void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
 }  // namespace
 
 std::string_view overlap_name(Overlap overlap) {
-    switch (overlap) {
-        case Overlap::mean:
-            return "mean";
-        case Overlap::maximum:
-            return "maximum";
-        case Overlap::nearest:
-            return "nearest";
-        case Overlap::distance_weighted:
-            return "distance-weighted";
-    }
-    return "unknown";
+    return overlap_facts[static_cast<std::size_t>(overlap)].name;
 }
 
 std::optional<Overlap> overlap_from_name(std::string_view name) {
-    for (const Overlap overlap :
-         {Overlap::mean, Overlap::maximum, Overlap::nearest, Overlap::distance_weighted}) {
-        if (name == overlap_name(overlap)) return overlap;
+    for (const OverlapFacts& facts : overlap_facts) {
+        if (facts.name == name) return facts.overlap;
     }
     return std::nullopt;
 }
 
 Overlap default_overlap(level2::Moment moment) {
-    const bool sets_apart = moment == level2::Moment::vel || moment == level2::Moment::phi;
-    return sets_apart ? Overlap::nearest : Overlap::distance_weighted;
+    const bool mixes = rules_of(moment).why_sites_stay_apart.empty();
+    return mixes ? Overlap::distance_weighted : Overlap::nearest;
 }
 
 MosaicView Mosaic::view() const {

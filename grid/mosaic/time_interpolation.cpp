@@ -1,20 +1,16 @@
 #include "grid/mosaic/time_interpolation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "base/name_list.h"
 #include "base/parallel.h"
 #include "grid/mosaic/instant_brick.h"
 
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::array<std::pair<TimeMethod, std::string_view>, 3> names = {{
-    {TimeMethod::nearest, "nearest"},
-    {TimeMethod::blend, "blend"},
-    {TimeMethod::advected, "advected"},
-}};
+static_assert(is_in_order(time_method_facts, &TimeMethodFacts::method));
 
 Status check(const TimedView& view, const ColumnGeometry& geometry,
              const Quantization& quantization) {
@@ -30,15 +26,12 @@ Status check(const TimedView& view, const ColumnGeometry& geometry,
 }  // namespace
 
 std::string_view time_method_name(TimeMethod method) {
-    for (const auto& [known, name] : names) {
-        if (known == method) return name;
-    }
-    return "unknown";
+    return time_method_facts[static_cast<std::size_t>(method)].name;
 }
 
 std::optional<TimeMethod> time_method_from_name(std::string_view name) {
-    for (const auto& [method, known] : names) {
-        if (known == name) return method;
+    for (const TimeMethodFacts& facts : time_method_facts) {
+        if (facts.name == name) return facts.method;
     }
     return std::nullopt;
 }

@@ -20,6 +20,7 @@
 // Threads the same bits for any number of threads.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -32,7 +33,15 @@
 namespace stormcellar::grid {
 
 enum class TimeMethod { nearest, blend, advected };
-// "nearest", "blend", "advected".
+struct TimeMethodFacts {
+    TimeMethod method = TimeMethod::nearest;
+    std::string_view name = {};
+};
+inline constexpr auto time_method_facts = std::to_array<TimeMethodFacts>({
+    {TimeMethod::nearest, "nearest"},
+    {TimeMethod::blend, "blend"},
+    {TimeMethod::advected, "advected"},
+});
 [[nodiscard]] std::string_view time_method_name(TimeMethod method);
 [[nodiscard]] std::optional<TimeMethod> time_method_from_name(std::string_view name);
 

@@ -79,8 +79,7 @@ std::string_view frame_kind_name(FrameKind kind) {
 }
 
 bool is_centered_at(const SitePosition& site, const GridSpec& spec) {
-    return spec.projection == Projection::azimuthal_equidistant &&
-           site.latitude_deg == spec.center_latitude_deg &&
+    return facts_of(spec.projection).is_polar && site.latitude_deg == spec.center_latitude_deg &&
            site.longitude_deg == spec.center_longitude_deg;
 }
 

@@ -13,13 +13,13 @@ constexpr double widest_deg = 350;
 }  // namespace
 
 SiteColumns::Way SiteColumns::way_for(const SitePosition& site, const GridSpec& spec) {
-    if (spec.projection == Projection::latitude_longitude) {
+    if (spec.in_degrees()) {
         // Meridians meet, or the grid meets itself: no longer smooth.
         const bool smooth = std::abs(site.latitude_deg) <= highest_latitude_deg &&
                             spec.nx * spec.spacing_deg < widest_deg;
         return smooth ? Way::table : Way::exact;
     }
-    const bool about_site = spec.projection == Projection::azimuthal_equidistant &&
+    const bool about_site = facts_of(spec.projection).is_polar &&
                             spec.center_latitude_deg == site.latitude_deg &&
                             spec.center_longitude_deg == site.longitude_deg;
     return about_site ? Way::formula : Way::table;

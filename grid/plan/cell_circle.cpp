@@ -9,11 +9,11 @@ namespace stormcellar::grid {
 namespace {
 
 double period_of(const level2::Volume& volume, const ChosenSweep& chosen, level2::Moment moment) {
-    if (moment == level2::Moment::phi) return 360;
-    if (chosen.radials.empty()) return 0;
-    const double nyquist_mps =
-        volume.sweeps[chosen.sweep_index].radials[chosen.radials.front()].nyquist_mps;
-    return std::isfinite(nyquist_mps) && nyquist_mps > 0 ? 2 * nyquist_mps : 0;
+    const float nyquist_mps =
+        chosen.radials.empty()
+            ? 0
+            : volume.sweeps[chosen.sweep_index].radials[chosen.radials.front()].nyquist_mps;
+    return 2 * static_cast<double>(half_period_of(moment, nyquist_mps));
 }
 
 double around(double difference, double period) {

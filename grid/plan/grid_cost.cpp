@@ -85,7 +85,7 @@ double geodesics_s(const GridScene& scene) {
 }
 
 // Filling the whole grid by each interpolation, of points and of areas.
-using Fills = std::array<std::array<double, 2>, 4>;
+using Fills = std::array<std::array<double, 2>, interpolation_facts.size()>;
 
 Result<Fills> predicted_fills(GridScene& scene, Method method, const TileSample& sample) {
     Fills fills{};

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "grid/cells/moment_rules.h"
+
 namespace stormcellar::grid {
 namespace {
 
@@ -88,7 +90,7 @@ Step averaging_step(Averaging averaging) {
 
 Step circle_step(level2::Moment moment) {
     Effect wrap = effect("phase_folding", "on the circle", "A phase of 360 degrees is 0.");
-    if (moment == level2::Moment::vel) {
+    if (level2::facts_of(moment).circle == level2::Circle::nyquist) {
         wrap = effect("velocity_folding", "on the Nyquist circle",
                       "Velocities beyond the Nyquist velocity come back on the other side.");
     }
@@ -164,20 +166,7 @@ accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& sp
 }
 
 accuracy::ValueUnit value_unit_of(level2::Moment moment) {
-    switch (moment) {
-        case level2::Moment::ref:
-        case level2::Moment::zdr:
-        case level2::Moment::cfp:
-            return accuracy::ValueUnit::db;
-        case level2::Moment::vel:
-        case level2::Moment::sw:
-            return accuracy::ValueUnit::mps;
-        case level2::Moment::phi:
-            return accuracy::ValueUnit::degree;
-        case level2::Moment::rho:
-            break;
-    }
-    return accuracy::ValueUnit::ratio;
+    return rules_of(moment).value_unit;
 }
 
 }  // namespace stormcellar::grid

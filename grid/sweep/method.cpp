@@ -1,17 +1,11 @@
 #include "stormcellar/grid/method.h"
 
-#include <array>
-#include <utility>
+#include "base/name_list.h"
 
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::array<std::pair<Interpolation, std::string_view>, 4> names = {{
-    {Interpolation::nearest, "nearest"},
-    {Interpolation::linear, "linear"},
-    {Interpolation::eight_point, "eight-point"},
-    {Interpolation::beam_weighted, "beam-weighted"},
-}};
+static_assert(is_in_order(interpolation_facts, &InterpolationFacts::interpolation));
 
 constexpr std::string_view area_prefix = "area, ";
 
@@ -22,24 +16,19 @@ CellExtent cell_extent_of(std::string_view method_name) {
 }
 
 std::string_view interpolation_name(Interpolation interpolation) {
-    for (const auto& [known, name] : names) {
-        if (known == interpolation) return name;
-    }
-    return "unknown";
+    return facts_of(interpolation).name;
 }
 
 std::optional<Interpolation> interpolation_from_name(std::string_view name) {
-    for (const auto& [interpolation, known] : names) {
-        if (known == name) return interpolation;
+    for (const InterpolationFacts& facts : interpolation_facts) {
+        if (facts.name == name) return facts.interpolation;
     }
     return std::nullopt;
 }
 
 std::string Method::name() const {
-    const bool by_column =
-        interpolation == Interpolation::nearest || interpolation == Interpolation::linear;
     std::string text{cell == CellExtent::area ? area_prefix : ""};
-    if (by_column) text += "column-";
+    if (facts_of(interpolation).takes_one_gate) text += "column-";
     text += interpolation_name(interpolation);
     return text;
 }

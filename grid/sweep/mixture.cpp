@@ -2,19 +2,33 @@
 
 #include <algorithm>
 
+#include "grid/cells/moment_rules.h"
+
 namespace stormcellar::grid {
 
 Blending blending_of(level2::Moment moment) {
-    switch (moment) {
-        case level2::Moment::ref:
-            return Blending::with_detection_limit;
-        case level2::Moment::vel:
+    switch (level2::facts_of(moment).circle) {
+        case level2::Circle::nyquist:
             return Blending::nyquist_circle;
-        case level2::Moment::phi:
+        case level2::Circle::full_turn:
             return Blending::phase_circle;
-        default:
-            return Blending::values_only;
+        case level2::Circle::none:
+            break;
     }
+    return rules_of(moment).has_detection_limit ? Blending::with_detection_limit
+                                                : Blending::values_only;
+}
+
+float half_period_of(level2::Moment moment, float nyquist_mps) {
+    switch (level2::facts_of(moment).circle) {
+        case level2::Circle::nyquist:
+            return std::isfinite(nyquist_mps) && nyquist_mps > 0 ? nyquist_mps : 0;
+        case level2::Circle::full_turn:
+            return 180;
+        case level2::Circle::none:
+            break;
+    }
+    return 0;
 }
 
 // Adds a value by its difference from the reference, the shorter way round. The reference is the

@@ -35,6 +35,10 @@ enum class Blending {
 }
 [[nodiscard]] Blending blending_of(level2::Moment moment);
 
+// Half of the circle on which a moment's values lie; 0 where they do not wrap and where a radial's
+// Nyquist velocity is not known (0 or not finite).
+[[nodiscard]] float half_period_of(level2::Moment moment, float nyquist_mps);
+
 // One gate.
 struct Sample {
     CellStatus status = CellStatus::not_seen;

@@ -79,11 +79,11 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
 }
 
 // Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost, or
-// a surveillance sweep sorts it out. It is short by nature for velocity, so it does not count
-// there.
+// a surveillance sweep sorts it out. It is short by nature for Doppler moments, so it does not
+// count there.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {
-    if (moment == level2::Moment::vel || moment == level2::Moment::sw) return 0;
+    if (level2::facts_of(moment).is_doppler) return 0;
     std::vector<float> ranges_m;
     for (const std::uint32_t radial : radials) {
         const float range_m = sweep.radials[radial].unambiguous_range_m;

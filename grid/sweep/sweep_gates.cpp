@@ -19,13 +19,6 @@ ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std
             }};
 }
 
-// CFP uses the codes 0 to 7 as flags, all other moments 0 and 1.
-std::uint16_t first_valid_code(level2::Moment moment) {
-    return moment == level2::Moment::cfp ? 8 : 2;
-}
-
-constexpr float full_phase_half_deg = 180;
-
 float in_unit(float value, Averaging averaging) {
     if (averaging == Averaging::in_db) return value;
     // Nobody has measured more, and floats end at 385 dBZ.
@@ -51,15 +44,10 @@ std::int32_t gates_of(const level2::SweepMoment& moment, std::size_t radial) {
 }
 
 CellStatus status_of_flag(level2::Moment moment, std::uint16_t code) {
-    if (moment == level2::Moment::cfp) return CellStatus::not_seen;
-    return code == 0 ? CellStatus::no_echo : CellStatus::range_folded;
-}
-
-float half_period_of(level2::Moment moment, const level2::Radial& radial) {
-    if (moment == level2::Moment::phi) return full_phase_half_deg;
-    const bool known = moment == level2::Moment::vel && std::isfinite(radial.nyquist_mps) &&
-                       radial.nyquist_mps > 0;
-    return known ? radial.nyquist_mps : 0;
+    const level2::GateStatus status = level2::status_of_code(moment, code);
+    if (status == level2::GateStatus::no_data) return CellStatus::not_seen;
+    return status == level2::GateStatus::below_threshold ? CellStatus::no_echo
+                                                         : CellStatus::range_folded;
 }
 
 }  // namespace
@@ -86,7 +74,7 @@ void SweepGates::add_kind(const level2::SweepMoment& moment, const BeamPath& pat
     kind.gate = gate_table(path, moment, table_size);
     kind.first_gate = static_cast<std::int32_t>(std::max(
         0.0, std::ceil(-static_cast<double>(moment.first_gate_m) / moment.gate_spacing_m)));
-    kind.first_valid_code = first_valid_code(moment.moment);
+    kind.first_valid_code = level2::facts_of(moment.moment).first_valid_code;
     kind.values = value_table(moment, averaging_);
     kinds_.push_back(std::move(kind));
 }
@@ -125,7 +113,7 @@ void SweepGates::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
     for (const std::uint32_t radial : chosen.radials) {
         Row row;
         row.radial = radial;
-        row.half_period = half_period_of(options.moment, sweep.radials[radial]);
+        row.half_period = half_period_of(options.moment, sweep.radials[radial].nyquist_mps);
         row.elevation_offset_deg = static_cast<float>(
             static_cast<double>(sweep.radials[radial].elevation_deg) - chosen.elevation_deg);
         for (std::size_t kind = 0; kind < kinds_.size() && row.gate_count == 0; ++kind) {

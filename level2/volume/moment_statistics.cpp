@@ -59,7 +59,7 @@ void note_kind(MomentStatistics& statistics, const SweepMoment& kind) {
 // Adds the counts of one kind, whose scale and offset turn its codes into values. Gives the sum.
 double add_histogram(MomentStatistics& statistics, const SweepMoment& kind,
                      const Histogram& histogram) {
-    const std::size_t first_valid = kind.moment == Moment::cfp ? 8 : 2;
+    const std::size_t first_valid = facts_of(kind.moment).first_valid_code;
     double sum = 0;
     for (std::size_t code = 0; code < histogram.size(); ++code) {
         const std::uint64_t count = histogram[code];

@@ -12,23 +12,6 @@
 namespace stormcellar::level2 {
 namespace {
 
-struct MomentFacts {
-    std::string_view name;
-    std::string_view units;
-};
-constexpr std::array<MomentFacts, moment_count> moment_facts = {{
-    {"REF", "dBZ"},
-    {"VEL", "m/s"},
-    {"SW", "m/s"},
-    {"ZDR", "dB"},
-    {"PHI", "degree"},
-    {"RHO", "1"},
-    {"CFP", "dB"},
-}};
-
-// Clutter filter power: codes below this are flags (ICD 2620002 table XVII-I, data moment notes).
-constexpr std::uint16_t first_valid_cfp_code = 8;
-
 // They differ by up to 10 s in sound volumes, and by more where the first records are lost.
 constexpr std::chrono::hours header_tolerance{1};
 
@@ -111,32 +94,18 @@ std::optional<UtcTime> first_of(const std::vector<Sweep>& sweeps) {
 
 }  // namespace
 
-std::string_view moment_name(Moment moment) {
-    return moment_facts[static_cast<std::size_t>(moment)].name;
-}
-
-std::string_view moment_units(Moment moment) {
-    return moment_facts[static_cast<std::size_t>(moment)].units;
-}
-
-std::optional<Moment> moment_from_name(std::string_view name) {
-    for (const Moment moment : all_moments) {
-        if (moment_name(moment) == name) return moment;
-    }
-    return std::nullopt;
+GateStatus status_of_code(Moment moment, std::uint16_t code) {
+    const std::uint16_t first_valid = facts_of(moment).first_valid_code;
+    if (code >= first_valid) return GateStatus::valid;
+    if (first_valid > 2) return GateStatus::no_data;
+    return code == 0 ? GateStatus::below_threshold : GateStatus::range_folded;
 }
 
 GateStatus SweepMoment::status(std::size_t radial, std::int32_t gate) const {
     if (radial >= gate_counts.size() || gate < 0 || gate >= gate_counts[radial]) {
         return GateStatus::no_data;
     }
-    const std::uint16_t number = code(radial, gate);
-    if (moment == Moment::cfp) {
-        return number < first_valid_cfp_code ? GateStatus::no_data : GateStatus::valid;
-    }
-    if (number == 0) return GateStatus::below_threshold;
-    if (number == 1) return GateStatus::range_folded;
-    return GateStatus::valid;
+    return status_of_code(moment, code(radial, gate));
 }
 
 const SweepMoment* Sweep::find(Moment moment) const {

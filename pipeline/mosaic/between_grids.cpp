@@ -1,7 +1,6 @@
 #include "pipeline/mosaic/between_grids.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "pipeline/mosaic/frame_parts.h"
@@ -39,14 +38,10 @@ Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
     Domain rules;
     rules.spec = newest.spec;
     rules.moments = {moment_};
-    constexpr std::array overlaps = {grid::Overlap::mean, grid::Overlap::maximum,
-                                     grid::Overlap::nearest, grid::Overlap::distance_weighted};
-    constexpr std::array methods = {grid::TimeMethod::nearest, grid::TimeMethod::blend,
-                                    grid::TimeMethod::advected};
-    for (const grid::Overlap overlap : overlaps) {
-        for (const grid::TimeMethod method : methods) {
-            rules.overlap = overlap;
-            rules.time = method;
+    for (const grid::OverlapFacts& overlap : grid::overlap_facts) {
+        for (const grid::TimeMethodFacts& time : grid::time_method_facts) {
+            rules.overlap = overlap.overlap;
+            rules.time = time.method;
             if (recipe_of(frame_options(rules, moment_, 1)) != newest.provenance.recipe) continue;
             rules.time = options_.method;
             mosaic_ = std::move(rules);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/name_list.h"
 #include "base/printable.h"
 #include "grid/cells/level_range.h"
 #include "stormcellar/cache/store.h"
@@ -62,13 +63,12 @@ void read_projection(TomlTable& table, GridSpec& spec) {
         if (projection) {
             spec.projection = *projection;
         } else {
-            table.complain("projection", fmt::format("\"{}\" is none of azimuthal_equidistant, "
-                                                     "latitude_longitude, lambert_conformal",
-                                                     printable(*name)));
+            table.complain("projection", fmt::format("\"{}\" is none of {}", printable(*name),
+                                                     names_in(grid::projection_facts)));
         }
     }
     const auto parallels = read_numbers(table, "parallels_deg", 2, "[latitude, latitude]");
-    if (spec.projection != Projection::lambert_conformal) {
+    if (!grid::facts_of(spec.projection).takes_parallels) {
         if (parallels) table.complain("parallels_deg", "is for lambert_conformal");
         return;
     }
@@ -79,7 +79,7 @@ void read_projection(TomlTable& table, GridSpec& spec) {
 void read_spacing(TomlTable& table, GridSpec& spec) {
     const auto km = table.number("spacing_km", {0.05, 500});
     const auto degrees = table.number("spacing_deg", {0.0005, 10});
-    if (spec.projection == Projection::latitude_longitude) {
+    if (spec.in_degrees()) {
         if (km) table.complain("spacing_km", "a latitude_longitude domain takes spacing_deg");
         spec.spacing_m = 0;
         spec.spacing_deg = degrees.value_or(0.01);
@@ -100,7 +100,7 @@ int cells_over(TomlTable& table, std::string_view key, double cells) {
 
 // The columns that hold the boundary of the bounds, on both sides of the centre alike.
 void size_by_bounds(TomlTable& table, const std::array<double, 4>& bounds, GridSpec& spec) {
-    if (spec.projection == Projection::latitude_longitude) {
+    if (spec.in_degrees()) {
         spec.nx = cells_over(table, "bounds", width_deg(bounds) / spec.spacing_deg);
         spec.ny = cells_over(table, "bounds", (bounds[3] - bounds[1]) / spec.spacing_deg);
         return;
@@ -117,7 +117,7 @@ void size_by_bounds(TomlTable& table, const std::array<double, 4>& bounds, GridS
 void size_by_extent(TomlTable& table, GridSpec& spec) {
     const auto km = read_numbers(table, "extent_km", 2, "[width, height]");
     const auto degrees = read_numbers(table, "extent_deg", 2, "[width, height]");
-    const bool in_degrees = spec.projection == Projection::latitude_longitude;
+    const bool in_degrees = spec.in_degrees();
     if (in_degrees && km) table.complain("extent_km", "latitude_longitude takes extent_deg");
     if (!in_degrees && degrees) table.complain("extent_deg", "is for latitude_longitude");
     const auto& extent = in_degrees ? degrees : km;
@@ -198,9 +198,8 @@ void read_frames(TomlTable& table, Domain& domain) {
     if (const auto name = table.text("overlap")) {
         domain.overlap = grid::overlap_from_name(*name);
         if (!domain.overlap) {
-            table.complain("overlap", fmt::format("\"{}\" is none of distance-weighted, mean, "
-                                                  "maximum, nearest",
-                                                  printable(*name)));
+            table.complain("overlap", fmt::format("\"{}\" is none of {}", printable(*name),
+                                                  names_in(grid::overlap_facts)));
         }
     }
     if (const auto km = table.number("overlap_km", {1, 10'000})) {
@@ -211,8 +210,8 @@ void read_frames(TomlTable& table, Domain& domain) {
         if (method) {
             domain.time = *method;
         } else {
-            table.complain("time_method", fmt::format("\"{}\" is none of advected, blend, nearest",
-                                                      printable(*name)));
+            table.complain("time_method", fmt::format("\"{}\" is none of {}", printable(*name),
+                                                      names_in(grid::time_method_facts)));
         }
     }
 }
@@ -302,8 +301,8 @@ std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key
                                           const std::string& name) {
     const auto moment = level2::moment_from_name(name);
     if (!moment) {
-        table.complain(key, fmt::format("\"{}\" is no moment; one of REF VEL SW ZDR PHI RHO CFP",
-                                        printable(name)));
+        table.complain(key, fmt::format("\"{}\" is no moment; one of {}", printable(name),
+                                        level2::moment_names(" ", " ")));
     }
     return moment;
 }

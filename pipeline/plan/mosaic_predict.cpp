@@ -244,7 +244,7 @@ Displacements displacements(const MosaicScene& scene) {
 
 Status predict(MosaicScene& scene, const grid::PlanOptions& options, accuracy::Chain& chain) {
     const level2::Moment moment = scene.options().partial.gridder.moment;
-    if (moment == level2::Moment::vel || moment == level2::Moment::phi) {
+    if (level2::is_circular(moment)) {
         return fail(ErrorCode::bad_argument,
                     "no plan is made for {} of several volumes: its values lie on a circle, and "
                     "each radar has its own",

@@ -1,6 +1,7 @@
 #include "render/colour/built_in_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -242,37 +243,56 @@ std::vector<ExtinctionPoint> reflectivity_extinction(float lowest) {
     return points;
 }
 
+std::vector<ExtinctionPoint> velocity_extinction(float /*lowest*/) {
+    return {{least_velocity, 0.5},
+            {-50, 0.5},
+            {-30, 0.2},
+            {-10, 0.03},
+            {0, 0.006},
+            {10, 0.03},
+            {30, 0.2},
+            {50, 0.5}};
+}
+std::vector<ExtinctionPoint> spectrum_width_extinction(float /*lowest*/) {
+    return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
+}
+std::vector<ExtinctionPoint> zdr_extinction(float /*lowest*/) {
+    return {{least_zdr, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
+}
+std::vector<ExtinctionPoint> phi_extinction(float /*lowest*/) {
+    return {{0, 0.015}};
+}
+std::vector<ExtinctionPoint> rho_extinction(float /*lowest*/) {
+    return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
+}
+std::vector<ExtinctionPoint> cfp_extinction(float /*lowest*/) {
+    return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
+}
+
+constexpr auto moment_looks = std::to_array<MomentLook>({
+    {Moment::ref, "Reflectivity", ref, false, reflectivity_extinction},
+    {Moment::vel, "Radial velocity", vel, false, velocity_extinction},
+    {Moment::sw, "Spectrum width", sw, true, spectrum_width_extinction},
+    {Moment::zdr, "Differential reflectivity", zdr, false, zdr_extinction},
+    {Moment::phi, "Differential phase", phi, true, phi_extinction},
+    {Moment::rho, "Correlation coefficient", rho, false, rho_extinction},
+    {Moment::cfp, "Clutter filter power removed", cfp, true, cfp_extinction},
+});
+static_assert(level2::has_a_row_for_each_moment(moment_looks));
+
 }  // namespace
 
+const MomentLook& look_of(Moment moment) {
+    return moment_looks[static_cast<std::size_t>(moment)];
+}
+
 std::string unit_of(Moment moment) {
-    return moment == Moment::rho ? std::string{} : std::string(level2::moment_units(moment));
+    const std::string_view units = level2::moment_units(moment);
+    return units == "1" ? std::string{} : std::string(units);
 }
 
 std::vector<ExtinctionPoint> default_extinction(Moment moment, float lowest) {
-    switch (moment) {
-        case Moment::ref:
-            return reflectivity_extinction(lowest);
-        case Moment::vel:
-            return {{least_velocity, 0.5},
-                    {-50, 0.5},
-                    {-30, 0.2},
-                    {-10, 0.03},
-                    {0, 0.006},
-                    {10, 0.03},
-                    {30, 0.2},
-                    {50, 0.5}};
-        case Moment::sw:
-            return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
-        case Moment::zdr:
-            return {{least_zdr, 0.02}, {0.5, 0.02}, {2, 0.06}, {4, 0.25}};
-        case Moment::phi:
-            return {{0, 0.015}};
-        case Moment::rho:
-            return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
-        case Moment::cfp:
-            return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
-    }
-    return {{0, 0.015}};
+    return look_of(moment).extinction(lowest);
 }
 
 const std::vector<ColourTable>& built_in_tables() {
@@ -316,23 +336,7 @@ const ColourTable& height_colours() {
 }
 
 const ColourTable& default_colour_table(Moment moment) {
-    switch (moment) {
-        case Moment::ref:
-            break;
-        case Moment::vel:
-            return built_in_tables()[vel];
-        case Moment::sw:
-            return built_in_tables()[sw];
-        case Moment::zdr:
-            return built_in_tables()[zdr];
-        case Moment::phi:
-            return built_in_tables()[phi];
-        case Moment::rho:
-            return built_in_tables()[rho];
-        case Moment::cfp:
-            return built_in_tables()[cfp];
-    }
-    return built_in_tables()[ref];
+    return built_in_tables()[look_of(moment).table];
 }
 
 }  // namespace stormcellar::render

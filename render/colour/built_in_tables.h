@@ -23,6 +23,7 @@
 // Thread contract: tables are made once and never change.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,18 @@ inline constexpr double least_safe_sides = 15;
 [[nodiscard]] const ColourTable& echo_top_colours();
 [[nodiscard]] const ColourTable& vil_colours();
 [[nodiscard]] const ColourTable& height_colours();
+
+// What a picture says of a moment, and its default colours: render's layer over
+// stormcellar/level2/moment.h.
+struct MomentLook {
+    level2::Moment moment = level2::Moment::ref;
+    std::string_view title = {};     // "Correlation coefficient"
+    std::size_t table = 0;           // in built_in_tables()
+    bool is_never_negative = false;  // values below a table that begins at 0 do not exist
+    // default_extinction()
+    std::vector<ExtinctionPoint> (*extinction)(float lowest) = nullptr;
+};
+[[nodiscard]] const MomentLook& look_of(level2::Moment moment);
 
 // The unit of a moment's values as tables name it: "dBZ", "m/s", "dB", "degree"; empty for RHO.
 [[nodiscard]] std::string unit_of(level2::Moment moment);

@@ -26,19 +26,16 @@ struct Entry {
     bool solid = false;
 };
 
-// What a product's name or a unit says about the values.
+// What a product's name says about the values, beside the names of our own moments.
 struct Meaning {
     std::string_view word;
     std::optional<Moment> moment;
     std::string_view unit;
 };
 constexpr Meaning products[] = {
-    {"BR", Moment::ref, {}},  {"CR", Moment::ref, {}},  {"REF", Moment::ref, {}},
-    {"BV", Moment::vel, {}},  {"SRV", Moment::vel, {}}, {"VEL", Moment::vel, {}},
-    {"SW", Moment::sw, {}},   {"ZDR", Moment::zdr, {}}, {"CC", Moment::rho, {}},
-    {"RHO", Moment::rho, {}}, {"PHI", Moment::phi, {}}, {"CFP", Moment::cfp, {}},
-    {"ET", {}, "km"},         {"EET", {}, "km"},        {"VIL", {}, "kg/m2"},
-    {"DVL", {}, "kg/m2"},
+    {"BR", Moment::ref, {}},  {"CR", Moment::ref, {}}, {"BV", Moment::vel, {}},
+    {"SRV", Moment::vel, {}}, {"CC", Moment::rho, {}}, {"ET", {}, "km"},
+    {"EET", {}, "km"},        {"VIL", {}, "kg/m2"},    {"DVL", {}, "kg/m2"},
 };
 
 // How many of the file's units one of ours is.
@@ -230,14 +227,25 @@ class PalReader {
         return {};
     }
 
+    void note_moment(Moment moment, ColourTable& table) {
+        moment_known_ = true;
+        table.moment = moment;
+        table.unit = unit_of(moment);
+    }
+
     // Moment and unit of the table; gives how many of the file's units one of ours is.
     double settle_meaning(ColourTable& table) {
         const std::string product = upper(product_);
+        if (const auto moment = level2::moment_from_name(product)) {
+            note_moment(*moment, table);
+        }
         for (const Meaning& known : products) {
             if (known.word != product) continue;
-            moment_known_ = known.moment.has_value();
-            table.moment = known.moment.value_or(Moment::ref);
-            table.unit = known.moment ? unit_of(*known.moment) : std::string(known.unit);
+            if (known.moment) {
+                note_moment(*known.moment, table);
+            } else {
+                table.unit = known.unit;
+            }
         }
         double per_ours = 1;
         const std::string word = upper(unit_);

@@ -63,7 +63,7 @@ bool read_meaning(TomlTable& root, ColourTable& table) {
     if (!name) return false;
     const auto moment = level2::moment_from_name(*name);
     if (!moment) {
-        root.complain("moment", "must be REF, VEL, SW, ZDR, PHI, RHO or CFP");
+        root.complain("moment", "must be " + level2::moment_names(", ", " or "));
         return false;
     }
     table.moment = *moment;

@@ -6,8 +6,8 @@
 #include "base/floating_point.h"
 #include "render/frame/picture_layout.h"
 #include "render/map/map_lines.h"
+#include "render/products/flat_field.h"
 #include "render/products/ground.h"
-#include "render/products/product.h"
 #include "render/products/section.h"
 #include "stormcellar/grid/projection.h"
 
@@ -42,7 +42,7 @@ Result<Probe> probe_column(const grid::BrickView& view, const Scene& scene, std:
                            grid::GeoPoint place, int threads) {
     Scene map = scene;
     // A volume's ground shows the column under the pixel.
-    if (scene.product == Product::volume) map.product = Product::composite;
+    if (view_of(scene.product) == View::volume) map.product = Product::composite;
     const auto field = map_field(view, map, summarize_columns(view, threads), threads);
     if (!field) return pass_on(field);
     Probe probe;
@@ -107,7 +107,7 @@ Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts, 
                     layout->left, layout->top, layout->left + layout->width - 1,
                     layout->top + layout->height - 1);
     }
-    if (scene.product == Product::section) {
+    if (view_of(scene.product) == View::section) {
         return probe_section(view, scene, *layout, in_x, in_y, threads);
     }
     const grid::GridSpec& spec = *view.spec;
@@ -126,7 +126,7 @@ Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts, 
 Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
                           grid::GeoPoint place, int threads) {
     if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
-    if (scene.product == Product::section) {
+    if (view_of(scene.product) == View::section) {
         return fail(ErrorCode::bad_argument, "a section is probed at a pixel, not at a place");
     }
     const grid::GridSpec& spec = *view.spec;

@@ -8,8 +8,8 @@
 #include "render/map/map_lines.h"
 #include "render/map/map_marks.h"
 #include "render/products/column_summary.h"
+#include "render/products/flat_field.h"
 #include "render/products/ground.h"
-#include "render/products/product.h"
 #include "render/products/section.h"
 #include "render/volume/haze.h"
 
@@ -29,7 +29,7 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
                            const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
                            int threads, FrameKeeper& keeper) {
     const double scale = frame.layout.scale;
-    const bool volume = scene.product == Product::volume;
+    const bool volume = view_of(scene.product) == View::volume;
     const ColourTable& colours = colours_of(scene);
     Image base;
     if (volume) {
@@ -82,7 +82,7 @@ Status check_frame(const grid::BrickView& view, const FrameFacts& facts, const S
         return fail(ErrorCode::bad_argument, "the grid holds {}, the scene is of {}",
                     level2::moment_name(facts.moment), level2::moment_name(scene.moment));
     }
-    if (scene.product == Product::volume && !PacketVolume::can_address(view)) {
+    if (view_of(scene.product) == View::volume && !PacketVolume::can_address(view)) {
         return fail(ErrorCode::unsupported,
                     "a grid of {} x {} x {} cells is too large to be drawn as a volume",
                     view.spec->nx, view.spec->ny, view.spec->nz());
@@ -121,7 +121,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     frame.lines.geometry = &geometry;
     frame.lines.spec = view.spec;
     frame.lines.sites = &facts.sites;
-    frame.lines.heights = scene.product == Product::volume;
+    frame.lines.heights = view_of(scene.product) == View::volume;
     frame.lines.scale = frame.layout.scale;
     FrameKeeper own;
     FrameKeeper& keeper = kept != nullptr ? *kept : own;
@@ -132,7 +132,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
         frame.marks = plan_marks(frame.fonts, frame.lines);
     }
 
-    const bool section = scene.product == Product::section;
+    const bool section = view_of(scene.product) == View::section;
     auto picture = section ? draw_section_picture(view, scene, frame, threads)
                            : draw_picture(view, columns, scene, geometry, frame, threads, keeper);
     if (!picture || !scene.labels) return picture;

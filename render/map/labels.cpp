@@ -10,9 +10,9 @@
 #include "render/map/base_map.h"
 #include "render/map/colour_bar.h"
 #include "render/products/ground.h"
-#include "render/products/product.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/version.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::render {
 namespace {
@@ -56,21 +56,27 @@ std::string title_of(const FrameFacts& facts) {
     return title;
 }
 
+std::string view_text(const Scene& scene) {
+    const double tilt = scene.camera.tilt_deg;
+    std::string text = tilt == 0 ? "Seen from above"
+                                 : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
+                                               direction_name(scene.camera.azimuth_deg), tilt);
+    text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
+    if (scene.light.any()) text += fmt::format("  \u00B7  lit ({})", light_names(scene.light));
+    return text;
+}
+
 std::string footer_of(const Scene& scene, const FrameFacts& facts, double ring_spacing_m) {
     std::string text;
-    if (scene.product == Product::volume) {
-        const double tilt = scene.camera.tilt_deg;
-        text = tilt == 0 ? "Seen from above"
-                         : fmt::format("Seen from {}, {:g}\u00B0 from the vertical",
-                                       direction_name(scene.camera.azimuth_deg), tilt);
-        text += fmt::format("  \u00B7  vertical \u00D7{:g}", scene.vertical_exaggeration);
-        if (scene.light.any()) {
-            text += fmt::format("  \u00B7  lit ({})", light_names(scene.light));
-        }
-    } else if (scene.product == Product::section) {
-        return "Vertical section from A to B";
-    } else {
-        text = "Map, north up";
+    switch (view_of(scene.product)) {
+        case View::volume:
+            text = view_text(scene);
+            break;
+        case View::map:
+            text = "Map, north up";
+            break;
+        case View::section:
+            return "Vertical section from A to B";
     }
     if (facts.sites.size() == 1) {
         text += fmt::format("  \u00B7  range rings every {:g} km", ring_spacing_m / 1000);
@@ -198,7 +204,7 @@ void lay_out_footer(Builder& builder, const Scene& scene, const FrameFacts& fact
     builder.put(footer_of(scene, facts, picture.ring_spacing_m), left, first,
                 right - width - gap - left, style);
     const std::string software = fmt::format("stormcellar {}", software_version);
-    const bool has_map = scene.product != Product::section;
+    const bool has_map = view_of(scene.product) != View::section;
     width = builder.put(has_map ? fmt::format("{}  \u00B7  {}", map_credit, software) : software,
                         right, second, 0.55 * scene.width, small, true);
     if (!picture.coverage) return;

@@ -2,26 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "render/colour/built_in_tables.h"
 #include "render/image/shades.h"
 #include "render/products/ground.h"
-#include "render/products/product.h"
 #include "render/volume/haze.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::render {
 namespace {
-
-using level2::Moment;
-
-// Values below the table's first class, 0, do not exist.
-bool is_never_negative(Moment moment) {
-    return moment == Moment::sw || moment == Moment::phi || moment == Moment::cfp;
-}
 
 // "no echo and < 5 dBZ" of a table that begins there; "no echo" of one that takes all values.
 std::string clear_words(const Scene& scene, std::string_view between) {
     const ColourTable& table = colours_of(scene);
     const bool takes_all =
-        table.bar_begin || (is_never_negative(scene.moment) && !(table.lowest() > 0));
+        table.bar_begin || (look_of(scene.moment).is_never_negative && !(table.lowest() > 0));
     if (takes_all) return "no echo";
     const std::string unit = unit_shown(scene);
     return fmt::format("no echo {} < {:g}{}{}", between, table.lowest(), unit.empty() ? "" : " ",
@@ -45,16 +39,15 @@ void add_volume_rows(const Scene& scene, Legend& legend) {
 }
 
 void add_flat_rows(const Scene& scene, Legend& legend) {
-    const bool heights_seen =
-        scene.product == Product::lowest_seen || scene.product == Product::highest_seen;
-    if (scene.product == Product::echo_top) {
+    const ProductFacts& facts = facts_of(scene.product);
+    if (facts.threshold_dbz != nullptr) {
         legend.rows.push_back({"dotted: at least", shades::page, false});
-        legend.rows.push_back(
-            {fmt::format("no echo or < {:g} dBZ", scene.echo_top_dbz), shades::seen, false});
-    } else if (!heights_seen) {
+        legend.rows.push_back({fmt::format("no echo or < {:g} dBZ", scene.*facts.threshold_dbz),
+                               shades::seen, false});
+    } else if (facts.has_echo_states) {
         legend.rows.push_back({clear_words(scene, "or"), shades::seen, false});
     }
-    if (!heights_seen) {
+    if (facts.has_echo_states) {
         legend.rows.push_back({"range folded", colours_of(scene).range_folded, false});
     }
     legend.rows.push_back({"not seen", shades::not_seen, true});
@@ -68,7 +61,7 @@ Legend legend_of(const Scene& scene) {
     legend.table = &colours_of(scene);
     legend.bar_heading = unit_shown(scene);
     if (legend.bar_heading.empty()) legend.bar_heading = level2::moment_name(scene.moment);
-    if (scene.product == Product::volume) {
+    if (view_of(scene.product) == View::volume) {
         add_volume_rows(scene, legend);
     } else {
         add_flat_rows(scene, legend);

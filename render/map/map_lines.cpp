@@ -25,7 +25,7 @@ class SiteMap {
 
     // An azimuthal equidistant map shows a ring as a circle, near enough; others do not.
     [[nodiscard]] GroundPoint about(double azimuth_rad, double arc_m) const {
-        if (map_.spec().projection == grid::Projection::azimuthal_equidistant) {
+        if (grid::facts_of(map_.spec().projection).is_polar) {
             return {site_.x_m + arc_m * std::sin(azimuth_rad),
                     site_.y_m + arc_m * std::cos(azimuth_rad)};
         }

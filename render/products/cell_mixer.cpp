@@ -13,7 +13,7 @@ grid::Sample cell_of(const grid::BrickView& view, level2::Moment moment, int ix,
     grid::Sample cell;
     cell.status = view.status(ix, iy, iz);
     if (cell.status == CellStatus::value) cell.value = view.value(ix, iy, iz);
-    if (moment == level2::Moment::phi) cell.half_period = 180;
+    cell.half_period = grid::half_period_of(moment, 0);
     return cell;
 }
 

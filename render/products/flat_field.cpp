@@ -234,4 +234,26 @@ FlatField highest_seen_field(const BrickView& view, int threads) {
                            });
 }
 
+Result<FlatField> map_field(const BrickView& view, const Scene& scene,
+                            const std::vector<ColumnSummary>& columns, int threads) {
+    switch (scene.product) {
+        case Product::composite:
+            return composite_field(view, columns);
+        case Product::cappi:
+            return cappi_field(view, scene.moment, scene.cappi_height_m, threads);
+        case Product::echo_top:
+            return echo_top_field(view, scene.echo_top_dbz, threads);
+        case Product::vil:
+            return vil_field(view, threads);
+        case Product::lowest_seen:
+            return lowest_seen_field(view, threads);
+        case Product::highest_seen:
+            return highest_seen_field(view, threads);
+        case Product::volume:
+        case Product::section:
+            break;
+    }
+    return fail(ErrorCode::internal, "{} is no map", product_name(scene.product));
+}
+
 }  // namespace stormcellar::render

@@ -28,6 +28,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
 
@@ -58,6 +59,11 @@ struct FlatField {
 
 [[nodiscard]] FlatField lowest_seen_field(const grid::BrickView& view, int threads);
 [[nodiscard]] FlatField highest_seen_field(const grid::BrickView& view, int threads);
+
+// Of the scene's product, whose view is a map; the scene must be valid. bad_argument as the
+// products.
+[[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const Scene& scene,
+                                          const std::vector<ColumnSummary>& columns, int threads);
 
 // One column, from the lowest level up.
 struct ColumnCells {

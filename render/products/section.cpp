@@ -34,7 +34,7 @@ struct Corner {
 
 grid::Sample sample_of(const ColumnCells& cells, level2::Moment moment, int level) {
     const auto i = static_cast<std::size_t>(level);
-    return {cells.status[i], cells.values[i], 0, moment == level2::Moment::phi ? 180.0F : 0.0F};
+    return {cells.status[i], cells.values[i], 0, grid::half_period_of(moment, 0)};
 }
 
 }  // namespace

@@ -9,19 +9,6 @@
 namespace stormcellar::render {
 namespace {
 
-struct Named {
-    Product product;
-    std::string_view name;
-};
-constexpr std::array<Named, 8> products = {{{Product::volume, "volume"},
-                                            {Product::composite, "composite"},
-                                            {Product::cappi, "cappi"},
-                                            {Product::section, "section"},
-                                            {Product::echo_top, "echotop"},
-                                            {Product::vil, "vil"},
-                                            {Product::lowest_seen, "lowest-seen"},
-                                            {Product::highest_seen, "highest-seen"}}};
-
 // NaN is outside every range.
 Status check_range(std::string_view what, double value, double low, double high) {
     if (is_within(value, low, high)) return {};
@@ -52,8 +39,7 @@ Status check_section(const Scene& scene) {
 }
 
 Status check_colours(const Scene& scene) {
-    const bool needs_ref = scene.product == Product::echo_top || scene.product == Product::vil;
-    if (needs_ref && scene.moment != level2::Moment::ref) {
+    if (facts_of(scene.product).needs_reflectivity && scene.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "{} is made of reflectivity (REF), not of {}",
                     product_name(scene.product), level2::moment_name(scene.moment));
     }
@@ -65,7 +51,7 @@ Status check_colours(const Scene& scene) {
     const std::string wanted = unit_shown(scene);
     const std::string& unit = scene.colours->unit;
     // A table of RHO has no unit either.
-    const bool of_numbers = scene.colours->moment == level2::Moment::rho;
+    const bool of_numbers = unit_of(scene.colours->moment).empty();
     if (unit == wanted || (unit.empty() && !of_numbers)) return {};
     return fail(ErrorCode::bad_argument, "colour table {} is {}, the picture {}",
                 scene.colours->name, unit.empty() ? "without a unit" : "in " + unit,
@@ -73,57 +59,6 @@ Status check_colours(const Scene& scene) {
 }
 
 }  // namespace
-
-Result<Product> product_from_name(std::string_view name) {
-    for (const Named& candidate : products) {
-        if (candidate.name == name) return candidate.product;
-    }
-    std::string known;
-    for (const Named& candidate : products) {
-        if (!known.empty()) known += ", ";
-        known += candidate.name;
-    }
-    return fail(ErrorCode::bad_argument, "unknown product '{}': known are {}", name, known);
-}
-
-std::string_view product_name(Product product) {
-    for (const Named& candidate : products) {
-        if (candidate.product == product) return candidate.name;
-    }
-    return "unknown";
-}
-
-bool is_map(Product product) {
-    return product != Product::volume && product != Product::section;
-}
-
-const ColourTable& colours_of(const Scene& scene) {
-    if (scene.colours) return *scene.colours;
-    switch (scene.product) {
-        case Product::echo_top:
-            return echo_top_colours();
-        case Product::vil:
-            return vil_colours();
-        case Product::lowest_seen:
-        case Product::highest_seen:
-            return height_colours();
-        default:
-            return default_colour_table(scene.moment);
-    }
-}
-
-std::string unit_shown(const Scene& scene) {
-    switch (scene.product) {
-        case Product::echo_top:
-        case Product::lowest_seen:
-        case Product::highest_seen:
-            return "km";
-        case Product::vil:
-            return "kg/m2";
-        default:
-            return unit_of(scene.moment);
-    }
-}
 
 Status validate(const Scene& scene) {
     const Camera& camera = scene.camera;

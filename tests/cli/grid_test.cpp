@@ -71,7 +71,7 @@ TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     expect_usage({"a", "--levels-km", "2,1"}, "levels must rise");
     expect_usage({"a", "--moment", "ref"}, "REF VEL SW");
     expect_usage({"a", "--threads", "0"}, "--threads");
-    expect_usage({"a", "--projection", "mercator"}, "latitude_longitude (lat-lon)");
+    expect_usage({"a", "--projection", "mercator"}, "latitude_longitude (lat-lon, latlon)");
     expect_usage({"a", "--spacing-deg", "0.01"}, "--spacing-deg");
     expect_usage({"a", "--extent-deg", "4,4", "--projection", "lcc"}, "--extent-deg");
     expect_usage({"a", "--parallels", "30,60"}, "--parallels");

@@ -1,4 +1,4 @@
-#include "render/products/product.h"
+#include "stormcellar/render/product.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include "render/colour/built_in_tables.h"
 #include "render/image/shades.h"
 #include "render/map/legend.h"
+#include "render/products/flat_field.h"
 #include "tests/render/synthetic_storm.h"
 
 namespace stormcellar::render {

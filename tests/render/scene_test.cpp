@@ -12,11 +12,8 @@ namespace stormcellar::render {
 namespace {
 
 TEST(Product, NamesGoBothWays) {
-    for (const Product product :
-         {Product::volume, Product::composite, Product::cappi, Product::section, Product::echo_top,
-          Product::vil, Product::lowest_seen, Product::highest_seen}) {
-        EXPECT_EQ(product_from_name(product_name(product)).value(), product);
-    }
+    for (const ProductFacts& facts : all_products())
+        EXPECT_EQ(product_from_name(product_name(facts.product)).value(), facts.product);
     EXPECT_FALSE(is_map(Product::volume));
     EXPECT_FALSE(is_map(Product::section));
     EXPECT_TRUE(is_map(Product::vil));

@@ -32,8 +32,34 @@ enum class Projection {
     // conic with its origin at the center; true to scale along the parallels
     lambert_conformal = 2,
 };
+
+// What is known of a projection besides its formulas, which grid/cells/projection.cpp has. This is
+// the one list of projections; CONTRIBUTING.md says how to add one.
+struct ProjectionFacts {
+    Projection projection = Projection::azimuthal_equidistant;
+    std::string_view name = {};                        // in options, domain files and JSON
+    std::array<std::string_view, 2> short_names = {};  // more names on the command line, or empty
+    bool in_degrees = false;       // rows and columns are regular in degrees, else in meters
+    bool takes_parallels = false;  // GridSpec::parallels_deg
+    bool is_polar = false;         // true to distance and azimuth from the center
+};
+inline constexpr auto projection_facts = std::to_array<ProjectionFacts>({
+    {Projection::azimuthal_equidistant, "azimuthal_equidistant", {"aeqd"}, false, false, true},
+    {Projection::latitude_longitude, "latitude_longitude", {"lat-lon", "latlon"}, true},
+    {Projection::lambert_conformal, "lambert_conformal", {"lambert", "lcc"}, false, true},
+});
+inline constexpr ProjectionFacts no_projection = {{}, "unknown", {}};
+// Returns the facts of a projection. A number that is no projection, which a damaged file may hold,
+// has those of `no_projection`.
+[[nodiscard]] constexpr const ProjectionFacts& facts_of(Projection projection) {
+    const auto at = static_cast<std::size_t>(projection);
+    return at < projection_facts.size() ? projection_facts[at] : no_projection;
+}
 // Returns the CF grid_mapping_name, such as "azimuthal_equidistant", except for lambert_conformal.
-[[nodiscard]] std::string_view projection_name(Projection projection);
+[[nodiscard]] constexpr std::string_view projection_name(Projection projection) {
+    return facts_of(projection).name;
+}
+// Takes the full name only.
 [[nodiscard]] std::optional<Projection> projection_from_name(std::string_view name);
 
 struct GridSpec {
@@ -43,9 +69,9 @@ struct GridSpec {
     Projection projection = Projection::azimuthal_equidistant;
     double center_latitude_deg = 0;
     double center_longitude_deg = 0;
-    double spacing_m = 1000;  // for a projection with a plane; 0 for latitude_longitude
-    double spacing_deg = 0;   // for latitude_longitude, in both directions; else 0
-    // The standard parallels of lambert_conformal, which may be equal; else 0.
+    double spacing_m = 1000;  // for a projection with a plane; 0 for one in degrees
+    double spacing_deg = 0;   // for a projection in degrees, in both directions; else 0
+    // The standard parallels of a projection that takes them, which may be equal; else 0.
     std::array<double, 2> parallels_deg{};
     int nx = 460;
     int ny = 460;
@@ -55,20 +81,21 @@ struct GridSpec {
     double offset_x_cells = 0;
     double offset_y_cells = 0;
 
+    [[nodiscard]] bool in_degrees() const { return facts_of(projection).in_degrees; }
     [[nodiscard]] int nz() const { return static_cast<int>(levels_m.size()); }
     [[nodiscard]] std::size_t column_count() const {
         return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
     }
     [[nodiscard]] std::size_t cell_count() const { return column_count() * levels_m.size(); }
 
-    // Return the size of a column in meters. With a plane this is the spacing. For
-    // latitude_longitude it is the width or height at the center of the grid, for users that take
-    // the grid as a plane (pictures).
+    // Return the size of a column in meters. With a plane this is the spacing. For a projection in
+    // degrees it is the width or height at the center of the grid, for users that take the grid as
+    // a plane (pictures).
     [[nodiscard]] double cell_width_m() const {
-        return projection == Projection::latitude_longitude ? width_at_center_m() : spacing_m;
+        return in_degrees() ? width_at_center_m() : spacing_m;
     }
     [[nodiscard]] double cell_height_m() const {
-        return projection == Projection::latitude_longitude ? height_at_center_m() : spacing_m;
+        return in_degrees() ? height_at_center_m() : spacing_m;
     }
     // Return the column and the row of the center, exactly. The center may lie between two columns,
     // and beyond the grid.

@@ -14,6 +14,8 @@
 // Errors    None; an unknown name gives none.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +43,21 @@ using ChosenCircle = Chosen<true, false>;
 // Returns the extent of cells that a method's name stands for; point for an unknown name.
 [[nodiscard]] CellExtent cell_extent_of(std::string_view method_name);
 
+// What is known of an interpolation. CONTRIBUTING.md says how to add one.
+struct InterpolationFacts {
+    Interpolation interpolation = Interpolation::nearest;
+    std::string_view name = {};
+    bool takes_one_gate = false;  // of each sweep, so that whole columns are filled at once
+};
+inline constexpr auto interpolation_facts = std::to_array<InterpolationFacts>({
+    {Interpolation::nearest, "nearest", true},
+    {Interpolation::linear, "linear", true},
+    {Interpolation::eight_point, "eight-point"},
+    {Interpolation::beam_weighted, "beam-weighted"},
+});
+[[nodiscard]] constexpr const InterpolationFacts& facts_of(Interpolation interpolation) {
+    return interpolation_facts[static_cast<std::size_t>(interpolation)];
+}
 // Returns "nearest", "linear", "eight-point" or "beam-weighted".
 [[nodiscard]] std::string_view interpolation_name(Interpolation interpolation);
 [[nodiscard]] std::optional<Interpolation> interpolation_from_name(std::string_view name);

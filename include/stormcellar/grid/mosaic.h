@@ -36,6 +36,7 @@
 //           less than 1e-5 of themselves. The errors of the partials themselves come on top.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,10 +51,21 @@
 namespace stormcellar::grid {
 
 enum class Overlap { mean, maximum, nearest, distance_weighted };
+struct OverlapFacts {
+    Overlap overlap = Overlap::mean;
+    std::string_view name = {};
+};
+inline constexpr auto overlap_facts = std::to_array<OverlapFacts>({
+    {Overlap::mean, "mean"},
+    {Overlap::maximum, "maximum"},
+    {Overlap::nearest, "nearest"},
+    {Overlap::distance_weighted, "distance-weighted"},
+});
 // Returns "mean", "maximum", "nearest" or "distance-weighted".
 [[nodiscard]] std::string_view overlap_name(Overlap overlap);
 [[nodiscard]] std::optional<Overlap> overlap_from_name(std::string_view name);
-// Returns the default for a moment: nearest for VEL and PHI, else distance_weighted.
+// Returns the default for a moment: nearest if values of different sites must not be mixed (VEL and
+// PHI), else distance_weighted.
 [[nodiscard]] Overlap default_overlap(level2::Moment moment);
 
 struct MosaicOptions {

@@ -19,17 +19,9 @@
 #include <vector>
 
 #include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/moment.h"
 
 namespace stormcellar::level2 {
-
-enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
-inline constexpr int moment_count = 7;
-inline constexpr std::array<Moment, moment_count> all_moments = {
-    Moment::ref, Moment::vel, Moment::sw, Moment::zdr, Moment::phi, Moment::rho, Moment::cfp};
-
-[[nodiscard]] std::string_view moment_name(Moment moment);   // "REF", "VEL", ...
-[[nodiscard]] std::string_view moment_units(Moment moment);  // "dBZ", "m/s", "dB", "degree", "1"
-[[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);  // upper case
 
 // What the code of a gate stands for. Code 0 is below threshold and code 1 is range folded. For
 // CFP, codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial is
@@ -44,6 +36,10 @@ enum class RadialStatus : std::uint8_t {
     end_of_volume = 4,
     start_of_last_elevation = 5,
 };
+
+// Code 0 is below threshold and code 1 range folded; where a moment's codes begin with flags, a
+// flag is no_data.
+[[nodiscard]] GateStatus status_of_code(Moment moment, std::uint16_t code);
 
 struct Radial {
     UtcTime time;

@@ -16,16 +16,9 @@
 #include "stormcellar/render/colour_table.h"
 #include "stormcellar/render/integration.h"
 #include "stormcellar/render/light.h"
+#include "stormcellar/render/product.h"
 
 namespace stormcellar::render {
-
-// render/products/flat_field.h describes each product; render/products/section.h the section.
-enum class Product { volume, composite, cappi, section, echo_top, vil, lowest_seen, highest_seen };
-[[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
-[[nodiscard]] std::string_view product_name(Product product);
-// Returns true for a map of the grid's columns, seen from above: every product except volume and
-// section.
-[[nodiscard]] bool is_map(Product product);
 
 // The place of a camera: meters east and north of the middle of the grid, and a height above sea
 // level.
@@ -51,7 +44,7 @@ struct SectionLine {
 
 struct Scene {
     Product product = Product::volume;
-    level2::Moment moment = level2::Moment::ref;        // of the grid; echo_top and vil need REF
+    level2::Moment moment = level2::Moment::ref;        // of the grid; some products need REF
     std::optional<ColourTable> colours = std::nullopt;  // none: see colours_of()
     double cappi_height_m = 3000;                       // above sea level; -1..60 km
     std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
@@ -73,11 +66,5 @@ struct Scene {
 // Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
 // outside every range.
 [[nodiscard]] Status validate(const Scene& scene);
-
-// Returns the table of the scene, or else that of the product, or else that of the moment.
-[[nodiscard]] const ColourTable& colours_of(const Scene& scene);
-// Returns the unit of what the product shows ("dBZ", "km"), or an empty text for a number without a
-// unit.
-[[nodiscard]] std::string unit_shown(const Scene& scene);
 
 }  // namespace stormcellar::render

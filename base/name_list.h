@@ -1,0 +1,36 @@
+// base/name_list.h -- the names in a table, for help and messages.
+//
+// Threads: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace stormcellar {
+
+// The `name` of each row: "a, b, c" or, with " or " before the last, "a, b or c".
+template <class Rows>
+[[nodiscard]] std::string names_in(const Rows& rows, std::string_view between = ", ",
+                                   std::string_view before_last = ", ") {
+    std::string names;
+    std::size_t left = std::size(rows);
+    for (const auto& row : rows) {
+        if (!names.empty()) names += left == 1 ? before_last : between;
+        names += row.name;
+        --left;
+    }
+    return names;
+}
+
+// True where each row's `key` member is its place in the table, so that an enumeration can index
+// it.
+template <class Rows, class Key>
+[[nodiscard]] constexpr bool is_in_order(const Rows& rows, Key key) {
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        if (static_cast<std::size_t>(rows[i].*key) != i) return false;
+    }
+    return true;
+}
+
+}  // namespace stormcellar

@@ -1,0 +1,48 @@
+#include "grid/cells/moment_rules.h"
+
+#include <array>
+
+#include "stormcellar/grid/audit_row.h"
+
+namespace stormcellar::grid {
+namespace {
+
+using accuracy::ValueUnit;
+using level2::Moment;
+
+constexpr auto moment_rules = std::to_array<MomentRules>({
+    {Moment::ref, {1, -32, 0.5F}, ValueUnit::db, "dB", true},
+    {Moment::vel,
+     {2, -256, 0.25F},
+     ValueUnit::mps,
+     "m/s",
+     false,
+     "each measures along its own beams"},
+    {Moment::sw, {1, 0, 0.25F}, ValueUnit::mps, "m/s"},
+    {Moment::zdr, {2, -32, 0.03125F}, ValueUnit::db, "dB"},
+    {Moment::phi,
+     {2, 0, 0.25F},
+     ValueUnit::degree,
+     "degree",
+     false,
+     "each has an offset of its own"},
+    {Moment::rho, {2, 0, 0.001953125F}, ValueUnit::ratio, "1"},
+    {Moment::cfp, {2, -256, 0.25F}, ValueUnit::db, "dB"},
+});
+static_assert(level2::has_a_row_for_each_moment(moment_rules));
+
+}  // namespace
+
+const MomentRules& rules_of(Moment moment) {
+    return moment_rules[static_cast<std::size_t>(moment)];
+}
+
+Quantization default_quantization(Moment moment) {
+    return rules_of(moment).quantization;
+}
+
+std::string_view difference_unit(Moment moment) {
+    return rules_of(moment).difference_unit;
+}
+
+}  // namespace stormcellar::grid

@@ -1,0 +1,89 @@
+// stormcellar/level2/moment.h -- the moments that a radar measures, and what is known of each.
+//
+// This is the one list of moments. Other rooms add facts of their own in one layer each, which has
+// a row or a case for every moment, so that a forgotten one does not compile:
+//   grid    grid/cells/moment_rules.cpp       how values are stored, mixed and compared
+//   render  render/colour/built_in_tables.cpp title, colors, opacity
+//   export  export/moment_text.cpp            names in netCDF files
+// CONTRIBUTING.md says how to add a moment.
+// Threads: constants and pure functions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace stormcellar::level2 {
+
+// Grid files hold these numbers: a new moment goes to the end, and none changes.
+enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
+
+// The circle on which values lie that wrap.
+enum class Circle : std::uint8_t {
+    none,
+    nyquist,    // from -Nyquist to +Nyquist, which is a fact of the radial
+    full_turn,  // from 0 to 360 degrees
+};
+
+struct MomentFacts {
+    Moment moment = Moment::ref;
+    std::string_view name = {};   // in messages (filled with blanks to three), paths and options
+    std::string_view units = {};  // as CF writes them; "1" for a number without a unit
+    Circle circle = Circle::none;
+    // Pulses follow one another so fast that the unambiguous range is short by nature.
+    bool is_doppler = false;
+    // Codes from here on are values. Where this is 2, code 0 is below threshold and code 1 range
+    // folded; where it is larger, all codes below it are flags (ICD 2620002, table XVII-I).
+    std::uint16_t first_valid_code = 2;
+};
+
+inline constexpr auto moment_facts = std::to_array<MomentFacts>({
+    {Moment::ref, "REF", "dBZ"},
+    {Moment::vel, "VEL", "m/s", Circle::nyquist, true},
+    {Moment::sw, "SW", "m/s", Circle::none, true},
+    {Moment::zdr, "ZDR", "dB"},
+    {Moment::phi, "PHI", "degree", Circle::full_turn},
+    {Moment::rho, "RHO", "1"},
+    {Moment::cfp, "CFP", "dB", Circle::none, false, 8},
+});
+inline constexpr int moment_count = static_cast<int>(moment_facts.size());
+
+// True where `rows` has one row a moment, in the order of the enumeration. Each layer asserts it.
+template <class Rows>
+[[nodiscard]] constexpr bool has_a_row_for_each_moment(const Rows& rows) {
+    if (std::size(rows) != moment_facts.size()) return false;
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        if (rows[i].moment != static_cast<Moment>(i)) return false;
+    }
+    return true;
+}
+static_assert(has_a_row_for_each_moment(moment_facts));
+
+inline constexpr std::array<Moment, moment_count> all_moments = [] {
+    std::array<Moment, moment_count> moments{};
+    for (std::size_t i = 0; i < moments.size(); ++i)
+        moments[i] = moment_facts[i].moment;
+    return moments;
+}();
+
+[[nodiscard]] constexpr const MomentFacts& facts_of(Moment moment) {
+    return moment_facts[static_cast<std::size_t>(moment)];
+}
+[[nodiscard]] constexpr std::string_view moment_name(Moment moment) {
+    return facts_of(moment).name;
+}
+[[nodiscard]] constexpr std::string_view moment_units(Moment moment) {
+    return facts_of(moment).units;
+}
+[[nodiscard]] constexpr bool is_circular(Moment moment) {
+    return facts_of(moment).circle != Circle::none;
+}
+
+[[nodiscard]] std::optional<Moment> moment_from_name(std::string_view name);  // upper case
+// All names, for texts: moment_names(", ", " or ") is "REF, VEL, ... RHO or CFP".
+[[nodiscard]] std::string moment_names(std::string_view between, std::string_view before_last);
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,59 @@
+// stormcellar/render/product.h -- the products that a picture can show, and what is known of each.
+//
+// This is the one list of products. How a map's numbers are made is in
+// render/products/flat_field.h; CONTRIBUTING.md says how to add a product. Which options of
+// the command line a product uses is a fact of the options. Threads: constants and pure functions.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "stormcellar/base/result.h"
+
+namespace stormcellar::render {
+
+struct ColourTable;
+struct Scene;
+
+enum class Product { volume, composite, cappi, section, echo_top, vil, lowest_seen, highest_seen };
+
+// What a picture is a picture of.
+enum class View {
+    volume,   // the grid in three dimensions, by a camera
+    map,      // one value for each column of the grid, seen from above
+    section,  // a vertical section between two places
+};
+
+struct ProductFacts {
+    Product product = Product::volume;
+    std::string_view name = {};   // on the command line and in scene files
+    std::string_view aside = {};  // what help adds to the name in brackets
+    View view = View::map;
+    std::string (*title)(const Scene&) = nullptr;  // "Echo tops, 18.5 dBZ"
+    std::string_view unit = {};                    // empty: the moment's
+    const ColourTable& (*colours)() = nullptr;     // null: the moment's
+    bool needs_reflectivity = false;
+    // Of tops: the value that echo must reach. The picture says where a top may be higher.
+    double Scene::*threshold_dbz = nullptr;
+    // Columns that were seen may be without a value: no echo, or range folded.
+    bool has_echo_states = true;
+};
+
+[[nodiscard]] std::span<const ProductFacts> all_products();
+[[nodiscard]] const ProductFacts& facts_of(Product product);
+[[nodiscard]] std::string_view product_name(Product product);
+[[nodiscard]] Result<Product> product_from_name(std::string_view name);  // bad_argument lists names
+// The names with what help adds: "volume, composite (column maximum), ... or highest-seen".
+[[nodiscard]] std::string products_for_help();
+[[nodiscard]] View view_of(Product product);
+[[nodiscard]] bool is_map(Product product);
+
+// "Composite reflectivity (column maximum)".
+[[nodiscard]] std::string product_title(const Scene& scene);
+// The scene's table, or else the product's, or else the moment's.
+[[nodiscard]] const ColourTable& colours_of(const Scene& scene);
+// Of what the product shows: "dBZ", "km"; empty for a number without one.
+[[nodiscard]] std::string unit_shown(const Scene& scene);
+
+}  // namespace stormcellar::render

@@ -1,0 +1,18 @@
+#include "stormcellar/level2/moment.h"
+
+#include "base/name_list.h"
+
+namespace stormcellar::level2 {
+
+std::optional<Moment> moment_from_name(std::string_view name) {
+    for (const MomentFacts& facts : moment_facts) {
+        if (facts.name == name) return facts.moment;
+    }
+    return std::nullopt;
+}
+
+std::string moment_names(std::string_view between, std::string_view before_last) {
+    return names_in(moment_facts, between, before_last);
+}
+
+}  // namespace stormcellar::level2

@@ -1,0 +1,138 @@
+#include "stormcellar/render/product.h"
+
+#include <array>
+#include <cctype>
+#include <vector>
+
+#include "base/name_list.h"
+#include "render/colour/built_in_tables.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::render {
+namespace {
+
+std::string title_of_moment(const Scene& scene) {
+    return std::string(look_of(scene.moment).title);
+}
+std::string volume_title(const Scene& scene) {
+    return title_of_moment(scene) + ", 3D volume";
+}
+std::string composite_title(const Scene& scene) {
+    std::string title = title_of_moment(scene);
+    title.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(title.front())));
+    return "Composite " + title + " (column maximum)";
+}
+std::string cappi_title(const Scene& scene) {
+    return fmt::format("{} at {:g} km above sea level (CAPPI)", title_of_moment(scene),
+                       scene.cappi_height_m / 1000);
+}
+std::string section_title(const Scene& scene) {
+    return title_of_moment(scene) + ", vertical section";
+}
+std::string echo_top_title(const Scene& scene) {
+    return fmt::format("Echo tops, {:g} dBZ", scene.echo_top_dbz);
+}
+std::string vil_title(const Scene& /*scene*/) {
+    return "Vertically integrated liquid";
+}
+std::string lowest_seen_title(const Scene& /*scene*/) {
+    return "Lowest height seen";
+}
+std::string highest_seen_title(const Scene& /*scene*/) {
+    return "Highest height seen";
+}
+
+constexpr auto product_facts = std::to_array<ProductFacts>({
+    {.product = Product::volume, .name = "volume", .view = View::volume, .title = volume_title},
+    {.product = Product::composite,
+     .name = "composite",
+     .aside = "column maximum",
+     .title = composite_title},
+    {.product = Product::cappi, .name = "cappi", .title = cappi_title},
+    {.product = Product::section, .name = "section", .view = View::section, .title = section_title},
+    {.product = Product::echo_top,
+     .name = "echotop",
+     .title = echo_top_title,
+     .unit = "km",
+     .colours = echo_top_colours,
+     .needs_reflectivity = true,
+     .threshold_dbz = &Scene::echo_top_dbz},
+    {.product = Product::vil,
+     .name = "vil",
+     .title = vil_title,
+     .unit = "kg/m2",
+     .colours = vil_colours,
+     .needs_reflectivity = true},
+    {.product = Product::lowest_seen,
+     .name = "lowest-seen",
+     .title = lowest_seen_title,
+     .unit = "km",
+     .colours = height_colours,
+     .has_echo_states = false},
+    {.product = Product::highest_seen,
+     .name = "highest-seen",
+     .title = highest_seen_title,
+     .unit = "km",
+     .colours = height_colours,
+     .has_echo_states = false},
+});
+static_assert(is_in_order(product_facts, &ProductFacts::product));
+
+}  // namespace
+
+std::span<const ProductFacts> all_products() {
+    return product_facts;
+}
+
+const ProductFacts& facts_of(Product product) {
+    return product_facts[static_cast<std::size_t>(product)];
+}
+
+std::string_view product_name(Product product) {
+    return facts_of(product).name;
+}
+
+Result<Product> product_from_name(std::string_view name) {
+    for (const ProductFacts& facts : product_facts) {
+        if (facts.name == name) return facts.product;
+    }
+    return fail(ErrorCode::bad_argument, "unknown product '{}': known are {}", name,
+                names_in(product_facts));
+}
+
+std::string products_for_help() {
+    struct Named {
+        std::string name;
+    };
+    std::vector<Named> all;
+    for (const ProductFacts& facts : product_facts) {
+        all.push_back({std::string(facts.name)});
+        if (!facts.aside.empty()) all.back().name += fmt::format(" ({})", facts.aside);
+    }
+    return names_in(all, ", ", " or ");
+}
+
+View view_of(Product product) {
+    return facts_of(product).view;
+}
+
+bool is_map(Product product) {
+    return view_of(product) == View::map;
+}
+
+std::string product_title(const Scene& scene) {
+    return facts_of(scene.product).title(scene);
+}
+
+const ColourTable& colours_of(const Scene& scene) {
+    if (scene.colours) return *scene.colours;
+    const auto colours = facts_of(scene.product).colours;
+    return colours != nullptr ? colours() : default_colour_table(scene.moment);
+}
+
+std::string unit_shown(const Scene& scene) {
+    const std::string_view unit = facts_of(scene.product).unit;
+    return unit.empty() ? unit_of(scene.moment) : std::string(unit);
+}
+
+}  // namespace stormcellar::render

@@ -1,0 +1,244 @@
+// Each fact stands once: names of moments and products are typed in one file, a switch over an
+// enumeration of the tables has no `default:` that lets a forgotten case compile, and the recipes
+// of docs/recipes-facts.md name files that exist, few of them.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "grid/mosaic/time_interpolation.h"
+#include "stormcellar/grid/grid_spec.h"
+#include "stormcellar/grid/method.h"
+#include "stormcellar/grid/mosaic.h"
+#include "stormcellar/level2/moment.h"
+#include "stormcellar/render/product.h"
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A source in two parts: its string literals, and its code with literals and comments blanked.
+struct SplitSource {
+    std::string code;
+    std::vector<std::string> literals;
+};
+
+// Literals that stand side by side are one, as for the compiler. No source has raw literals with
+// names in them, so those are read like others.
+SplitSource split_source(const std::string& text) {
+    SplitSource split;
+    bool goes_on = false;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text.compare(at, 2, "//") == 0) {
+            at = std::min(text.find('\n', at), text.size()) - 1;
+            continue;
+        }
+        const char quote = text[at];
+        const bool is_separator = quote == '\'' && at > 0 && std::isalnum(text[at - 1]) != 0;
+        if ((quote != '"' && quote != '\'') || is_separator) {
+            split.code += quote;
+            if (std::isspace(static_cast<unsigned char>(quote)) == 0) goes_on = false;
+            continue;
+        }
+        std::string literal;
+        for (++at; at < text.size() && text[at] != quote; ++at) {
+            literal += text[at];
+            if (text[at] == '\\') literal += text[++at];
+        }
+        if (quote != '"') continue;
+        if (goes_on) {
+            split.literals.back() += literal;
+        } else {
+            split.literals.push_back(literal);
+        }
+        goes_on = true;
+    }
+    return split;
+}
+
+// Every source outside the tests, by its path from the root.
+const std::map<std::string, SplitSource>& split_sources() {
+    static const std::map<std::string, SplitSource> all = [] {
+        const std::set<std::string> skipped = {"tests", "build", "out"};
+        const fs::path root = testing::source_directory();
+        std::map<std::string, SplitSource> found;
+        for (const auto& room : fs::directory_iterator(root)) {
+            const std::string name = room.path().filename().string();
+            if (!room.is_directory() || name.starts_with('.') || skipped.contains(name)) continue;
+            for (const auto& entry : fs::recursive_directory_iterator(room.path())) {
+                const auto ending = entry.path().extension();
+                if (ending != ".h" && ending != ".cpp") continue;
+                std::ifstream file(entry.path(), std::ios::binary);
+                found[fs::relative(entry.path(), root).string()] =
+                    split_source({std::istreambuf_iterator<char>(file), {}});
+            }
+        }
+        return found;
+    }();
+    return all;
+}
+
+std::string without_blanks_at_end(std::string text) {
+    while (text.ends_with(' '))
+        text.pop_back();
+    return text;
+}
+
+// The files in which a literal is one of the names, or holds two of them side by side, as a list
+// typed by hand does.
+std::set<std::string> files_that_type(const std::vector<std::string>& names) {
+    std::string any;
+    for (const std::string& name : names)
+        any += (any.empty() ? "" : "|") + name;
+    const std::regex listed("\\b(" + any + ")( \\([a-z ]+\\))?(, | |/|\\|| or |, or )(" + any +
+                            ")\\b");
+    std::set<std::string> files;
+    for (const auto& [path, source] : split_sources()) {
+        for (const std::string& literal : source.literals) {
+            const bool is_name = std::ranges::count(names, without_blanks_at_end(literal)) > 0;
+            if (is_name || std::regex_search(literal, listed)) files.insert(path);
+        }
+    }
+    return files;
+}
+
+TEST(FactsOnce, NamesOfMomentsStandInOneFile) {
+    std::vector<std::string> names;
+    for (const level2::MomentFacts& facts : level2::moment_facts)
+        names.emplace_back(facts.name);
+    auto files = files_that_type(names);
+    files.erase("render/map/labels.cpp");  // SW is southwest there
+    EXPECT_EQ(files, std::set<std::string>{"include/stormcellar/level2/moment.h"});
+}
+
+TEST(FactsOnce, NamesOfProductsStandInOneFile) {
+    std::vector<std::string> names;
+    for (const render::ProductFacts& facts : render::all_products()) {
+        // These two are words for other things as well, such as tables and keys of scene files.
+        if (facts.name != "volume" && facts.name != "section") names.emplace_back(facts.name);
+    }
+    EXPECT_EQ(files_that_type(names), std::set<std::string>{"render/view/product.cpp"});
+}
+
+TEST(FactsOnce, NoProjectionIsListedByHand) {
+    EXPECT_EQ(files_that_type({"azimuthal_equidistant", "lambert_conformal"}),
+              (std::set<std::string>{"export/grid_coordinates.cpp",  // names of CF, not ours
+                                     "include/stormcellar/grid/grid_spec.h"}));
+}
+
+// From an opening bracket to behind the one that closes it.
+std::string in_brackets(const std::string& code, std::size_t at, char open, char close) {
+    int depth = 0;
+    for (std::size_t end = at; end < code.size(); ++end) {
+        if (code[end] == open) ++depth;
+        if (code[end] == close && --depth == 0) return code.substr(at, end + 1 - at);
+    }
+    return code.substr(at);
+}
+
+// The bodies of all switches, without those of switches inside them.
+std::vector<std::string> switches_of(const std::string& code) {
+    static const std::regex keyword(R"(\bswitch\s*\()");
+    std::vector<std::string> bodies;
+    for (std::sregex_iterator at(code.begin(), code.end(), keyword), end; at != end; ++at) {
+        const auto condition_at = static_cast<std::size_t>(at->position() + at->length() - 1);
+        const std::string condition = in_brackets(code, condition_at, '(', ')');
+        const std::size_t body_at = code.find('{', condition_at + condition.size());
+        if (body_at == std::string::npos) continue;
+        bodies.push_back(in_brackets(code, body_at, '{', '}'));
+    }
+    return bodies;
+}
+
+bool has_default_over_a_table(const std::string& code) {
+    static const std::regex of_table(
+        R"(\bcase\s+(\w+::)*(Moment|Circle|Blending|Product|View|Projection|Interpolation|CellExtent|Averaging|Overlap|TimeMethod)::)");
+    static const std::regex fallback(R"(\bdefault\s*:)");
+    return std::ranges::any_of(switches_of(code), [](const std::string& body) {
+        return std::regex_search(body, of_table) && std::regex_search(body, fallback);
+    });
+}
+
+TEST(FactsOnce, NoDefaultLetsAForgottenCaseCompile) {
+    for (const auto& [path, source] : split_sources())
+        EXPECT_FALSE(has_default_over_a_table(source.code)) << path;
+}
+
+TEST(FactsOnce, TheCheckSeesWhatItLooksFor) {
+    const auto split = split_source(
+        "// \"REF\"\nf(\"VEL, \"\n  \"SW\", 1'000, '\"'); switch (a(b)) { case x::Moment::ref: "
+        "default: break; }");
+    EXPECT_EQ(split.literals, std::vector<std::string>{"VEL, SW"});
+    EXPECT_TRUE(has_default_over_a_table(split.code));
+    EXPECT_FALSE(has_default_over_a_table("switch (a) { case Moment::ref: break; } default:"));
+    EXPECT_GT(split_sources().size(), 500U);
+}
+
+// How many enumerators an enumeration has, by its text.
+std::size_t enumerators_in(const std::string& header, const std::string& name) {
+    const std::string& code = split_sources().at(header).code;
+    const std::regex definition("enum class " + name + R"( [^{;]*\{([^}]*)\})");
+    std::smatch match;
+    if (!std::regex_search(code, match, definition)) return 0;
+    static const std::regex enumerator(R"(\w+\s*(= \d+)?\s*(,|$))");
+    const std::string list = match[1];
+    return static_cast<std::size_t>(
+        std::distance(std::sregex_iterator(list.begin(), list.end(), enumerator), {}));
+}
+
+TEST(FactsOnce, EveryEnumeratorHasARow) {
+    EXPECT_EQ(enumerators_in("include/stormcellar/level2/moment.h", "Moment"),
+              level2::moment_facts.size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/render/product.h", "Product"),
+              render::all_products().size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/grid/grid_spec.h", "Projection"),
+              grid::projection_facts.size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/grid/method.h", "Interpolation"),
+              grid::interpolation_facts.size());
+    EXPECT_EQ(enumerators_in("include/stormcellar/grid/mosaic.h", "Overlap"),
+              grid::overlap_facts.size());
+    EXPECT_EQ(enumerators_in("grid/mosaic/time_interpolation.h", "TimeMethod"),
+              grid::time_method_facts.size());
+}
+
+// The files of a recipe: those in the numbered list below its heading.
+std::vector<std::string> files_of_recipe(const std::string& thing) {
+    const fs::path root = testing::source_directory();
+    for (const char* document : {"docs/recipes-facts.md", "CONTRIBUTING.md"}) {
+        std::ifstream file(root / document);
+        bool is_inside = false;
+        std::vector<std::string> files;
+        static const std::regex step(R"(^\d+\. `([^`]+)`)");
+        for (std::string line; std::getline(file, line);) {
+            if (line.starts_with("#")) is_inside = line.ends_with("How to add a " + thing);
+            std::smatch match;
+            if (is_inside && std::regex_search(line, match, step)) files.push_back(match[1]);
+        }
+        if (!files.empty()) return files;
+    }
+    return {};
+}
+
+TEST(FactsOnce, RecipesNameFewFilesAndTheyExist) {
+    const std::map<std::string, std::size_t> most = {
+        {"moment", 4}, {"product", 4}, {"projection", 6}, {"gridding method", 12}};
+    for (const auto& [thing, count] : most) {
+        const auto files = files_of_recipe(thing);
+        EXPECT_FALSE(files.empty()) << thing;
+        EXPECT_LE(files.size(), count) << thing;
+        for (const std::string& file : files)
+            EXPECT_TRUE(fs::exists(testing::source_directory() / file)) << thing << ": " << file;
+    }
+}
+
+}  // namespace
+}  // namespace stormcellar
