@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -133,8 +134,8 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
               Clock::time_point start) {
     options.domain = grids.domain;
     auto& frames = grids.frames;
-    if (options.last > 0 && frames.size() > options.last) {
-        frames.erase(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(options.last));
+    if (options.last > 0 && std::cmp_greater(frames.size(), options.last)) {
+        frames.erase(frames.begin(), frames.end() - options.last);
     }
     LoopReport report;
     const auto first = keep_readable(grids, report);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/floating_point.h"
 #include "render/animation/animation_format.h"
 
 namespace stormcellar::render {
@@ -98,16 +99,19 @@ class FileWriter final : public AnimationWriter {
 };
 
 Status check(const AnimationOptions& options) {
-    const auto outside = [](double value, double low, double high) {
-        return !(value >= low && value <= high);  // NaN is outside
+    // NaN is outside of every range.
+    const auto outside = [](double value, NumberRange range) {
+        return !is_within(value, range.least, range.most);
     };
-    if (outside(options.frames_per_second, 0.1, 60)) {
-        return fail(ErrorCode::bad_argument, "frames per second must be 0.1 to 60, not {}",
-                    options.frames_per_second);
+    if (const NumberRange range = limits::frames_per_second;
+        outside(options.frames_per_second, range)) {
+        return fail(ErrorCode::bad_argument, "frames per second must be {} to {}, not {}",
+                    range.least, range.most, options.frames_per_second);
     }
-    if (outside(options.last_frame_dwell_s, 0, 60)) {
-        return fail(ErrorCode::bad_argument, "the last frame's dwell must be 0 to 60 s, not {}",
-                    options.last_frame_dwell_s);
+    if (const NumberRange range = limits::last_frame_dwell_s;
+        outside(options.last_frame_dwell_s, range)) {
+        return fail(ErrorCode::bad_argument, "the last frame's dwell must be {} to {} s, not {}",
+                    range.least, range.most, options.last_frame_dwell_s);
     }
     for (const auto& [keyword, text] : options.metadata) {
         if (keyword.empty() || keyword.size() > 79 || keyword.find('\0') != std::string::npos ||

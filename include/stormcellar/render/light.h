@@ -22,7 +22,7 @@ struct Light {
     bool shadow = false;
     bool scattering = false;
     double sun_azimuth_deg = 225;   // where it stands, clockwise from north
-    double sun_elevation_deg = 40;  // 5..90
+    double sun_elevation_deg = 40;  // render/scene.h says what it may be
 
     [[nodiscard]] bool any() const { return gradient || shadow || scattering; }
     [[nodiscard]] bool needs_volume() const { return shadow || scattering; }
