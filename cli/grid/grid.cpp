@@ -293,16 +293,14 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
 
 }  // namespace
 
-Command add_grid(CLI::App& app) {
+Run set_up_grid(CLI::App& grid) {
     const auto options = std::make_shared<GridOptions>();
-    CLI::App* grid =
-        app.add_subcommand("grid", "Grid Level II files, of one site or of many, as netCDF");
     const auto effects = std::make_shared<EffectOptions>();
     const auto mosaic = std::make_shared<MosaicOptions>();
-    add_grid_options(*grid, *options);
-    add_mosaic_options(*grid, *mosaic, *effects);
-    add_effect_options(*grid, *effects);
-    return {grid, [=] { return run_grid(*options, *effects, *mosaic); }};
+    add_grid_options(grid, *options);
+    add_mosaic_options(grid, *mosaic, *effects);
+    add_effect_options(grid, *effects);
+    return [=] { return run_grid(*options, *effects, *mosaic); };
 }
 
 }  // namespace stormcellar::cli

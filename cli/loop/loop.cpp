@@ -273,15 +273,10 @@ int run_loop(LoopOptions options) {
 
 }  // namespace
 
-Command add_loop(CLI::App& app) {
+Run set_up_loop(CLI::App& loop) {
     const auto options = std::make_shared<LoopOptions>();
-    CLI::App* loop =
-        app.add_subcommand("loop", "Draw the grids of a time range as a looping animation");
-    loop->footer(
-        "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
-        "at least one frame was written.\n");
-    add_loop_options(*loop, *options);
-    return {loop, [options] { return run_loop(*options); }};
+    add_loop_options(loop, *options);
+    return [options] { return run_loop(*options); };
 }
 
 }  // namespace stormcellar::cli

@@ -238,13 +238,13 @@ TEST_F(SceneFileTest, FrameAndLoopDrawWhatItSays) {
     const auto file =
         write(fmt::format("[picture]\nproduct = \"composite\"\nwidth = 500\n[loop]\n"
                           "domain = \"KBGM\"\noutputs = [\"a.webp\"]\n"));
-    const auto frame = run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} --json",
-                                                  cache(), file.string(), at("a.png")));
+    const auto frame = run(fmt::format("frame KBGM --cache {} --scene {} -o {} --json", cache(),
+                                       file.string(), at("a.png")));
     EXPECT_EQ(frame.status, exit_done) << frame.err;
     EXPECT_THAT(frame.out, HasSubstr("\"product\": \"composite\""));
     EXPECT_THAT(frame.out, HasSubstr("\"width\": 500"));
-    const auto loop = run(add_loop, fmt::format("loop --cache {} --scene {} --width 450 --json",
-                                                cache(), file.string()));
+    const auto loop =
+        run(fmt::format("loop --cache {} --scene {} --width 450 --json", cache(), file.string()));
     EXPECT_EQ(loop.status, exit_done) << loop.err;
     EXPECT_THAT(loop.out, HasSubstr("\"product\": \"composite\""));
     EXPECT_THAT(loop.out, HasSubstr("\"width\": 450"));
@@ -277,9 +277,8 @@ TEST_F(SceneFileTest, ShippedScenesDraw) {
         // The section of the shipped file is in Oklahoma.
         const std::string where =
             name == "picture-section.toml" ? " --section 42,-76.1,42.3,-75.8" : "";
-        const auto ran =
-            run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {}{}", cache(),
-                                       entry.path().string(), at(name + ".png"), where));
+        const auto ran = run(fmt::format("frame KBGM --cache {} --scene {} -o {}{}", cache(),
+                                         entry.path().string(), at(name + ".png"), where));
         EXPECT_EQ(ran.status, exit_done) << name << ": " << ran.err;
         EXPECT_GT(fs::file_size(directory_ / (name + ".png")), 20'000U) << name;
     }
