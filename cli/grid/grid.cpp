@@ -1,4 +1,4 @@
-// stormcellar grid FILE... -o OUT.nc: decode volumes, grid them, write the grid as netCDF.
+// stormcellar grid FILE... -o OUT.nc: decode volumes, grid them, write the grid to a file.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -19,7 +19,7 @@
 #include "grid/plan/effects.h"
 #include "grid/plan/position_error.h"
 #include "stormcellar/base/file_system.h"
-#include "stormcellar/export/grid_netcdf.h"
+#include "stormcellar/export/grid_format.h"
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 
@@ -227,8 +227,9 @@ Status check_output(const GridOptions& options, const InputFiles& inputs) {
                         options.files.size() == 1 ? "the volume" : "one of the volumes");
         }
     }
-    return check_output_file(options.output, {".nc", ".nc4"}, "a grid is written as netCDF",
-                             options.json);
+    return check_output_file(
+        options.output, grid_export::grid_endings(),
+        fmt::format("a grid is written as {}", grid_export::known_grid_formats()), options.json);
 }
 
 Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& mosaic,
@@ -275,7 +276,10 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
     Stopwatch watch;
     auto output = OutputFile::open(options.output);
     if (!output) return report_error(output.error());
-    const auto written = netcdf::write_grid(real_file_system(), output->path(), made->grid);
+    const auto* format = grid_export::grid_format_of(options.output);
+    // Standard output has no ending and takes the default.
+    if (format == nullptr) format = &grid_export::grid_formats().front();
+    const auto written = format->write(real_file_system(), output->path(), made->grid);
     if (!written) return report_error(written.error());
     if (Status done = output->finish(); !done) return report_error(done.error());
     timings.write_s = watch.lap_s();

@@ -19,26 +19,27 @@ Result<std::unique_ptr<FrameEncoder>> make_built_in(const AnimationOptions& opti
     return make(options);
 }
 
-#if STORMCELLAR_VIDEO
+// Null where this build is without videos.
 template <VideoContainer container>
-Result<std::unique_ptr<FrameEncoder>> make_video(const AnimationOptions& options) {
-    return make_video_encoder(container, options);
-}
+constexpr MakeEncoder make_video() {
+#if STORMCELLAR_VIDEO
+    return [](const AnimationOptions& options) { return make_video_encoder(container, options); };
+#else
+    return nullptr;
 #endif
+}
 
 struct Format {
     std::string_view ending;
     MakeEncoder make;
 };
 
-constexpr std::array formats {
+constexpr std::array formats{
     Format{".webp", make_built_in<make_webp_encoder>},
-        Format{".gif", make_built_in<make_gif_encoder>},
-        Format{".apng", make_built_in<make_apng_encoder>},
-#if STORMCELLAR_VIDEO
-        Format{".mp4", make_video<VideoContainer::mp4>},
-        Format{".webm", make_video<VideoContainer::webm>},
-#endif
+    Format{".gif", make_built_in<make_gif_encoder>},
+    Format{".apng", make_built_in<make_apng_encoder>},
+    Format{".mp4", make_video<VideoContainer::mp4>()},
+    Format{".webm", make_video<VideoContainer::webm>()},
 };
 
 // Puts the output's name in front of an error that does not begin with it.
@@ -143,14 +144,14 @@ Status probe(const std::string& output, FileSystem& file_system) {
 std::string known_animation_endings() {
     std::string list;
     for (const Format& format : formats) {
-        list += fmt::format("{}, ", format.ending);
+        if (format.make != nullptr) list += fmt::format("{}, ", format.ending);
     }
     return list + "or DIR/ for PNG files";
 }
 
 Status check_animation_name(const std::string& output) {
     const std::string ending = std::filesystem::path(output).extension();
-    if (output.ends_with('/') || ending == ".mp4" || ending == ".webm") return {};
+    if (output.ends_with('/')) return {};
     for (const Format& format : formats) {
         if (ending == format.ending) return {};
     }
@@ -171,7 +172,7 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
     if (output.ends_with('/')) return make_png_directory_writer(output, options, file_system);
     const std::string ending = std::filesystem::path(output).extension();
     for (const Format& format : formats) {
-        if (ending != format.ending) continue;
+        if (ending != format.ending || format.make == nullptr) continue;
         if (auto writable = probe(output, file_system); !writable) return pass_on(writable);
         auto encoder = format.make(options);
         if (!encoder) return tl::unexpected(named(output, encoder.error()));
