@@ -17,15 +17,12 @@
 #include <string_view>
 #include <vector>
 
+#include "stormcellar/base/number_range.h"
 #include "stormcellar/base/result.h"
 
 namespace stormcellar {
 
-// Of a number; both ends are inside.
-struct TomlRange {
-    double least = 0;
-    double most = 0;
-};
+using TomlRange = NumberRange;
 
 class TomlTable;
 

@@ -1,6 +1,5 @@
-// stormcellar: the command line. One subcommand a file; see cli/shared/commands.h.
+// stormcellar: the command line. Each subcommand is in a file of its own; see cli/subcommands.h.
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -15,16 +14,11 @@
 #include "cache/map_guard.h"
 #include "cli/reference/reference.h"
 #include "cli/shared/commands.h"
+#include "cli/subcommands.h"
 #include "stormcellar/base/version.h"
 
 namespace stormcellar::cli {
 namespace {
-
-constexpr std::array all_commands{
-    // Sorted by name, as --help shows them.
-    add_accuracy, add_cache, add_catalog, add_fetch,  add_frame, add_grid,
-    add_info,     add_loop,  add_replay,  add_status, add_synth,
-};
 
 // No option and no argument means anything when it is empty.
 void refuse_empty(CLI::App& command) {
@@ -39,12 +33,9 @@ void refuse_empty(CLI::App& command) {
 }
 
 // CLI11 would only say that a subcommand is missing.
-std::optional<std::string> unknown_command(const Commands& commands, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') return std::nullopt;
-    const bool known = std::any_of(commands.begin(), commands.end(), [&](const Command& command) {
-        return command.app->get_name() == argv[1];
-    });
-    return known ? std::nullopt : std::optional<std::string>{argv[1]};
+std::optional<std::string> unknown_command(int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-' || find_subcommand(argv[1]) != nullptr) return std::nullopt;
+    return argv[1];
 }
 
 // "stormcellar loop" when the error is in what follows that command.
@@ -97,13 +88,12 @@ int run(int argc, char** argv) {
     app.failure_message(CLI::FailureMessage::help);
 
     Commands commands;
-    for (const auto add : all_commands) {
-        commands.push_back(add(app));
-    }
+    for (const Subcommand& subcommand : subcommands())
+        commands.push_back(add_subcommand(app, subcommand));
     refuse_empty(app);
     if (argc == 3 && std::string_view{argv[1]} == "--reference")
         return print_reference(app, argv[2]);
-    if (const auto word = unknown_command(commands, argc, argv)) {
+    if (const auto word = unknown_command(argc, argv)) {
         fmt::print(stderr, "stormcellar: there is no command '{}'\nTry 'stormcellar --help'.\n",
                    printable(*word));
         return exit_bad_usage;

@@ -324,47 +324,45 @@ int run_accuracy(AccuracyOptions options) {
 
 }  // namespace
 
-Command add_accuracy(CLI::App& app) {
+Run set_up_accuracy(CLI::App& command) {
     const auto options = std::make_shared<AccuracyOptions>();
     options->grid.threads = 1;
-    CLI::App* command =
-        app.add_subcommand("accuracy", "Show what accuracy costs in time, rung by rung");
-    command->add_option(
+    command.add_option(
         "FILE", options->grid.files,
         "One Level II file; or several of several sites, or of one at a --time: the "
         "steps that make one frame of them; or three or more of one site, of which "
         "each is made again from its neighbours in time; or, with --compare-sites, of several");
-    command->add_option("--time", options->grid.time,
-                        "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
-                        "repeated sweeps is taken");
-    command->add_flag("--held-out", options->held_out,
-                      "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
-                      "the repeats beside it; of a scene: its second volume");
-    command->add_flag("--compare-sites", options->compare_sites,
-                      "Compare sites that overlap: bias, azimuth, elevation and clock of each "
-                      "pair; of a site with two FILEs the motion of the weather is known");
-    command->add_flag("--picture", options->picture,
-                      "Of one FILE or a scene: what the accuracy of its picture costs instead: "
-                      "slices, integration, rays and light");
-    command->add_option("--scene", options->scene,
-                        "A simulated scene instead; its truth is compared with too");
-    add_spec_options(*command, options->grid);
+    command.add_option("--time", options->grid.time,
+                       "Of several FILEs: the instant of their frame, ISO 8601; of one: which of "
+                       "repeated sweeps is taken");
+    command.add_flag("--held-out", options->held_out,
+                     "Of one FILE: make each repeat of its lowest cut (SAILS, MRLE) again from "
+                     "the repeats beside it; of a scene: its second volume");
+    command.add_flag("--compare-sites", options->compare_sites,
+                     "Compare sites that overlap: bias, azimuth, elevation and clock of each "
+                     "pair; of a site with two FILEs the motion of the weather is known");
+    command.add_flag("--picture", options->picture,
+                     "Of one FILE or a scene: what the accuracy of its picture costs instead: "
+                     "slices, integration, rays and light");
+    command.add_option("--scene", options->scene,
+                       "A simulated scene instead; its truth is compared with too");
+    add_spec_options(command, options->grid);
     command
-        ->add_option(
+        .add_option(
             "--profile", options->effects.profile,
             "Of refractivity, what the exact beams are traced through: exponential, standard "
             "or a sounding file")
         ->capture_default_str();
-    command->add_option("--columns", options->columns, "How many columns are compared")
+    command.add_option("--columns", options->columns, "How many columns are compared")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000000));
-    command->add_option("--rounds", options->rounds, "How often each time is taken")
+    command.add_option("--rounds", options->rounds, "How often each time is taken")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    command->add_option("--plot", options->plot, "Write error against time as FILE.svg");
-    command->add_flag("--markdown", options->markdown,
-                      "Tables as Markdown, as docs/accuracy.md has them; not with --json");
-    return {command, [options] { return run_accuracy(*options); }};
+    command.add_option("--plot", options->plot, "Write error against time as FILE.svg");
+    command.add_flag("--markdown", options->markdown,
+                     "Tables as Markdown, as docs/accuracy.md has them; not with --json");
+    return [options] { return run_accuracy(*options); };
 }
 
 }  // namespace stormcellar::cli

@@ -121,31 +121,29 @@ int run_fetch(FetchOptions options) {
 
 }  // namespace
 
-Command add_fetch(CLI::App& app) {
+Run set_up_fetch(CLI::App& fetch) {
     const auto options = std::make_shared<FetchOptions>();
-    CLI::App* fetch =
-        app.add_subcommand("fetch", "Fetch raw volumes of stations and times from a public bucket");
-    add_time_range(*fetch, options->times);
-    fetch->add_option("--stations", options->stations, "ICAOs, e.g. KTLX,KFDR");
-    fetch->add_option("--bounds", options->bounds,
-                      "WEST,SOUTH,EAST,NORTH in degrees: the stations that stand within");
+    add_time_range(fetch, options->times);
+    fetch.add_option("--stations", options->stations, "ICAOs, e.g. KTLX,KFDR");
+    fetch.add_option("--bounds", options->bounds,
+                     "WEST,SOUTH,EAST,NORTH in degrees: the stations that stand within");
     fetch
-        ->add_option("-o,--output", options->directory,
-                     "The directory to put them in; it is made when it is missing")
+        .add_option("-o,--output", options->directory,
+                    "The directory to put them in; it is made when it is missing")
         ->required();
     fetch
-        ->add_option("--source", options->request.source,
-                     "Address of a bucket that answers as Amazon S3 does (ListObjectsV2)")
+        .add_option("--source", options->request.source,
+                    "Address of a bucket that answers as Amazon S3 does (ListObjectsV2)")
         ->capture_default_str();
-    fetch->add_option("--parallel", options->request.parallel, "Transfers at a time")
+    fetch.add_option("--parallel", options->request.parallel, "Transfers at a time")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
-    fetch->add_option("--tries", options->request.tries, "How often each is tried")
+    fetch.add_option("--tries", options->request.tries, "How often each is tried")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
-    fetch->add_flag("--quiet", options->quiet, "Say nothing but what went wrong");
-    fetch->add_flag("--json", options->json, "Say what was done as one JSON document");
-    return {fetch, [options] { return run_fetch(*options); }};
+    fetch.add_flag("--quiet", options->quiet, "Say nothing but what went wrong");
+    fetch.add_flag("--json", options->json, "Say what was done as one JSON document");
+    return [options] { return run_fetch(*options); };
 }
 
 }  // namespace stormcellar::cli

@@ -282,24 +282,23 @@ int run_info(const InfoOptions& options) {
 
 }  // namespace
 
-Command add_info(CLI::App& app) {
+Run set_up_info(CLI::App& info) {
     const auto options = std::make_shared<InfoOptions>();
-    CLI::App* info = app.add_subcommand("info", "Decode a Level II file and describe it");
-    info->add_option(
+    info.add_option(
             "FILE", options->file,
             "The file, or a directory of chunks; what it is, is found by content. Of a tar or "
             "zip archive, or of a directory of files, each file; - is standard input")
         ->required();
-    info->add_flag("--json", options->json, "One JSON document");
-    CLI::Option* to = info->add_option("--to", options->to,
-                                       "Also write the volume to this file, as CfRadial netCDF");
-    info->add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
+    info.add_flag("--json", options->json, "One JSON document");
+    CLI::Option* to = info.add_option("--to", options->to,
+                                      "Also write the volume to this file, as CfRadial netCDF");
+    info.add_option("--volume", options->volume, "Which one, of a file that holds several; from 1")
         ->check(CLI::Range(1, 1000))
         ->needs(to);
-    add_site_options(*info, options->site);
-    info->add_option("--threads", options->threads, "Threads to decompress with")
+    add_site_options(info, options->site);
+    info.add_option("--threads", options->threads, "Threads to decompress with")
         ->check(CLI::Range(1, 256));
-    return {info, [options] { return run_info(*options); }};
+    return [options] { return run_info(*options); };
 }
 
 }  // namespace stormcellar::cli

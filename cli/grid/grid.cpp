@@ -1,4 +1,4 @@
-// stormcellar grid FILE... -o OUT.nc: decode volumes, grid them, write the grid as netCDF.
+// stormcellar grid FILE... -o OUT.nc: decode volumes, grid them, write the grid to a file.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -19,7 +19,7 @@
 #include "grid/plan/grid_effects.h"
 #include "grid/plan/position_error.h"
 #include "stormcellar/base/file_system.h"
-#include "stormcellar/export/grid_netcdf.h"
+#include "stormcellar/export/grid_format.h"
 #include "stormcellar/grid/column_geometry.h"
 #include "stormcellar/grid/gridder.h"
 
@@ -227,8 +227,9 @@ Status check_output(const GridOptions& options, const InputFiles& inputs) {
                         options.files.size() == 1 ? "the volume" : "one of the volumes");
         }
     }
-    return check_output_file(options.output, {".nc", ".nc4"}, "a grid is written as netCDF",
-                             options.json);
+    return check_output_file(
+        options.output, grid_export::grid_endings(),
+        fmt::format("a grid is written as {}", grid_export::known_grid_formats()), options.json);
 }
 
 Result<Made> grid_files(const GridOptions& options, const grid::MosaicOptions& mosaic,
@@ -278,7 +279,10 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
     Stopwatch watch;
     auto output = OutputFile::open(options.output);
     if (!output) return report_error(output.error());
-    const auto written = netcdf::write_grid(real_file_system(), output->path(), made->grid);
+    const auto* format = grid_export::grid_format_of(options.output);
+    // Standard output has no ending and takes the default.
+    if (format == nullptr) format = &grid_export::grid_formats().front();
+    const auto written = format->write(real_file_system(), output->path(), made->grid);
     if (!written) return report_error(written.error());
     if (Status done = output->finish(); !done) return report_error(done.error());
     timings.write_s = watch.lap_s();
@@ -296,16 +300,14 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
 
 }  // namespace
 
-Command add_grid(CLI::App& app) {
+Run set_up_grid(CLI::App& grid) {
     const auto options = std::make_shared<GridOptions>();
-    CLI::App* grid =
-        app.add_subcommand("grid", "Grid Level II files, of one site or of many, as netCDF");
     const auto effects = std::make_shared<EffectOptions>();
     const auto mosaic = std::make_shared<MosaicOptions>();
-    add_grid_options(*grid, *options);
-    add_mosaic_options(*grid, *mosaic, *effects);
-    add_effect_options(*grid, *effects);
-    return {grid, [=] { return run_grid(*options, *effects, *mosaic); }};
+    add_grid_options(grid, *options);
+    add_mosaic_options(grid, *mosaic, *effects);
+    add_effect_options(grid, *effects);
+    return [=] { return run_grid(*options, *effects, *mosaic); };
 }
 
 }  // namespace stormcellar::cli

@@ -11,6 +11,7 @@
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
 #include "grid/cells/level_range.h"
+#include "stormcellar/export/grid_format.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -315,8 +316,10 @@ void add_grid_options(CLI::App& app, GridOptions& options) {
                    "Level II files: one, or a mosaic of several sites and times; also tar and zip "
                    "archives, directories, and - for standard input")
         ->required();
-    app.add_option("-o,--output", options.output,
-                   "The netCDF file to write, .nc, or - for standard output")
+    app.add_option(
+           "-o,--output", options.output,
+           fmt::format("The file to write, as {}; - is standard output, as {}",
+                       grid_export::known_grid_formats(), grid_export::grid_formats().front().name))
         ->required();
     add_spec_options(app, options);
     app.add_option(

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -134,8 +135,8 @@ int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interru
               SteadyTime start) {
     options.domain = grids.domain;
     auto& frames = grids.frames;
-    if (options.last > 0 && frames.size() > options.last) {
-        frames.erase(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(options.last));
+    if (options.last > 0 && std::cmp_greater(frames.size(), options.last)) {
+        frames.erase(frames.begin(), frames.end() - options.last);
     }
     LoopReport report;
     const auto first = keep_readable(grids, report);
@@ -273,15 +274,10 @@ int run_loop(LoopOptions options) {
 
 }  // namespace
 
-Command add_loop(CLI::App& app) {
+Run set_up_loop(CLI::App& loop) {
     const auto options = std::make_shared<LoopOptions>();
-    CLI::App* loop =
-        app.add_subcommand("loop", "Draw the grids of a time range as a looping animation");
-    loop->footer(
-        "A grid file that is damaged is named on stderr and left out; the exit status is 0 when "
-        "at least one frame was written.\n");
-    add_loop_options(*loop, *options);
-    return {loop, [options] { return run_loop(*options); }};
+    add_loop_options(loop, *options);
+    return [options] { return run_loop(*options); };
 }
 
 }  // namespace stormcellar::cli

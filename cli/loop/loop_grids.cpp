@@ -1,5 +1,7 @@
 #include "cli/loop/loop_grids.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cli/loop/loop_report.h"
@@ -150,9 +152,8 @@ Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& sto
     if (!range) return pass_on(range);
     auto entries = store.list(options.domain, moment, range->from, range->to);
     if (entries && !range->to) cache::leave_out_future(*entries, now_utc());
-    if (entries && options.last > 0 && entries->size() > options.last) {
-        entries->erase(entries->begin(),
-                       entries->end() - static_cast<std::ptrdiff_t>(options.last));
+    if (entries && options.last > 0 && std::cmp_greater(entries->size(), options.last)) {
+        entries->erase(entries->begin(), entries->end() - options.last);
     }
     return entries;
 }

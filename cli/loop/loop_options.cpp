@@ -24,8 +24,6 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
     loop.add_option(
         "--time-method", options.time_method,
         fmt::format("How: {} (the default)", names_in(grid::time_method_facts, ", ", " or ")));
-    loop.add_option("--last", options.last, "Of these only the newest so many")
-        ->check(CLI::Range(1, 1'000'000));
     loop.add_option("-o,--output", options.outputs,
                     fmt::format("{}; several times: the same frames to each; - is standard output, "
                                 "as WebP, -.gif and so on in another format",
@@ -34,17 +32,7 @@ void add_loop_options(CLI::App& loop, LoopOptions& options) {
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
-    loop.add_option("--fps", options.animation.frames_per_second, "Frames a second, 0.1 to 60")
-        ->capture_default_str();
-    loop.add_option("--dwell", options.animation.last_frame_dwell_s,
-                    "Seconds that the last frame stays longer, 0 to 60")
-        ->capture_default_str();
-    loop.add_option("--orbit", options.orbit_deg,
-                    "Degrees that the camera goes round the grid over the loop; 360 closes it")
-        ->check(CLI::Range(-3600.0, 3600.0))
-        ->capture_default_str();
-    loop.add_flag("--ping-pong", options.ping_pong,
-                  "There and back: behind the last frame the others again, down to the second");
+    add_loop_settings(loop, options.scene, options);
     add_follow_options(loop, options.follow);
     loop.add_flag("--check", options.only_check, "Say what is wrong with all this, and end")
         ->group("");  // not shown: for stormcellard --check-config

@@ -244,26 +244,25 @@ int run_frame(FrameOptions options) {
 
 }  // namespace
 
-Command add_frame(CLI::App& app) {
+Run set_up_frame(CLI::App& frame) {
     const auto options = std::make_shared<FrameOptions>();
-    CLI::App* frame = app.add_subcommand("frame", "Draw one still picture of a grid in the cache");
-    add_scene_file(*frame, options->scene_file, options->scene, options->plan, nullptr);
-    frame->add_option("--cache", options->cache, "The cache's directory")->required();
-    frame->add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
+    add_scene_file(frame, options->scene_file, options->scene, options->plan, nullptr);
+    frame.add_option("--cache", options->cache, "The cache's directory")->required();
+    frame.add_option("DOMAIN,--domain", options->domain, "Whose grids; a station's is its ICAO")
         ->required();
-    frame->add_option("--time", options->time,
-                      "UTC, or relative as -1h: the grid at or next before it (default: latest)");
-    frame->add_option("-o,--output", options->output,
-                      "The picture, .png, or - for standard output; needed unless something is "
-                      "probed");
-    frame->add_option("--probe", options->probe,
-                      "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
-    frame->add_option("--probe-at", options->probe_at,
-                      "LAT,LON: say what is at that place (maps and volumes)");
-    frame->add_flag("--json", options->json, "Say what was done as one JSON document");
-    add_scene_options(*frame, options->scene);
-    add_picture_plan_options(*frame, options->plan);
-    return {frame, [options] { return run_frame(*options); }};
+    frame.add_option("--time", options->time,
+                     "UTC, or relative as -1h: the grid at or next before it (default: latest)");
+    frame.add_option("-o,--output", options->output,
+                     "The picture, .png, or - for standard output; needed unless something is "
+                     "probed");
+    frame.add_option("--probe", options->probe,
+                     "X,Y: say what is at that pixel of the picture, 0,0 at its top left");
+    frame.add_option("--probe-at", options->probe_at,
+                     "LAT,LON: say what is at that place (maps and volumes)");
+    frame.add_flag("--json", options->json, "Say what was done as one JSON document");
+    add_scene_options(frame, options->scene);
+    add_picture_plan_options(frame, options->plan);
+    return [options] { return run_frame(*options); };
 }
 
 }  // namespace stormcellar::cli

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "accuracy/explain.h"
-#include "cli/picture/product_options.h"
+#include "cli/picture/picture_options.h"
 #include "render/frame/picture_layout.h"
 #include "render/plan/volume_plan.h"
 
@@ -110,8 +110,9 @@ void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options) {
 
 Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                               const SceneOptions& scene) {
-    const bool typed = has_name(scene.typed, "--slices");
-    const bool in_file = !typed && has_name(scene.in_file, "[volume] slices");
+    const PictureOption& slices = slices_option();
+    const bool typed = contains(scene.typed, slices);
+    const bool in_file = !typed && contains(scene.in_file, slices);
     PicturePlanOptions kept = plan;
     if (typed && !plan.tolerance_typed) kept.tolerance.clear();
     if (typed && !plan.effects_typed) std::erase_if(kept.effects, chooses_slices);
@@ -119,14 +120,14 @@ Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
     if (keeps_slices(kept)) return kept;
     if (typed) {
         return fail(ErrorCode::bad_argument,
-                    "--slices and --{} exclude each other: {} how many slices there are",
+                    "{} and --{} exclude each other: {} how many slices there are", slices.option,
                     kept.tolerance.empty() ? "effect slices_..." : "tolerance",
                     kept.tolerance.empty() ? "the effect says" : "the tolerance chooses");
     }
     return fail(ErrorCode::bad_argument,
-                "{}: [volume] slices and [plan] {} exclude each other: the plan chooses how many "
-                "slices there are",
-                plan.scene ? plan.scene->file : "",
+                "{}: {} and [plan] {} exclude each other: the plan chooses how many slices there "
+                "are",
+                plan.scene ? plan.scene->file : "", key_of(slices),
                 kept.tolerance.empty() ? "effects slices_..." : "tolerance");
 }
 

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <map>
 #include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
 #include "base/floating_point.h"
-#include "base/local_time.h"
 #include "base/toml_file.h"
-#include "cli/picture/product_options.h"
+#include "cli/picture/picture_options.h"
 #include "cli/shared/commands.h"
-#include "render/colour/colour_file.h"
 #include "render/plan/volume_plan.h"
 #include "stormcellar/accuracy/budget.h"
 #include "stormcellar/accuracy/chain.h"
@@ -26,53 +26,21 @@ namespace {
 
 constexpr std::array sections{"picture", "camera", "light", "volume", "labels", "plan", "loop"};
 
-struct NamedPlace {
-    const char* name;
-    TomlRange range;
+template <class T>
+Status status_of(const Result<T>& result) {
+    if (!result) return pass_on(result);
+    return {};
+}
+
+// A key of a scene file, and what it sets.
+struct Place {
+    TomlTable& table;
+    std::string_view key;
+    const std::filesystem::path& directory;  // of the file
+    PictureSettings to;
+
+    void complain(std::string_view why) const { table.complain(key, why); }
 };
-
-// Exactly as many numbers as there are names, each within its range.
-std::optional<std::vector<double>> read_numbers(TomlTable& table, std::string_view key,
-                                                const std::vector<NamedPlace>& places) {
-    auto numbers = table.numbers(key);
-    if (!numbers) return std::nullopt;
-    std::vector<std::string> names;
-    names.reserve(places.size());
-    for (const NamedPlace& place : places)
-        names.emplace_back(place.name);
-    if (numbers->size() != places.size()) {
-        table.complain(key, fmt::format("must be [{}]", fmt::join(names, ", ")));
-        return std::nullopt;
-    }
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto& [least, most] = places[i].range;
-        if (is_within((*numbers)[i], least, most)) continue;
-        table.complain(key, fmt::format("the {} {} is out of range, must be {} to {}", names[i],
-                                        (*numbers)[i], least, most));
-        return std::nullopt;
-    }
-    return numbers;
-}
-
-// As the option takes them.
-void read_list(TomlTable& table, std::string_view key, const std::vector<NamedPlace>& places,
-               std::string& text) {
-    if (const auto numbers = read_numbers(table, key, places)) {
-        text = fmt::format("{}", fmt::join(*numbers, ","));
-    }
-}
-
-void read_number(TomlTable& table, std::string_view key, TomlRange range, double& value) {
-    if (const auto number = table.number(key, range)) value = *number;
-}
-
-void read_whole(TomlTable& table, std::string_view key, TomlRange range, int& value) {
-    if (const auto number = table.whole_number(key, range)) value = *number;
-}
-
-void read_flag(TomlTable& table, std::string_view key, bool& value) {
-    if (const auto flag = table.flag(key)) value = *flag;
-}
 
 // A text that is not empty and of which `problem` says nothing: none, or the error's message.
 template <class Problem>
@@ -85,104 +53,96 @@ void read_text(TomlTable& table, std::string_view key, std::string& value, Probl
     value = *text;
 }
 
-template <class T>
-Status status_of(const Result<T>& result) {
-    if (!result) return pass_on(result);
-    return {};
+void read_value(const FlagValue& value, const Place& at) {
+    if (const auto flag = at.table.flag(at.key)) *value.field(at.to) = *flag != value.is_reversed;
 }
 
-std::string from_directory(const std::filesystem::path& directory, const std::string& path) {
-    return (directory / path).native();
-}
-
-bool is_colour_file(const std::string& name) {
-    std::string ending = std::filesystem::path(name).extension().native();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending == ".pal" || ending == ".toml";
-}
-
-void read_picture(TomlTable picture, const std::filesystem::path& directory,
-                  SceneOptions& options) {
-    note_keys(picture, "picture", options);
-    read_text(picture, "product", options.product,
-              [](const std::string& name) { return status_of(render::product_from_name(name)); });
-    read_text(picture, "moment", options.moment, [](const std::string& name) -> Status {
-        if (level2::moment_from_name(name)) return {};
-        return fail(ErrorCode::bad_argument, "must be {}, is '{}'",
-                    level2::moment_names(", ", " or "), printable(name));
-    });
-    read_text(picture, "colours", options.colours, [&](const std::string& name) {
-        return status_of(
-            render::colours_from(is_colour_file(name) ? from_directory(directory, name) : name));
-    });
-    if (picture.has("colours") && is_colour_file(options.colours)) {
-        options.colours = from_directory(directory, options.colours);
+void read_value(const WholeValue& value, const Place& at) {
+    if (const auto number = at.table.whole_number(at.key, value.range)) {
+        *value.field(at.to) = *number;
     }
-    read_number(picture, "height_km", {-1, 60}, options.height_km);
-    constexpr TomlRange latitudes{-90, 90};
-    constexpr TomlRange longitudes{-180, 360};
-    read_list(picture, "section",
-              {{"latitude", latitudes},
-               {"longitude", longitudes},
-               {"latitude", latitudes},
-               {"longitude", longitudes}},
-              options.section);
-    read_number(picture, "echo_top_dbz", {-30, 80}, options.scene.echo_top_dbz);
-    read_whole(picture, "width", {16, 8192}, options.scene.width);
-    read_whole(picture, "height", {16, 8192}, options.scene.height);
 }
 
-void read_camera(TomlTable camera, SceneOptions& options) {
-    note_keys(camera, "camera", options);
-    render::Camera& view = options.scene.camera;
-    read_number(camera, "azimuth_deg", {-3600, 3600}, view.azimuth_deg);
-    read_number(camera, "tilt_deg", {0, 180}, view.tilt_deg);
-    read_number(camera, "zoom", {0.01, 1000}, view.zoom);
-    if (const auto degrees = camera.number("field_of_view_deg", {0, 150})) {
-        if (*degrees > 0 && *degrees < 1) {
-            camera.complain("field_of_view_deg", "must be 0 (parallel rays) or 1 to 150");
+void read_value(const NumberValue& value, const Place& at) {
+    const auto [least, most] = value.range;
+    const auto number = at.table.number(at.key, {value.or_zero ? 0 : least, most});
+    if (!number) return;
+    if (value.or_zero && *number > 0 && *number < least) {
+        at.complain(fmt::format("must be 0 or {} to {}", least, most));
+    }
+    *value.field(at.to) = *number * value.unit;
+}
+
+// Exactly as many numbers as there are places, each within its range.
+void read_value(const NumbersValue& value, const Place& at) {
+    const auto numbers = at.table.numbers(at.key);
+    if (!numbers) return;
+    if (numbers->size() != value.places.size()) {
+        std::vector<std::string_view> names;
+        for (const NumberPlace& place : value.places)
+            names.push_back(place.name);
+        return at.complain(fmt::format("must be [{}]", fmt::join(names, ", ")));
+    }
+    for (std::size_t i = 0; i < numbers->size(); ++i) {
+        const auto& [name, range] = value.places[i];
+        if (is_within((*numbers)[i], range.least, range.most)) continue;
+        return at.complain(fmt::format("the {} {} is out of range, must be {} to {}", name,
+                                       (*numbers)[i], range.least, range.most));
+    }
+    value.set(at.to, *numbers);
+}
+
+void read_value(const TextValue& value, const Place& at) {
+    const auto full = [&](const std::string& text) {
+        return value.beside == nullptr ? text : value.beside(at.directory, text);
+    };
+    std::string& field = *value.field(at.to);
+    std::string text;
+    read_text(at.table, at.key, text,
+              [&](const std::string& given) { return value.check(full(given)); });
+    if (!text.empty()) field = full(text);
+}
+
+void read_value(const NamesValue& value, const Place& at) {
+    const auto names = at.table.texts(at.key);
+    if (!names) return;
+    const Status known =
+        value.set(at.to, names->empty() ? "none" : fmt::format("{}", fmt::join(*names, ",")));
+    if (!known) at.complain(known.error().message);
+}
+
+// The sections of a file, each asked for once, so that a key that nobody knows is found.
+class Sections {
+  public:
+    explicit Sections(TomlTable root) : root_(root) {}
+    TomlTable& operator[](std::string_view name) {
+        const auto found = tables_.find(name);
+        if (found != tables_.end()) return found->second;
+        return tables_.emplace(name, root_.section(name)).first->second;
+    }
+
+  private:
+    TomlTable root_;
+    std::map<std::string_view, TomlTable> tables_;
+};
+
+void read_row(const PictureOption& row, TomlTable& table, const std::filesystem::path& directory,
+              PictureSettings to) {
+    for (const std::string_view key : {row.key, row.old_key}) {
+        if (key.empty() || !table.has(key)) continue;
+        if (key == row.old_key && table.has(row.key)) {
+            table.complain(key, fmt::format("is the older name of {}: give one of them", row.key));
         }
-        view.field_of_view_deg = *degrees;
+        to.options.in_file.push_back(&row);
+        std::visit(
+            [&](const auto& value) {
+                read_value(value, {table, key, directory, to});
+            },
+            row.value);
     }
-    read_list(camera, "at_km", {{"east", {-1e4, 1e4}}, {"north", {-1e4, 1e4}}, {"up", {-1, 1e4}}},
-              options.camera_at);
 }
 
-void read_light(TomlTable light, SceneOptions& options) {
-    note_keys(light, "light", options);
-    if (const auto kinds = light.texts("kinds")) {
-        render::Light lit;
-        const std::string names =
-            kinds->empty() ? "none" : fmt::format("{}", fmt::join(*kinds, ","));
-        const Status known = render::set_light(names, lit);
-        if (!known) light.complain("kinds", known.error().message);
-        options.light = names;
-    }
-    read_list(light, "sun_deg", {{"azimuth", {-3600, 3600}}, {"elevation", {5, 90}}}, options.sun);
-}
-
-void read_volume(TomlTable volume, SceneOptions& options) {
-    note_keys(volume, "volume", options);
-    render::Scene& scene = options.scene;
-    read_whole(volume, "slices", {8, 4096}, scene.slices);
-    read_number(volume, "exaggeration", {0.1, 100}, scene.vertical_exaggeration);
-    read_number(volume, "opacity", {1e-3, 1e3}, scene.opacity);
-    read_flag(volume, "curved_earth", scene.curved_earth);
-    read_flag(volume, "haze", scene.haze);
-}
-
-void read_labels(TomlTable labels, SceneOptions& options) {
-    note_keys(labels, "labels", options);
-    if (const auto show = labels.flag("show")) options.no_labels = !*show;
-    read_number(labels, "ring_spacing_km", {1, 1000}, options.range_ring_spacing_km);
-    read_text(labels, "time_zone", options.time_zone, [](const std::string& zone) -> Status {
-        if (format_local(UtcTime{}, zone)) return {};
-        return fail(ErrorCode::bad_argument, "'{}' is no time zone known here", printable(zone));
-    });
-}
-
-void read_plan(TomlTable plan, PicturePlanOptions& options) {
+void read_plan(TomlTable& plan, PicturePlanOptions& options) {
     read_text(plan, "tolerance", options.tolerance,
               [](const std::string& text) { return status_of(accuracy::parse_budget(text)); });
     TomlTable effects = plan.section("effects");
@@ -197,9 +157,8 @@ void read_plan(TomlTable plan, PicturePlanOptions& options) {
     }
 }
 
-void read_loop(TomlTable table, const std::filesystem::path& directory, SceneOptions& options,
-               LoopSettings& loop) {
-    note_keys(table, "loop", options);
+// What [loop] has beside the rows of the table: whose grids, of which times, and where to.
+void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSettings& loop) {
     read_text(table, "domain", loop.domain, [](const std::string& name) -> Status {
         if (cache::is_domain_name(name)) return {};
         return fail(ErrorCode::bad_argument, "'{}' is no domain's name", printable(name));
@@ -209,22 +168,15 @@ void read_loop(TomlTable table, const std::filesystem::path& directory, SceneOpt
     };
     read_text(table, "from", loop.range.from, is_time);
     read_text(table, "to", loop.range.to, is_time);
-    if (const auto last = table.whole_number("last", {1, 1'000'000})) {
-        loop.last = static_cast<std::size_t>(*last);
-    }
-    read_number(table, "fps", {0.1, 60}, loop.animation.frames_per_second);
-    read_number(table, "dwell_s", {0, 60}, loop.animation.last_frame_dwell_s);
-    read_number(table, "orbit_deg", {-3600, 3600}, loop.orbit_deg);
-    read_flag(table, "ping_pong", loop.ping_pong);
-    if (const auto outputs = table.texts("outputs")) {
-        loop.outputs.clear();
-        for (const std::string& output : *outputs) {
-            loop.outputs.push_back(from_directory(directory, output));
-            if (output.empty()) {
-                table.complain("outputs", "must not be empty");
-            } else if (auto fine = render::check_animation_name(loop.outputs.back()); !fine) {
-                table.complain("outputs", fine.error().message);
-            }
+    const auto outputs = table.texts("outputs");
+    if (!outputs) return;
+    loop.outputs.clear();
+    for (const std::string& output : *outputs) {
+        loop.outputs.push_back((directory / output).native());
+        if (output.empty()) {
+            table.complain("outputs", "must not be empty");
+        } else if (auto fine = render::check_animation_name(loop.outputs.back()); !fine) {
+            table.complain("outputs", fine.error().message);
         }
     }
 }
@@ -233,7 +185,7 @@ void read_loop(TomlTable table, const std::filesystem::path& directory, SceneOpt
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     constexpr std::array<std::pair<const char*, const char*>, 3> others{
         std::pair{"radar", "a scene of simulated storms, for stormcellar synth"},
-        {"point", "a colour table, for --colours"},
+        {"point", "a color table, which a picture names"},
         {"paths", "a configuration of stormcellard"}};
     const bool is_ours = std::any_of(sections.begin(), sections.end(),
                                      [&](const char* name) { return root.has(name); });
@@ -261,14 +213,14 @@ Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
     SceneOptions new_scene = scene;
     PicturePlanOptions new_plan = plan;
     LoopSettings new_loop = loop;
-    read_picture(root.section("picture"), file.parent_path(), new_scene);
+    Sections tables(root);
+    const PictureSettings to{new_scene, new_scene.scene, &new_loop};
+    for (const PictureOption& row : picture_options()) {
+        if (!row.section.empty()) read_row(row, tables[row.section], file.parent_path(), to);
+    }
     new_scene.file_product = new_scene.product;
-    read_camera(root.section("camera"), new_scene);
-    read_light(root.section("light"), new_scene);
-    read_volume(root.section("volume"), new_scene);
-    read_labels(root.section("labels"), new_scene);
-    read_plan(root.section("plan"), new_plan);
-    read_loop(root.section("loop"), file.parent_path(), new_scene, new_loop);
+    read_plan(tables["plan"], new_plan);
+    read_loop(tables["loop"], file.parent_path(), new_loop);
     if (auto fine = toml->finish(); !fine) return fine;
     scene = std::move(new_scene);
     plan = std::move(new_plan);

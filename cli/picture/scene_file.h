@@ -27,7 +27,7 @@ namespace stormcellar::cli {
 struct LoopSettings {
     std::string domain;
     TimeRangeOptions range;
-    std::size_t last = 0;  // 0: all
+    int last = 0;          // of the grids only so many; 0: all
     double orbit_deg = 0;  // the camera's way round the grid over the loop
     bool ping_pong = false;
     std::vector<std::string> outputs;

@@ -2,164 +2,176 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
+#include <variant>
 
 #include <CLI/CLI.hpp>
 
+#include "base/floating_point.h"
 #include "base/local_time.h"
 #include "base/number_list.h"
-#include "cli/picture/product_options.h"
 #include "render/colour/colour_file.h"
 
 namespace stormcellar::cli {
 
 namespace {
 
-constexpr const char* group = "Picture";
-
-void add_product_options(CLI::App& app, SceneOptions& options) {
-    render::Scene& scene = options.scene;
-    app.add_option("--product", options.product, render::products_for_help())
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--moment", options.moment, level2::moment_names(", ", " or "))
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--colours", options.colours,
-                   "A colour table by name, or a .pal or .toml file (default: the moment's)")
-        ->group(group);
-    app.add_option("--height-km", options.height_km, "Of a CAPPI, above sea level")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--section", options.section,
-                   "LAT,LON,LAT,LON: the two ends of a vertical section")
-        ->group(group);
-    app.add_option("--echo-top-dbz", scene.echo_top_dbz, "The threshold of echo tops")
-        ->group(group)
-        ->capture_default_str();
+// The first problem is the one that is told.
+void note(SceneOptions& options, std::string_view option, const Status& status) {
+    if (status || options.problem) return;
+    const Error& error = status.error();
+    options.problem = Error{error.code, fmt::format("{}: {}", option, error.message)};
 }
 
-// Camera, light, and how a volume is drawn.
-void add_view_options(CLI::App& app, SceneOptions& options) {
-    render::Scene& scene = options.scene;
-    app.add_option("--azimuth", scene.camera.azimuth_deg,
-                   "Where the view is from, degrees: 180 is from the south, north up")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--tilt", scene.camera.tilt_deg,
-                   "Degrees from the vertical: 0 straight down, 90 along the ground, with "
-                   "--camera-km up to 180")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--zoom", scene.camera.zoom, "1 shows the whole grid")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--field-of-view", scene.camera.field_of_view_deg,
-                   "Degrees across the picture, for a perspective view; 0: parallel rays")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--camera-km", options.camera_at,
-                   "EAST,NORTH,UP: where the camera stands, from the grid's middle and above sea "
-                   "level (default: outside, looking at the middle)")
-        ->group(group);
-    app.add_option("--light", options.light,
-                   "none (exact colours), or of gradient, shadow and scattering, with commas: "
-                   "makes echo darker, never another hue")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--sun", options.sun,
-                   "AZIMUTH,ELEVATION in degrees of the light (default: 225,40)")
-        ->group(group);
-    app.add_flag("--haze", scene.haze, "Of a volume: air that no beam saw is hazy, behind the echo")
-        ->group(group);
-    app.add_flag("--curved-earth", scene.curved_earth,
-                 "The ground falls away from the grid's middle, as the earth does")
-        ->group(group);
-    app.add_option("--slices", scene.slices, "Slices through the volume, 8 to 4096")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--exaggeration", scene.vertical_exaggeration, "Stretches heights")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--opacity", scene.opacity, "Factor on how opaque echo is")
-        ->group(group)
-        ->capture_default_str();
+// Puts one row on the command line, under a name and with a help text.
+struct ValueAdder {
+    CLI::App& app;
+    std::string name;
+    std::string help;
+    PictureSettings to;
+
+    CLI::Option* operator()(const FlagValue& value) const {
+        return app.add_flag(name, *value.field(to), help);
+    }
+
+    CLI::Option* operator()(const WholeValue& value) const {
+        int& field = *value.field(to);
+        CLI::Option* option = app.add_option(name, field, help);
+        // A default out of range stands for nothing given.
+        if (is_within<double>(field, value.range.least, value.range.most)) {
+            option->capture_default_str();
+        }
+        if (value.checked == Checked::by_the_parser) {
+            option->check(CLI::Range(static_cast<int>(value.range.least),
+                                     static_cast<int>(value.range.most)));
+        }
+        return option;
+    }
+
+    CLI::Option* operator()(const NumberValue& value) const {
+        double* const field = value.field(to);
+        const double unit = value.unit;
+        CLI::Option* option = app.add_option_function<double>(
+            name, [field, unit](const double& number) { *field = number * unit; }, help);
+        option->default_str(fmt::format("{}", *field / unit));
+        if (value.checked == Checked::by_the_parser) {
+            option->check(CLI::Range(value.range.least, value.range.most));
+        }
+        return option;
+    }
+
+    CLI::Option* operator()(const NumbersValue& value) const {
+        const auto take = [&value, option = name, settings = to](const std::string& text) {
+            const auto numbers = numbers_of(option, text, value.places.size());
+            if (numbers) return value.set(settings, *numbers);
+            if (!settings.options.problem) settings.options.problem = numbers.error();
+        };
+        return app.add_option_function<std::string>(name, take, help);
+    }
+
+    CLI::Option* operator()(const TextValue& value) const {
+        std::string* const field = value.field(to);
+        const auto take = [&value, field, option = name, settings = to](const std::string& text) {
+            *field = text;
+            note(settings.options, option, value.check(text));
+        };
+        CLI::Option* option = app.add_option_function<std::string>(name, take, help);
+        return option->default_str(*field);
+    }
+
+    CLI::Option* operator()(const NamesValue& value) const {
+        const auto take = [&value, option = name, settings = to](const std::string& names) {
+            note(settings.options, option, value.set(settings, names));
+        };
+        CLI::Option* option = app.add_option_function<std::string>(name, take, help);
+        return option->default_str(value.get(to));
+    }
+};
+
+CLI::Option* add_row(CLI::App& app, const PictureOption& row, std::string_view name,
+                     PictureSettings to) {
+    CLI::Option* option =
+        std::visit(ValueAdder{app, std::string(name), help_of(row), to}, row.value);
+    const bool is_old = name != row.option;
+    option->each([&options = to.options, &row, is_old](const std::string& /*text*/) {
+        if (!contains(options.typed, row)) {
+            options.typed.push_back(&row);
+        } else if (is_old) {
+            note(options, row.old_option,
+                 fail(ErrorCode::bad_argument, "is the older name of {}: give one of them",
+                      row.option));
+        }
+    });
+    return option;
 }
 
-void add_label_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("--ring-spacing-km", options.range_ring_spacing_km, "Between range rings")
-        ->group(group)
-        ->capture_default_str();
-    app.add_option("--time-zone", options.time_zone,
-                   "Of the local time, as America/Chicago (default: the machine's)")
-        ->group(group);
-    app.add_flag("--no-labels", options.no_labels, "The picture alone")->group(group);
-    app.add_option("--threads", options.threads, "Else as many as the machine has")
-        ->group(group)
-        ->capture_default_str();
+void add_rows(CLI::App& app, PictureSettings to) {
+    for (const PictureOption& row : picture_options()) {
+        if (row.is_of_loop() != (to.loop != nullptr)) continue;
+        CLI::Option* option = add_row(app, row, row.option, to);
+        if (!row.is_of_loop()) option->group("Picture");
+        if (row.old_option.empty()) continue;
+        add_row(app, row, row.old_option, to)->group("");
+    }
+}
+
+Status unused(std::string_view name, const PictureOption& row, render::Product product) {
+    return fail(ErrorCode::bad_argument, "{} is for {}: {} does not use it", name,
+                row.used_by.text(), render::product_name(product));
+}
+
+// bad_argument names the option, or the key of a file for this product, and who uses it.
+Status check_uses(render::Product product, const SceneOptions& options) {
+    const auto files = render::product_from_name(options.file_product);
+    for (const PictureOption& row : picture_options()) {
+        if (row.is_used_by(product)) continue;
+        if (contains(options.typed, row)) return unused(row.option, row, product);
+        const bool was_used = files && row.is_used_by(*files);
+        if (!was_used && contains(options.in_file, row)) return unused(key_of(row), row, product);
+    }
+    return {};
 }
 
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    render::Scene& scene = options.scene;
-    add_product_options(app, options);
-    app.add_option("--width", scene.width, "Pixels")->group(group)->capture_default_str();
-    app.add_option("--height", scene.height, "Pixels")->group(group)->capture_default_str();
-    add_view_options(app, options);
-    add_label_options(app, options);
-    note_typed_options(app, options);
+    add_rows(app, {options, options.scene, nullptr});
+}
+
+void add_loop_settings(CLI::App& app, SceneOptions& options, LoopSettings& loop) {
+    add_rows(app, {options, options.scene, &loop});
 }
 
 Result<render::Scene> scene_of(const SceneOptions& options) {
+    if (options.problem) return tl::unexpected(*options.problem);
     const auto product = render::product_from_name(options.product);
     if (!product) return pass_on(product);
-    if (options.threads < 0 || options.threads > 1024) {
-        return fail(ErrorCode::bad_argument, "threads must be 0 to 1024, not {}", options.threads);
+    if (!is_within<double>(options.threads, thread_range.least, thread_range.most)) {
+        return fail(ErrorCode::bad_argument, "threads must be {} to {}, not {}", thread_range.least,
+                    thread_range.most, options.threads);
     }
-    if (auto used = check_product_options(*product, options); !used) return pass_on(used);
+    if (auto used = check_uses(*product, options); !used) return pass_on(used);
     render::Scene scene = options.scene;
     scene.product = *product;
     const auto moment = level2::moment_from_name(options.moment);
     if (!moment) {
-        return fail(ErrorCode::bad_argument, "unknown moment '{}': known are {}", options.moment,
-                    level2::moment_names(", ", ", "));
+        return fail(ErrorCode::bad_argument, "there is no moment '{}'", options.moment);
     }
     scene.moment = *moment;
-    scene.cappi_height_m = options.height_km * 1e3;
-    if (!options.section.empty()) {
-        const auto ends = numbers_of("--section", options.section, 4);
-        if (!ends) return pass_on(ends);
-        scene.section = render::SectionLine{{(*ends)[0], (*ends)[1]}, {(*ends)[2], (*ends)[3]}};
-    } else if (scene.product == render::Product::section) {
+    if (scene.product == render::Product::section && !scene.section) {
         return fail(ErrorCode::bad_argument,
-                    "a section needs its two ends: --section LAT,LON,LAT,LON, or [picture] section "
-                    "in a scene's file");
+                    "a section needs its two ends: {} LAT,LON,LAT,LON, or {} in a scene's file",
+                    section_option().option, key_of(section_option()));
     }
     if (!options.colours.empty()) {
         auto colours = render::colours_from(options.colours);
         if (!colours) return pass_on(colours);
         scene.colours = std::move(*colours);
     }
-    if (auto set = render::set_light(options.light, scene.light); !set) {
-        return fail(set.error().code, "--light: {}", set.error().message);
+    // A camera with a place of its own looks in perspective.
+    if (scene.camera.eye && scene.camera.field_of_view_deg == 0) {
+        scene.camera.field_of_view_deg = 60;
     }
-    if (!options.sun.empty()) {
-        const auto sun = numbers_of("--sun", options.sun, 2);
-        if (!sun) return pass_on(sun);
-        scene.light.sun_azimuth_deg = (*sun)[0];
-        scene.light.sun_elevation_deg = (*sun)[1];
-    }
-    if (!options.camera_at.empty()) {
-        const auto at = numbers_of("--camera-km", options.camera_at, 3);
-        if (!at) return pass_on(at);
-        scene.camera.eye = render::Eye{(*at)[0] * 1e3, (*at)[1] * 1e3, (*at)[2] * 1e3};
-        if (scene.camera.field_of_view_deg == 0) scene.camera.field_of_view_deg = 60;
-    }
-    if (!options.time_zone.empty() && !format_local(UtcTime{}, options.time_zone)) {
-        return fail(ErrorCode::bad_argument, "--time-zone: '{}' is no time zone known here",
-                    options.time_zone);
-    }
-    scene.range_ring_spacing_m = options.range_ring_spacing_km * 1e3;
     scene.labels = !options.no_labels;
     if (auto valid = render::validate(scene); !valid) return pass_on(valid);
     return scene;

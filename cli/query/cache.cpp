@@ -191,31 +191,30 @@ int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entri
 
 }  // namespace
 
-Command add_cache(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("cache", "The cache of grids: look, evict, pin");
-    command->require_subcommand(1);
+Run set_up_cache(CLI::App& command) {
+    command.require_subcommand(1);
     const auto options = std::make_shared<CacheOptions>();
-    CLI::App* list = command->add_subcommand("list", "Every grid, oldest first");
-    CLI::App* stat = command->add_subcommand("stat", "Totals of each domain");
-    CLI::App* verify = command->add_subcommand("verify", "Read every grid and check it");
+    CLI::App* list = command.add_subcommand("list", "Every grid, oldest first");
+    CLI::App* stat = command.add_subcommand("stat", "Totals of each domain");
+    CLI::App* verify = command.add_subcommand("verify", "Read every grid and check it");
     for (CLI::App* one : {list, stat, verify}) {
         one->add_option("--cache", options->directory, "The cache's directory")->required();
         one->add_option("--domain", options->domain, "One domain; all when left out");
         add_time_range(*one, options->times);
         one->add_flag("--json", options->json, "Print one JSON document");
     }
-    const Commands changes = add_cache_changes(*command);
-    return {command, [=]() -> int {
-                for (const Command& change : changes) {
-                    if (change.app->parsed()) return change.run();
-                }
-                const auto entries = matching(*options);
-                if (!entries) return report_error(entries.error());
-                const int status = stat->parsed()     ? run_stat(*options, *entries)
-                                   : verify->parsed() ? run_verify(*options, *entries)
-                                                      : run_list(*options, *entries);
-                return entries->empty() ? report_nothing_matched() : status;
-            }};
+    const Commands changes = add_cache_changes(command);
+    return [=]() -> int {
+        for (const Command& change : changes) {
+            if (change.app->parsed()) return change.run();
+        }
+        const auto entries = matching(*options);
+        if (!entries) return report_error(entries.error());
+        const int status = stat->parsed()     ? run_stat(*options, *entries)
+                           : verify->parsed() ? run_verify(*options, *entries)
+                                              : run_list(*options, *entries);
+        return entries->empty() ? report_nothing_matched() : status;
+    };
 }
 
 }  // namespace stormcellar::cli

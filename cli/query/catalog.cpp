@@ -204,23 +204,22 @@ CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string
 
 }  // namespace
 
-Command add_catalog(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("catalog", "Query the catalog of raw files");
-    command->require_subcommand(1);
+Run set_up_catalog(CLI::App& command) {
+    command.require_subcommand(1);
     const auto options = std::make_shared<CatalogOptions>();
     const std::string station_help = "ICAO of the radar, e.g. KTLX";
 
-    CLI::App* stations = add_query(*command, *options, "stations", "The stations it knows");
-    CLI::App* list = add_query(*command, *options, "list", "Volumes, oldest first");
+    CLI::App* stations = add_query(command, *options, "stations", "The stations it knows");
+    CLI::App* list = add_query(command, *options, "list", "Volumes, oldest first");
     list->add_option("--station", options->station, station_help + "; all when left out");
     add_time_range(*list, options->times);
     list->add_flag("--rejected", options->rejected, "Also files that hold no volume");
-    CLI::App* latest = add_query(*command, *options, "latest", "The newest volume");
-    CLI::App* oldest = add_query(*command, *options, "oldest", "The oldest volume");
+    CLI::App* latest = add_query(command, *options, "latest", "The newest volume");
+    CLI::App* oldest = add_query(command, *options, "oldest", "The oldest volume");
     for (CLI::App* one : {latest, oldest})
         one->add_option("--station", options->station, station_help)->required();
     CLI::App* get =
-        add_query(*command, *options, "get",
+        add_query(command, *options, "get",
                   "Copy raw files out of the archive, or write their volumes as netCDF");
     get->add_option("--station", options->station, station_help)->required();
     add_time_range(*get, options->times);
@@ -230,10 +229,10 @@ Command add_catalog(CLI::App& app) {
     get->add_flag("--force", options->get.force, "Replace files that are there already");
     get->add_flag("--decode", options->get.decode,
                   "Write each volume as CfRadial netCDF instead of copying its file");
-    CLI::App* check = add_query(*command, *options, "check",
+    CLI::App* check = add_query(command, *options, "check",
                                 "Examine the databases and compare their rows with the files");
     CLI::App* rebuild =
-        add_query(*command, *options, "rebuild",
+        add_query(command, *options, "rebuild",
                   "Set damaged databases aside and register what the drop directory holds");
     for (CLI::App* one : {check, rebuild})
         one->add_option("--station", options->station, station_help + "; all when left out");
@@ -248,16 +247,16 @@ Command add_catalog(CLI::App& app) {
     for (CLI::App* one : {stations, list, latest, oldest, check, rebuild})
         one->add_flag("--json", options->json, "Print one JSON document");
 
-    return {command, [=] {
-                if (stations->parsed()) return run_stations(*options);
-                if (list->parsed()) return run_list(*options);
-                if (get->parsed()) return run_get(*options);
-                const CareOptions care{options->directory, options->drop,          options->station,
-                                       options->stations,  options->clear_unknown, options->json};
-                if (check->parsed()) return check_catalog(care);
-                if (rebuild->parsed()) return rebuild_catalog(care);
-                return run_one(*options, latest->parsed());
-            }};
+    return [=] {
+        if (stations->parsed()) return run_stations(*options);
+        if (list->parsed()) return run_list(*options);
+        if (get->parsed()) return run_get(*options);
+        const CareOptions care{options->directory, options->drop,          options->station,
+                               options->stations,  options->clear_unknown, options->json};
+        if (check->parsed()) return check_catalog(care);
+        if (rebuild->parsed()) return rebuild_catalog(care);
+        return run_one(*options, latest->parsed());
+    };
 }
 
 }  // namespace stormcellar::cli

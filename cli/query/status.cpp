@@ -50,18 +50,17 @@ int run_status(const StatusOptions& options) {
 
 }  // namespace
 
-Command add_status(CLI::App& app) {
+Run set_up_status(CLI::App& status) {
     const auto options = std::make_shared<StatusOptions>();
-    CLI::App* status = app.add_subcommand("status", "What the running daemon says of itself");
-    auto* socket = status->add_option("--socket", options->socket,
-                                      "Ask on this Unix socket, else in the usual places");
-    auto* state = status->add_option("--state", options->state, "The daemon's state directory")
+    auto* socket = status.add_option("--socket", options->socket,
+                                     "Ask on this Unix socket, else in the usual places");
+    auto* state = status.add_option("--state", options->state, "The daemon's state directory")
                       ->excludes(socket);
-    status->add_option("--config", options->config, "The daemon's configuration, which names them")
+    status.add_option("--config", options->config, "The daemon's configuration, which names them")
         ->excludes(socket)
         ->excludes(state);
-    status->add_flag("--json", options->json, "Print one JSON document");
-    return {status, [options] { return run_status(*options); }};
+    status.add_flag("--json", options->json, "Print one JSON document");
+    return [options] { return run_status(*options); };
 }
 
 }  // namespace stormcellar::cli

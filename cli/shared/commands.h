@@ -1,7 +1,7 @@
-// cli/shared/commands.h -- the subcommands of `stormcellar`, and what they share.
+// cli/shared/commands.h -- what the subcommands of `stormcellar` share.
 //
-// Each add_*() puts its subcommand and options on the app and gives the function to run when that
-// subcommand was chosen. A command parses its arguments, calls the library and prints; nothing
+// A subcommand is one function, which puts its options on the parser and gives what runs it
+// (cli/subcommands.h lists them). It parses its arguments, calls the library and prints; nothing
 // else. Facts go to stdout (with --json as one JSON document), messages and progress to stderr.
 #pragma once
 
@@ -28,25 +28,14 @@ enum ExitStatus : int {
     exit_nothing_matched = 3  // a query with an empty answer
 };
 
+// Does the work of a subcommand whose options were parsed, and gives the exit status.
+using Run = std::function<int()>;
+
 struct Command {
-    CLI::App* app = nullptr;   // to ask whether it was chosen
-    std::function<int()> run;  // gives the exit status
+    CLI::App* app = nullptr;  // to ask whether it was chosen
+    Run run;
 };
-
-// Every subcommand, one line each in cli/main.cpp.
 using Commands = std::vector<Command>;
-
-Command add_accuracy(CLI::App& app);
-Command add_cache(CLI::App& app);
-Command add_catalog(CLI::App& app);
-Command add_fetch(CLI::App& app);
-Command add_frame(CLI::App& app);
-Command add_grid(CLI::App& app);
-Command add_info(CLI::App& app);
-Command add_loop(CLI::App& app);
-Command add_replay(CLI::App& app);
-Command add_status(CLI::App& app);
-Command add_synth(CLI::App& app);
 
 // Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
 // that fits the code: bad_argument is bad usage, everything else is failed work.

@@ -37,7 +37,7 @@ bool is_stdout(std::string_view output) {
     return output == "-";
 }
 
-Status check_output_file(const std::string& output, std::initializer_list<std::string_view> endings,
+Status check_output_file(const std::string& output, const std::vector<std::string_view>& endings,
                          std::string_view what, bool json) {
     if (is_stdout(output)) {
         if (!json) return {};

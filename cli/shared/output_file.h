@@ -7,10 +7,10 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "stormcellar/base/result.h"
 
@@ -19,10 +19,10 @@ namespace stormcellar::cli {
 [[nodiscard]] bool is_stdout(std::string_view output);
 
 // Before long work: whether the file can appear there, and whether its ending is one of these; with
-// `json`, which goes to standard output too, that it is not that. `what` is made, as in "a grid is
-// netCDF". Errors: bad_argument, and those of check_target().
+// `json`, which goes to standard output too, that it is not that. `what` is made, as in "a frame is
+// written as PNG". Errors: bad_argument, and those of check_target().
 [[nodiscard]] Status check_output_file(const std::string& output,
-                                       std::initializer_list<std::string_view> endings,
+                                       const std::vector<std::string_view>& endings,
                                        std::string_view what, bool json);
 
 class OutputFile {

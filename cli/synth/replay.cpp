@@ -168,40 +168,37 @@ int run_replay(const ReplayCommandOptions& options) {
 
 }  // namespace
 
-Command add_replay(CLI::App& app) {
+Run set_up_replay(CLI::App& replay) {
     const auto options = std::make_shared<ReplayCommandOptions>();
-    CLI::App* replay = app.add_subcommand(
-        "replay", "Play files into a drop directory as LDM would, in the order of their times");
     replay
-        ->add_option("PLACES", options->places,
-                     "Files, archives or directories to play, and the drop directory as the last")
+        .add_option("PLACES", options->places,
+                    "Files, archives or directories to play, and the drop directory as the last")
         ->required()
         ->expected(2, 1'000'000)
         ->option_text("SOURCE... DROP");
     replay
-        ->add_option(
-            "--as", options->delivery,
-            "Whole: renamed when complete (default); growing: appended and closed for each "
-            "chunk; open: appended and kept open; chunks: a file for each chunk, "
-            "DROP/STATION/NUMBER/DATE-TIME-CHUNK-S|I|E")
+        .add_option("--as", options->delivery,
+                    "Whole: renamed when complete (default); growing: appended and closed for each "
+                    "chunk; open: appended and kept open; chunks: a file for each chunk, "
+                    "DROP/STATION/NUMBER/DATE-TIME-CHUNK-S|I|E")
         ->check(CLI::IsMember({"whole", "growing", "open", "chunks"}))
         ->option_text("whole|growing|open|chunks");
-    auto* interval = replay->add_option("--interval", options->interval_s,
-                                        "Seconds from file to file, whatever their times");
+    auto* interval = replay.add_option("--interval", options->interval_s,
+                                       "Seconds from file to file, whatever their times");
     interval->check(CLI::Range(0.0, 86400.0));
     replay
-        ->add_option("--speed", options->speed,
-                     "How many times faster than the files' own times (default: 1); stations mix")
+        .add_option("--speed", options->speed,
+                    "How many times faster than the files' own times (default: 1); stations mix")
         ->check(CLI::Range(0.001, 1e6))
         ->excludes(interval);
     replay
-        ->add_option("--faults", options->faults,
-                     "What goes wrong, with which probability for each chunk (of whole files: for "
-                     "each file), as drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7; "
-                     "--json names each one")
+        .add_option("--faults", options->faults,
+                    "What goes wrong, with which probability for each chunk (of whole files: for "
+                    "each file), as drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7; "
+                    "--json names each one")
         ->option_text("SPEC");
-    replay->add_flag("--json", options->json, "Say what was done as one JSON document");
-    return {replay, [options] { return run_replay(*options); }};
+    replay.add_flag("--json", options->json, "Say what was done as one JSON document");
+    return [options] { return run_replay(*options); };
 }
 
 }  // namespace stormcellar::cli

@@ -65,19 +65,17 @@ int run_synth(const SynthOptions& options) {
 
 }  // namespace
 
-Command add_synth(CLI::App& app) {
+Run set_up_synth(CLI::App& synth) {
     const auto options = std::make_shared<SynthOptions>();
-    CLI::App* synth = app.add_subcommand(
-        "synth", "Write the Level II files of a simulated scene, the same bytes every time");
-    synth->add_option("SCENE", options->scene, "The scene, in TOML (docs/scenes.md)")->required();
+    synth.add_option("SCENE", options->scene, "The scene, in TOML (docs/scenes.md)")->required();
     synth
-        ->add_option("-o,--output", options->directory,
-                     "Directory for the files; files of the same name are replaced")
+        .add_option("-o,--output", options->directory,
+                    "Directory for the files; files of the same name are replaced")
         ->required();
-    synth->add_option("--threads", options->threads, "Volumes to write at once")
+    synth.add_option("--threads", options->threads, "Volumes to write at once")
         ->check(CLI::Range(1, 256));
-    synth->add_flag("--json", options->json, "Say what was done as one JSON document");
-    return {synth, [options] { return run_synth(*options); }};
+    synth.add_flag("--json", options->json, "Say what was done as one JSON document");
+    return [options] { return run_synth(*options); };
 }
 
 }  // namespace stormcellar::cli

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/floating_point.h"
 #include "render/animation/animation_format.h"
 
 namespace stormcellar::render {
@@ -18,26 +19,27 @@ Result<std::unique_ptr<FrameEncoder>> make_built_in(const AnimationOptions& opti
     return make(options);
 }
 
-#if STORMCELLAR_VIDEO
+// Null where this build is without videos.
 template <VideoContainer container>
-Result<std::unique_ptr<FrameEncoder>> make_video(const AnimationOptions& options) {
-    return make_video_encoder(container, options);
-}
+constexpr MakeEncoder make_video() {
+#if STORMCELLAR_VIDEO
+    return [](const AnimationOptions& options) { return make_video_encoder(container, options); };
+#else
+    return nullptr;
 #endif
+}
 
 struct Format {
     std::string_view ending;
     MakeEncoder make;
 };
 
-constexpr std::array formats {
+constexpr std::array formats{
     Format{".webp", make_built_in<make_webp_encoder>},
-        Format{".gif", make_built_in<make_gif_encoder>},
-        Format{".apng", make_built_in<make_apng_encoder>},
-#if STORMCELLAR_VIDEO
-        Format{".mp4", make_video<VideoContainer::mp4>},
-        Format{".webm", make_video<VideoContainer::webm>},
-#endif
+    Format{".gif", make_built_in<make_gif_encoder>},
+    Format{".apng", make_built_in<make_apng_encoder>},
+    Format{".mp4", make_video<VideoContainer::mp4>()},
+    Format{".webm", make_video<VideoContainer::webm>()},
 };
 
 // Puts the output's name in front of an error that does not begin with it.
@@ -98,16 +100,19 @@ class FileWriter final : public AnimationWriter {
 };
 
 Status check(const AnimationOptions& options) {
-    const auto outside = [](double value, double low, double high) {
-        return !(value >= low && value <= high);  // NaN is outside
+    // NaN is outside of every range.
+    const auto outside = [](double value, NumberRange range) {
+        return !is_within(value, range.least, range.most);
     };
-    if (outside(options.frames_per_second, 0.1, 60)) {
-        return fail(ErrorCode::bad_argument, "frames per second must be 0.1 to 60, not {}",
-                    options.frames_per_second);
+    if (const NumberRange range = limits::frames_per_second;
+        outside(options.frames_per_second, range)) {
+        return fail(ErrorCode::bad_argument, "frames per second must be {} to {}, not {}",
+                    range.least, range.most, options.frames_per_second);
     }
-    if (outside(options.last_frame_dwell_s, 0, 60)) {
-        return fail(ErrorCode::bad_argument, "the last frame's dwell must be 0 to 60 s, not {}",
-                    options.last_frame_dwell_s);
+    if (const NumberRange range = limits::last_frame_dwell_s;
+        outside(options.last_frame_dwell_s, range)) {
+        return fail(ErrorCode::bad_argument, "the last frame's dwell must be {} to {} s, not {}",
+                    range.least, range.most, options.last_frame_dwell_s);
     }
     for (const auto& [keyword, text] : options.metadata) {
         if (keyword.empty() || keyword.size() > 79 || keyword.find('\0') != std::string::npos ||
@@ -139,14 +144,14 @@ Status probe(const std::string& output, FileSystem& file_system) {
 std::string known_animation_endings() {
     std::string list;
     for (const Format& format : formats) {
-        list += fmt::format("{}, ", format.ending);
+        if (format.make != nullptr) list += fmt::format("{}, ", format.ending);
     }
     return list + "or DIR/ for PNG files";
 }
 
 Status check_animation_name(const std::string& output) {
     const std::string ending = std::filesystem::path(output).extension();
-    if (output.ends_with('/') || ending == ".mp4" || ending == ".webm") return {};
+    if (output.ends_with('/')) return {};
     for (const Format& format : formats) {
         if (ending == format.ending) return {};
     }
@@ -167,7 +172,7 @@ Result<std::unique_ptr<AnimationWriter>> AnimationWriter::create(const std::stri
     if (output.ends_with('/')) return make_png_directory_writer(output, options, file_system);
     const std::string ending = std::filesystem::path(output).extension();
     for (const Format& format : formats) {
-        if (ending != format.ending) continue;
+        if (ending != format.ending || format.make == nullptr) continue;
         if (auto writable = probe(output, file_system); !writable) return pass_on(writable);
         auto encoder = format.make(options);
         if (!encoder) return tl::unexpected(named(output, encoder.error()));

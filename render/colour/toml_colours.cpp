@@ -74,14 +74,20 @@ bool read_meaning(TomlTable& root, ColourTable& table) {
     return true;
 }
 
+// The older spelling is taken too. Beside the newer one it is an unknown key.
+std::string_view color_key_of(const TomlTable& point) {
+    return point.has("colour") && !point.has("color") ? "colour" : "color";
+}
+
 void read_points(std::vector<TomlTable>& points, bool is_stepped, ColourTable& table) {
     std::size_t with_opacity = 0;
     for (TomlTable& point : points) {
-        for (const char* key : {"value", "colour"}) {
+        const std::string_view color_key = color_key_of(point);
+        for (const std::string_view key : {std::string_view("value"), color_key}) {
             if (!point.has(key)) point.complain(key, "is missing");
         }
         const auto value = point.number("value", values);
-        const Rgba8 colour = read_colour(point, "colour").value_or(Rgba8{});
+        const Rgba8 colour = read_colour(point, color_key).value_or(Rgba8{});
         const auto opacity = point.number("opacity_per_km", opacities_per_km);
         if (!value) continue;
         const auto from = static_cast<float>(*value);

@@ -10,14 +10,18 @@ namespace stormcellar::render {
 namespace {
 
 // NaN is outside every range.
-Status check_range(std::string_view what, double value, double low, double high) {
-    if (is_within(value, low, high)) return {};
-    return fail(ErrorCode::bad_argument, "{} must be {} to {}, not {}", what, low, high, value);
+Status check_range(std::string_view what, double value, NumberRange range) {
+    if (is_within(value, range.least, range.most)) return {};
+    return fail(ErrorCode::bad_argument, "{} must be {} to {}, not {}", what, range.least,
+                range.most, value);
 }
 
 bool is_place(grid::GeoPoint point) {
-    return is_within(point.latitude_deg, -90.0, 90.0) &&
-           is_within(point.longitude_deg, -180.0, 360.0);
+    const auto is_in = [](double value, NumberRange range) {
+        return is_within(value, range.least, range.most);
+    };
+    return is_in(point.latitude_deg, limits::latitude_deg) &&
+           is_in(point.longitude_deg, limits::longitude_deg);
 }
 
 Status check_section(const Scene& scene) {
@@ -28,14 +32,15 @@ Status check_section(const Scene& scene) {
     const SectionLine& line = *scene.section;
     if (!is_place(line.from) || !is_place(line.to)) {
         return fail(ErrorCode::bad_argument,
-                    "a section's ends must be latitudes of -90 to 90 and longitudes of -180 to 360 "
+                    "a section's ends must be latitudes of {} to {} and longitudes of {} to {} "
                     "degrees, not {},{} and {},{}",
-                    line.from.latitude_deg, line.from.longitude_deg, line.to.latitude_deg,
-                    line.to.longitude_deg);
+                    limits::latitude_deg.least, limits::latitude_deg.most,
+                    limits::longitude_deg.least, limits::longitude_deg.most, line.from.latitude_deg,
+                    line.from.longitude_deg, line.to.latitude_deg, line.to.longitude_deg);
     }
     const grid::SiteFrame start(line.from.latitude_deg, line.from.longitude_deg);
-    return check_range("the length of a section (km)", start.to_polar(line.to).arc_m / 1000, 1,
-                       5000);
+    return check_range("the length of a section (km)", start.to_polar(line.to).arc_m / 1000,
+                       limits::section_km);
 }
 
 Status check_colours(const Scene& scene) {
@@ -76,24 +81,26 @@ Status validate(const Scene& scene) {
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const std::array<Status, 18> checks = {
-        check_range("width", scene.width, 16, 8192),
-        check_range("height", scene.height, 16, 8192),
-        check_range("tilt", camera.tilt_deg, 0, camera.eye ? 180 : 90),
+        check_range("width", scene.width, limits::side_px),
+        check_range("height", scene.height, limits::side_px),
+        check_range("tilt", camera.tilt_deg,
+                    camera.eye ? limits::tilt_of_eye_deg : limits::tilt_deg),
         camera.field_of_view_deg == 0
             ? Status{}
-            : check_range("field of view", camera.field_of_view_deg, 1, 150),
-        check_range("the camera's place to the east (m)", eye.x_m, -1e7, 1e7),
-        check_range("the camera's place to the north (m)", eye.y_m, -1e7, 1e7),
-        check_range("the camera's height (m)", eye.height_m, -1e3, 1e7),
-        check_range("zoom", camera.zoom, 0.01, 1000),
-        check_range("slices", scene.slices, 8, 4096),
-        check_range("exaggeration", scene.vertical_exaggeration, 0.1, 100),
-        check_range("pixel tolerance", scene.pixel_tolerance, 0, 0.1),
-        check_range("the sun's elevation", scene.light.sun_elevation_deg, 5, 90),
-        check_range("opacity", scene.opacity, 1e-3, 1e3),
-        check_range("range ring spacing (m)", scene.range_ring_spacing_m, 1e3, 1e6),
-        check_range("the height of a CAPPI (m)", scene.cappi_height_m, -1e3, 6e4),
-        check_range("the threshold of echo tops (dBZ)", scene.echo_top_dbz, -30, 80),
+            : check_range("field of view", camera.field_of_view_deg, limits::field_of_view_deg),
+        check_range("the camera's place to the east (m)", eye.x_m, limits::eye_m),
+        check_range("the camera's place to the north (m)", eye.y_m, limits::eye_m),
+        check_range("the camera's height (m)", eye.height_m, limits::eye_height_m),
+        check_range("zoom", camera.zoom, limits::zoom),
+        check_range("slices", scene.slices, limits::slices),
+        check_range("exaggeration", scene.vertical_exaggeration, limits::exaggeration),
+        check_range("pixel tolerance", scene.pixel_tolerance, limits::pixel_tolerance),
+        check_range("the sun's elevation", scene.light.sun_elevation_deg,
+                    limits::sun_elevation_deg),
+        check_range("opacity", scene.opacity, limits::opacity),
+        check_range("range ring spacing (m)", scene.range_ring_spacing_m, limits::ring_spacing_m),
+        check_range("the height of a CAPPI (m)", scene.cappi_height_m, limits::cappi_height_m),
+        check_range("the threshold of echo tops (dBZ)", scene.echo_top_dbz, limits::echo_top_dbz),
         check_section(scene),
         check_colours(scene),
     };

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/shared/commands.h"
+#include "cli/subcommands.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "tests/testing/temporary_directory.h"
@@ -53,7 +53,7 @@ class Frame : public ::testing::Test {
 
     int run(const std::string& arguments) {
         CLI::App app;
-        const Command command = add_frame(app);
+        const Command command = add_subcommand(app, *find_subcommand("frame"));
         app.parse("frame --cache " + (directory_ / "cache").string() + " " + arguments);
         ::testing::internal::CaptureStderr();
         ::testing::internal::CaptureStdout();

@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include "cli/picture/scene_file.h"
-#include "cli/shared/commands.h"
+#include "cli/subcommands.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/grid/brick_grid.h"
@@ -63,9 +64,13 @@ class SceneFileTest : public ::testing::Test {
         int status = -1;
         std::string out, err;
     };
-    Ran run(Command (*add)(CLI::App&), const std::string& arguments) {
+    // The first of the arguments is the subcommand.
+    Ran run(const std::string& arguments) {
         CLI::App app;
-        const Command command = add(app);
+        const Subcommand* subcommand =
+            find_subcommand(std::string_view(arguments).substr(0, arguments.find(' ')));
+        if (subcommand == nullptr) return {};
+        const Command command = add_subcommand(app, *subcommand);
         app.parse(arguments);
         ::testing::internal::CaptureStderr();
         ::testing::internal::CaptureStdout();

@@ -22,7 +22,7 @@ TEST_F(SceneFileTest, AnEmptyFileChangesNothing) {
     EXPECT_EQ(scene->width, render::Scene{}.width);
     EXPECT_EQ(scene->product, render::Product::volume);
     EXPECT_FALSE(settings_.plan.asked());
-    EXPECT_EQ(settings_.loop.last, 0U);
+    EXPECT_EQ(settings_.loop.last, 0);
 }
 
 TEST_F(SceneFileTest, EveryKeyOfAPictureReachesTheScene) {
@@ -94,7 +94,7 @@ TEST_F(SceneFileTest, EveryKeyOfPlanAndLoopIsTaken) {
     EXPECT_EQ(loop.domain, "northeast");
     EXPECT_EQ(loop.range.from, "-3h");
     EXPECT_EQ(loop.range.to, "now");
-    EXPECT_EQ(loop.last, 12U);
+    EXPECT_EQ(loop.last, 12);
     EXPECT_EQ(loop.animation.frames_per_second, 10);
     EXPECT_EQ(loop.animation.last_frame_dwell_s, 2);
     EXPECT_EQ(loop.orbit_deg, 360);
@@ -187,6 +187,31 @@ TEST_F(SceneFileTest, PathsStartAtTheFile) {
     EXPECT_EQ(scene->colours->name, "mine");
 }
 
+TEST_F(SceneFileTest, AnOlderKeyIsTakenToo) {
+    for (const char* key : {"colors", "colours"}) {
+        settings_ = {};
+        ASSERT_TRUE(read(fmt::format("[picture]\n{} = \"safe-rho\"\nmoment = \"RHO\"\n", key)));
+        EXPECT_EQ(scene_of(settings_.scene)->colours->name, "safe-rho");
+        EXPECT_THAT(complaint(fmt::format("[picture]\n{} = \"none-such\"\n", key)),
+                    HasSubstr(fmt::format("s.toml:2: [picture] {}: no colour table", key)));
+    }
+    EXPECT_EQ(complaint("[picture]\ncolors = \"phi\"\ncolours = \"cfp\"\n"),
+              "s.toml:3: [picture] colours: is the older name of colors: give one of them");
+}
+
+// 2026-11-25: numbers of a file were printed and parsed again.
+TEST_F(SceneFileTest, NumbersReachTheSceneToTheLastBit) {
+    ASSERT_TRUE(
+        read("[light]\nsun_deg = [0.1, 40.00000000000001]\n"
+             "[camera]\nat_km = [1e-9, -0.30000000000000004, 3]\n"));
+    const auto scene = scene_of(settings_.scene);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->light.sun_azimuth_deg, 0.1);
+    EXPECT_EQ(scene->light.sun_elevation_deg, 40.00000000000001);
+    EXPECT_EQ(scene->camera.eye->x_m, 1e-9 * 1e3);
+    EXPECT_EQ(scene->camera.eye->y_m, -0.30000000000000004 * 1e3);
+}
+
 TEST_F(SceneFileTest, TheCommandLineWins) {
     const auto file = write(
         "[picture]\nwidth = 640\nheight = 480\n[camera]\nazimuth_deg = 90\n"
@@ -204,7 +229,7 @@ TEST_F(SceneFileTest, TheCommandLineWins) {
         EXPECT_EQ(all.scene.scene.height, 480) << order;
         EXPECT_EQ(all.scene.scene.camera.azimuth_deg, 180) << "given, though it is the default";
         EXPECT_FALSE(all.scene.scene.curved_earth);
-        EXPECT_EQ(all.loop.last, 3U);
+        EXPECT_EQ(all.loop.last, 3);
     }
 }
 
@@ -213,13 +238,13 @@ TEST_F(SceneFileTest, FrameAndLoopDrawWhatItSays) {
     const auto file =
         write(fmt::format("[picture]\nproduct = \"composite\"\nwidth = 500\n[loop]\n"
                           "domain = \"KBGM\"\noutputs = [\"a.webp\"]\n"));
-    const auto frame = run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {} --json",
-                                                  cache(), file.string(), at("a.png")));
+    const auto frame = run(fmt::format("frame KBGM --cache {} --scene {} -o {} --json", cache(),
+                                       file.string(), at("a.png")));
     EXPECT_EQ(frame.status, exit_done) << frame.err;
     EXPECT_THAT(frame.out, HasSubstr("\"product\": \"composite\""));
     EXPECT_THAT(frame.out, HasSubstr("\"width\": 500"));
-    const auto loop = run(add_loop, fmt::format("loop --cache {} --scene {} --width 450 --json",
-                                                cache(), file.string()));
+    const auto loop =
+        run(fmt::format("loop --cache {} --scene {} --width 450 --json", cache(), file.string()));
     EXPECT_EQ(loop.status, exit_done) << loop.err;
     EXPECT_THAT(loop.out, HasSubstr("\"product\": \"composite\""));
     EXPECT_THAT(loop.out, HasSubstr("\"width\": 450"));
@@ -232,8 +257,7 @@ TEST_F(SceneFileTest, TheOtherKindOfSceneIsNamed) {
                                           settings_.plan, settings_.loop);
     ASSERT_FALSE(storms);
     EXPECT_THAT(storms.error().message, HasSubstr("a scene of simulated storms, for stormcellar"));
-    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"),
-                HasSubstr("s.toml: a colour table, for --col"));
+    EXPECT_THAT(complaint("[[point]]\nvalue = 1\n"), HasSubstr("s.toml: a color table, which"));
     EXPECT_THAT(
         complaint("[paths]\ndrop = \"/d\"\n[[loop]]\nname = \"a\"\n"),
         HasSubstr("s.toml: a configuration of stormcellard; a picture's scene has [picture]"));
@@ -253,9 +277,8 @@ TEST_F(SceneFileTest, ShippedScenesDraw) {
         // The section of the shipped file is in Oklahoma.
         const std::string where =
             name == "picture-section.toml" ? " --section 42,-76.1,42.3,-75.8" : "";
-        const auto ran =
-            run(add_frame, fmt::format("frame KBGM --cache {} --scene {} -o {}{}", cache(),
-                                       entry.path().string(), at(name + ".png"), where));
+        const auto ran = run(fmt::format("frame KBGM --cache {} --scene {} -o {}{}", cache(),
+                                         entry.path().string(), at(name + ".png"), where));
         EXPECT_EQ(ran.status, exit_done) << name << ": " << ran.err;
         EXPECT_GT(fs::file_size(directory_ / (name + ".png")), 20'000U) << name;
     }

@@ -60,6 +60,34 @@ TEST(SceneOptions, ProductsHaveOptionsOfTheirOwn) {
     EXPECT_EQ(scene_of(parse("--product composite --zoom 2"))->camera.zoom, 2);
 }
 
+TEST(SceneOptions, AnOlderSpellingIsTakenAndNotShown) {
+    for (const char* spelling : {"--colors", "--colours"}) {
+        const auto scene = scene_of(parse(fmt::format("{} safe-reflectivity", spelling)));
+        ASSERT_TRUE(scene) << scene.error().message;
+        EXPECT_EQ(scene->colours->name, "safe-reflectivity");
+        EXPECT_THAT(scene_of(parse(fmt::format("{} none-such", spelling))).error().message,
+                    ::testing::StartsWith(fmt::format("{}: no colour table", spelling)));
+    }
+    EXPECT_EQ(scene_of(parse("--colours phi --colors cfp")).error().message,
+              "--colours: is the older name of --colors: give one of them");
+    SceneOptions options;
+    CLI::App app;
+    add_scene_options(app, options);
+    EXPECT_THAT(app.help(), ::testing::HasSubstr("--colors"));
+    EXPECT_THAT(app.help(), ::testing::Not(::testing::HasSubstr("--colours")));
+}
+
+// A row that is changed reaches the help by itself: the ends of its range, and what there is.
+TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
+    for (const PictureOption& row : picture_options())
+        EXPECT_THAT(help_of(row), ::testing::Not(::testing::HasSubstr("{"))) << row.option;
+    EXPECT_EQ(help_of(slices_option()), "Slices through the volume, 8 to 4096");
+    SceneOptions options;
+    CLI::App app;
+    add_scene_options(app, options);
+    EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO or CFP"));
+}
+
 // 2026-11-22: `--light shadow` with a composite was dropped without a word.
 TEST(SceneOptions, WhatAProductDoesNotUseIsRefused) {
     const std::string all = "volume composite cappi section echotop vil lowest-seen highest-seen";

@@ -173,6 +173,22 @@ TEST(TomlColours, BlendFromPointToPoint) {
     EXPECT_DOUBLE_EQ(extinction_per_m(*table, 15, 1) * 1000, 0.2);
 }
 
+TEST(TomlColours, ColorIsSpelledEitherWay) {
+    std::string american(toml_example);
+    for (std::size_t at = american.find("colour"); at != std::string::npos;
+         at = american.find("colour", at))
+        american.replace(at, 6, "color");
+    const auto table = parse_toml_colours(american, "t.toml");
+    ASSERT_TRUE(table) << table.error().message;
+    EXPECT_EQ(colour_of(*table, 99), colour_of(*parse_toml_colours(toml_example, "t.toml"), 99));
+    const auto both = parse_toml_colours(
+        "[[point]]\nvalue = 1\ncolor = \"#000000\"\ncolour = \"#000000\"\n"
+        "[[point]]\nvalue = 2\ncolor = \"#ffffff\"\n",
+        "t.toml");
+    ASSERT_FALSE(both);
+    EXPECT_EQ(both.error().message, "t.toml:4: unknown key [point] colour");
+}
+
 TEST(TomlColours, ASteppedTableHasClassesAndTheMomentsOpacity) {
     const auto table = parse_toml_colours(
         "moment = \"REF\"\nstepped = true\nend = 60\nrange_folded = \"#010203\"\n"

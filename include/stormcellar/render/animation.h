@@ -34,14 +34,20 @@
 #include <vector>
 
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/base/number_range.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
 
 namespace stormcellar::render {
 
+namespace limits {
+inline constexpr NumberRange frames_per_second{0.1, 60};
+inline constexpr NumberRange last_frame_dwell_s{0, 60};
+}  // namespace limits
+
 struct AnimationOptions {
-    double frames_per_second = 8;   // 0.1 to 60
-    double last_frame_dwell_s = 1;  // the last frame stays this much longer; 0 to 60
+    double frames_per_second = 8;
+    double last_frame_dwell_s = 1;  // the last frame stays this much longer
     // Pairs of keyword and text. "Title" becomes the title if the format has one; all others go
     // into its comment.
     std::vector<std::pair<std::string, std::string>> metadata{};

@@ -26,7 +26,7 @@ struct Light {
     bool shadow = false;
     bool scattering = false;
     double sun_azimuth_deg = 225;   // direction of the sun, clockwise from north
-    double sun_elevation_deg = 40;  // 5..90
+    double sun_elevation_deg = 40;  // render/scene.h has its range
 
     [[nodiscard]] bool any() const { return gradient || shadow || scattering; }
     [[nodiscard]] bool needs_volume() const { return shadow || scattering; }

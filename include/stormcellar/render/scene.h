@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "stormcellar/base/number_range.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/grid/site_frame.h"
 #include "stormcellar/level2/volume.h"
@@ -20,6 +21,29 @@
 
 namespace stormcellar::render {
 
+// The ranges of the numbers of a scene. validate() checks them, and the options and scene files of
+// the command line take them from here. Azimuths may be any finite number.
+namespace limits {
+inline constexpr NumberRange side_px{16, 8192};        // width and height
+inline constexpr NumberRange tilt_deg{0, 90};          // of a camera that looks from outside
+inline constexpr NumberRange tilt_of_eye_deg{0, 180};  // of one with a place of its own
+inline constexpr NumberRange zoom{0.01, 1000};
+inline constexpr NumberRange field_of_view_deg{1, 150};  // or 0
+inline constexpr NumberRange eye_m{-1e7, 1e7};           // to the east, and to the north
+inline constexpr NumberRange eye_height_m{-1e3, 1e7};
+inline constexpr NumberRange latitude_deg{-90, 90};
+inline constexpr NumberRange longitude_deg{-180, 360};
+inline constexpr NumberRange section_km{1, 5000};
+inline constexpr NumberRange cappi_height_m{-1e3, 6e4};
+inline constexpr NumberRange echo_top_dbz{-30, 80};
+inline constexpr NumberRange slices{8, 4096};
+inline constexpr NumberRange exaggeration{0.1, 100};
+inline constexpr NumberRange pixel_tolerance{0, 0.1};
+inline constexpr NumberRange sun_elevation_deg{5, 90};
+inline constexpr NumberRange opacity{1e-3, 1e3};
+inline constexpr NumberRange ring_spacing_m{1e3, 1e6};
+}  // namespace limits
+
 // The place of a camera: meters east and north of the middle of the grid, and a height above sea
 // level.
 struct Eye {
@@ -29,39 +53,39 @@ struct Eye {
 // Without a place of its own, the camera looks from outside at the middle of the box that holds the
 // cells and the ground under them.
 struct Camera {
-    double azimuth_deg = 180;  // from where it looks: 180 is from the south, north is up; finite
-    double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground; 0..90,
-                               // with a place of its own to 180, which is straight up
-    double zoom = 1;           // 1: the whole grid fits into the image; 0.01..1000
-    double field_of_view_deg = 0;  // across the image at zoom 1; 0: orthographic; else 1..150
+    double azimuth_deg = 180;  // from where it looks: 180 is from the south, north is up
+    double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground, and for a
+                               // camera with a place of its own 180 straight up
+    double zoom = 1;           // 1: the whole grid fits into the image
+    double field_of_view_deg = 0;           // across the image at zoom 1; 0: orthographic
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
 };
 
 // A vertical section along the geodesic between two places.
 struct SectionLine {
-    grid::GeoPoint from, to;  // latitudes -90..90, longitudes -180..360; 1..5000 km apart
+    grid::GeoPoint from, to;
 };
 
 struct Scene {
     Product product = Product::volume;
     level2::Moment moment = level2::Moment::ref;        // of the grid; some products need REF
     std::optional<ColourTable> colours = std::nullopt;  // none: see colours_of()
-    double cappi_height_m = 3000;                       // above sea level; -1..60 km
+    double cappi_height_m = 3000;                       // above sea level
     std::optional<SectionLine> section = std::nullopt;  // of a section it must be there
-    double echo_top_dbz = 18.5;                         // -30..80
-    int width = 796, height = 532;                      // pixels; 16..8192
+    double echo_top_dbz = 18.5;
+    int width = 796, height = 532;  // pixels
     Camera camera;
-    int slices = 256;                  // parallel to the image plane; 8..4096
-    double vertical_exaggeration = 5;  // stated in the picture; 0.1..100
+    int slices = 256;                  // parallel to the image plane
+    double vertical_exaggeration = 5;  // stated in the picture
     bool curved_earth = false;         // volumes: the ground falls away from the grid's middle
     // How exactly a volume is drawn (render/volume/slicer.h).
     Integration integration = Integration::second_order;
-    double pixel_tolerance = 0;          // 0..0.1
-    Light light;                         // off unless asked for
-    bool haze = false;                   // volumes: air that was not seen veils what is behind it
-    double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
-    double range_ring_spacing_m = 50e3;  // 1..1000 km
-    bool labels = true;                  // colour bar, title, time, rings
+    double pixel_tolerance = 0;
+    Light light;         // off unless asked for
+    bool haze = false;   // volumes: air that was not seen veils what is behind it
+    double opacity = 1;  // scales the transfer function's opacity
+    double range_ring_spacing_m = 50e3;
+    bool labels = true;  // colour bar, title, time, rings
 };
 // Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
 // outside every range.

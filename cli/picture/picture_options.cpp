@@ -1,0 +1,353 @@
+#include "cli/picture/picture_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "base/local_time.h"
+#include "cli/picture/scene_file.h"
+#include "cli/picture/scene_options.h"
+#include "cli/shared/commands.h"
+#include "render/colour/colour_file.h"
+
+namespace stormcellar::cli {
+namespace {
+
+using render::Product;
+using To = PictureSettings;
+namespace limits = render::limits;
+
+constexpr double per_km = 1000;
+// Any direction will do; a scene file refuses what is no direction but a mistake.
+constexpr NumberRange turns_deg{-3600, 3600};
+
+constexpr ProductUse by_volume{.only = Product::volume};
+constexpr ProductUse by_cappi{.only = Product::cappi};
+constexpr ProductUse by_section{.only = Product::section};
+constexpr ProductUse by_echo_top{.only = Product::echo_top};
+constexpr ProductUse by_all_but_section{.all_but = Product::section};
+
+constexpr std::array section_places{
+    NumberPlace{"latitude", limits::latitude_deg}, NumberPlace{"longitude", limits::longitude_deg},
+    NumberPlace{"latitude", limits::latitude_deg}, NumberPlace{"longitude", limits::longitude_deg}};
+constexpr std::array camera_places{NumberPlace{"east", limits::eye_m.in(per_km)},
+                                   NumberPlace{"north", limits::eye_m.in(per_km)},
+                                   NumberPlace{"up", limits::eye_height_m.in(per_km)}};
+constexpr std::array sun_places{NumberPlace{"azimuth", turns_deg},
+                                NumberPlace{"elevation", limits::sun_elevation_deg}};
+
+void set_section(To to, std::span<const double> ends) {
+    to.scene.section = render::SectionLine{{ends[0], ends[1]}, {ends[2], ends[3]}};
+}
+
+void set_camera(To to, std::span<const double> at) {
+    to.scene.camera.eye = render::Eye{at[0] * per_km, at[1] * per_km, at[2] * per_km};
+}
+
+void set_sun(To to, std::span<const double> sun) {
+    to.scene.light.sun_azimuth_deg = sun[0];
+    to.scene.light.sun_elevation_deg = sun[1];
+}
+
+Status check_product(const std::string& name) {
+    const auto product = render::product_from_name(name);
+    return product ? Status{} : pass_on(product);
+}
+
+std::string known_moments() {
+    return level2::moment_names(", ", " or ");
+}
+
+Status check_moment(const std::string& name) {
+    if (level2::moment_from_name(name)) return {};
+    return fail(ErrorCode::bad_argument, "must be {}, is '{}'", known_moments(), printable(name));
+}
+
+Status check_time_zone(const std::string& zone) {
+    if (format_local(UtcTime{}, zone)) return {};
+    return fail(ErrorCode::bad_argument, "'{}' is no time zone known here", printable(zone));
+}
+
+Status check_colors(const std::string& name) {
+    const auto table = render::colours_from(name);
+    return table ? Status{} : pass_on(table);
+}
+
+// A table by name is the same everywhere; a file stands beside the scene file.
+std::string colors_beside(const std::filesystem::path& directory, const std::string& name) {
+    std::string ending = std::filesystem::path(name).extension().native();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool is_file = ending == ".pal" || ending == ".toml";
+    return is_file ? (directory / name).native() : name;
+}
+
+constexpr std::array option_rows{
+    PictureOption{.option = "--product",
+                  .section = "picture",
+                  .key = "product",
+                  .value = TextValue{.field = [](To to) { return &to.options.product; },
+                                     .check = check_product,
+                                     .known = render::products_for_help},
+                  .help = "{}"},
+    PictureOption{.option = "--moment",
+                  .section = "picture",
+                  .key = "moment",
+                  .value = TextValue{.field = [](To to) { return &to.options.moment; },
+                                     .check = check_moment,
+                                     .known = known_moments},
+                  .help = "{}"},
+    PictureOption{.option = "--colors",
+                  .old_option = "--colours",
+                  .section = "picture",
+                  .key = "colors",
+                  .old_key = "colours",
+                  .value = TextValue{.field = [](To to) { return &to.options.colours; },
+                                     .check = check_colors,
+                                     .beside = colors_beside},
+                  .help = "A color table by name, or a .pal or .toml file (default: the moment's)"},
+    PictureOption{.option = "--height-km",
+                  .section = "picture",
+                  .key = "height_km",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.cappi_height_m; },
+                                       .range = limits::cappi_height_m.in(per_km),
+                                       .unit = per_km},
+                  .used_by = by_cappi,
+                  .help = "The height of a CAPPI above sea level, {} to {}"},
+    PictureOption{.option = "--section",
+                  .section = "picture",
+                  .key = "section",
+                  .value = NumbersValue{section_places, set_section},
+                  .used_by = by_section,
+                  .help = "LAT,LON,LAT,LON: the two ends of a vertical section"},
+    PictureOption{.option = "--echo-top-dbz",
+                  .section = "picture",
+                  .key = "echo_top_dbz",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.echo_top_dbz; },
+                                       .range = limits::echo_top_dbz},
+                  .used_by = by_echo_top,
+                  .help = "The threshold of echo tops, {} to {}"},
+    PictureOption{.option = "--width",
+                  .section = "picture",
+                  .key = "width",
+                  .value = WholeValue{.field = [](To to) { return &to.scene.width; },
+                                      .range = limits::side_px},
+                  .help = "Pixels, {} to {}"},
+    PictureOption{.option = "--height",
+                  .section = "picture",
+                  .key = "height",
+                  .value = WholeValue{.field = [](To to) { return &to.scene.height; },
+                                      .range = limits::side_px},
+                  .help = "Pixels, {} to {}"},
+    PictureOption{.option = "--azimuth",
+                  .section = "camera",
+                  .key = "azimuth_deg",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.camera.azimuth_deg; },
+                                       .range = turns_deg},
+                  .used_by = by_volume,
+                  .help = "Where the view is from, degrees: 180 is from the south, north up"},
+    PictureOption{.option = "--tilt",
+                  .section = "camera",
+                  .key = "tilt_deg",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.camera.tilt_deg; },
+                                       .range = limits::tilt_of_eye_deg},
+                  .used_by = by_volume,
+                  .help = "Degrees from the vertical: 0 straight down, 90 along the ground, with "
+                          "--camera-km up to {1}"},
+    PictureOption{.option = "--zoom",
+                  .section = "camera",
+                  .key = "zoom",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.camera.zoom; },
+                                       .range = limits::zoom},
+                  .used_by = by_all_but_section,
+                  .help = "1 shows the whole grid; {} to {}"},
+    PictureOption{
+        .option = "--field-of-view",
+        .section = "camera",
+        .key = "field_of_view_deg",
+        .value = NumberValue{.field = [](To to) { return &to.scene.camera.field_of_view_deg; },
+                             .range = limits::field_of_view_deg,
+                             .or_zero = true},
+        .used_by = by_volume,
+        .help = "Degrees across the picture, {} to {}, for a perspective view; 0: parallel rays"},
+    PictureOption{.option = "--camera-km",
+                  .section = "camera",
+                  .key = "at_km",
+                  .value = NumbersValue{camera_places, set_camera},
+                  .used_by = by_volume,
+                  .help =
+                      "EAST,NORTH,UP: where the camera stands, from the grid's middle and above "
+                      "sea level (default: outside, looking at the middle)"},
+    PictureOption{
+        .option = "--light",
+        .section = "light",
+        .key = "kinds",
+        .value = NamesValue{.set =
+                                [](To to, const std::string& names) {
+                                    return render::set_light(names, to.scene.light);
+                                },
+                            .get = [](To to) { return render::light_names(to.scene.light); }},
+        .used_by = by_volume,
+        .help = "none (exact colors), or of gradient, shadow and scattering, with commas: makes "
+                "echo darker, never another hue"},
+    PictureOption{.option = "--sun",
+                  .section = "light",
+                  .key = "sun_deg",
+                  .value = NumbersValue{sun_places, set_sun},
+                  .used_by = by_volume,
+                  .help = "AZIMUTH,ELEVATION in degrees of the light (default: 225,40)"},
+    PictureOption{.option = "--haze",
+                  .section = "volume",
+                  .key = "haze",
+                  .value = FlagValue{.field = [](To to) { return &to.scene.haze; }},
+                  .used_by = by_volume,
+                  .help = "Of a volume: air that no beam saw is hazy, behind the echo"},
+    PictureOption{.option = "--curved-earth",
+                  .section = "volume",
+                  .key = "curved_earth",
+                  .value = FlagValue{.field = [](To to) { return &to.scene.curved_earth; }},
+                  .used_by = by_volume,
+                  .help = "The ground falls away from the grid's middle, as the earth does"},
+    PictureOption{.option = "--slices",
+                  .section = "volume",
+                  .key = "slices",
+                  .value = WholeValue{.field = [](To to) { return &to.scene.slices; },
+                                      .range = limits::slices},
+                  .used_by = by_volume,
+                  .help = "Slices through the volume, {} to {}"},
+    PictureOption{
+        .option = "--exaggeration",
+        .section = "volume",
+        .key = "exaggeration",
+        .value = NumberValue{.field = [](To to) { return &to.scene.vertical_exaggeration; },
+                             .range = limits::exaggeration},
+        .used_by = by_volume,
+        .help = "Stretches heights, {} to {} times"},
+    PictureOption{.option = "--opacity",
+                  .section = "volume",
+                  .key = "opacity",
+                  .value = NumberValue{.field = [](To to) { return &to.scene.opacity; },
+                                       .range = limits::opacity},
+                  .used_by = by_volume,
+                  .help = "Factor on how opaque echo is, {} to {}"},
+    PictureOption{
+        .option = "--ring-spacing-km",
+        .section = "labels",
+        .key = "ring_spacing_km",
+        .value = NumberValue{.field = [](To to) { return &to.scene.range_ring_spacing_m; },
+                             .range = limits::ring_spacing_m.in(per_km),
+                             .unit = per_km},
+        .used_by = by_all_but_section,
+        .help = "From one range ring to the next, {} to {}"},
+    PictureOption{
+        .option = "--time-zone",
+        .section = "labels",
+        .key = "time_zone",
+        .value = TextValue{.field = [](To to) { return &to.options.time_zone; },
+                           .check = check_time_zone},
+        .help = "The zone of the local time, as America/Chicago (default: the machine's)"},
+    PictureOption{.option = "--no-labels",
+                  .section = "labels",
+                  .key = "show",
+                  .value = FlagValue{.field = [](To to) { return &to.options.no_labels; },
+                                     .is_reversed = true},
+                  .help = "The picture alone"},
+    PictureOption{.option = "--threads",
+                  .value = WholeValue{.field = [](To to) { return &to.options.threads; },
+                                      .range = thread_range},
+                  .help = "0: as many as the machine has; at most {1}"},
+    PictureOption{.option = "--last",
+                  .section = "loop",
+                  .key = "last",
+                  .value = WholeValue{.field = [](To to) { return &to.loop->last; },
+                                      .range = {1, 1'000'000},
+                                      .checked = Checked::by_the_parser},
+                  .help = "Of these grids only the newest so many"},
+    PictureOption{
+        .option = "--fps",
+        .section = "loop",
+        .key = "fps",
+        .value = NumberValue{.field = [](To to) { return &to.loop->animation.frames_per_second; },
+                             .range = limits::frames_per_second},
+        .help = "Frames a second, {} to {}"},
+    PictureOption{
+        .option = "--dwell",
+        .section = "loop",
+        .key = "dwell_s",
+        .value = NumberValue{.field = [](To to) { return &to.loop->animation.last_frame_dwell_s; },
+                             .range = limits::last_frame_dwell_s},
+        .help = "Seconds that the last frame stays longer, {} to {}"},
+    PictureOption{
+        .option = "--orbit",
+        .section = "loop",
+        .key = "orbit_deg",
+        .value = NumberValue{.field = [](To to) { return &to.loop->orbit_deg; },
+                             .range = turns_deg,
+                             .checked = Checked::by_the_parser},
+        .used_by = by_volume,
+        .help = "Degrees that the camera goes round the grid over the loop; 360 closes it"},
+    PictureOption{.option = "--ping-pong",
+                  .section = "loop",
+                  .key = "ping_pong",
+                  .value = FlagValue{.field = [](To to) { return &to.loop->ping_pong; }},
+                  .help = "There and back: behind the last frame the others again, down to the "
+                          "second"},
+};
+
+// `key` is a constant of this file, so that the row is there.
+const PictureOption& row_of(std::string_view key) {
+    return *std::ranges::find(option_rows, key, &PictureOption::key);
+}
+
+// The ends of its range, or what its texts may be.
+struct HelpOf {
+    std::string help;
+    std::string operator()(const WholeValue& value) const { return with(value.range); }
+    std::string operator()(const NumberValue& value) const { return with(value.range); }
+    std::string operator()(const TextValue& value) const {
+        return value.known == nullptr ? help : fmt::format(fmt::runtime(help), value.known());
+    }
+    template <class Other>
+    std::string operator()(const Other& /*value*/) const {
+        return help;
+    }
+    [[nodiscard]] std::string with(NumberRange range) const {
+        return fmt::format(fmt::runtime(help), range.least, range.most);
+    }
+};
+
+}  // namespace
+
+std::string ProductUse::text() const {
+    if (only) return std::string(render::product_name(*only));
+    if (!all_but) return "any product";
+    return fmt::format("any product but {}", render::product_name(*all_but));
+}
+
+std::span<const PictureOption> picture_options() {
+    return option_rows;
+}
+
+const PictureOption& slices_option() {
+    return row_of("slices");
+}
+
+const PictureOption& section_option() {
+    return row_of("section");
+}
+
+std::string key_of(const PictureOption& option) {
+    return fmt::format("[{}] {}", option.section, option.key);
+}
+
+std::string help_of(const PictureOption& option) {
+    return std::visit(HelpOf{std::string(option.help)}, option.value);
+}
+
+bool contains(const ChosenOptions& chosen, const PictureOption& option) {
+    return std::ranges::find(chosen, &option) != chosen.end();
+}
+
+}  // namespace stormcellar::cli

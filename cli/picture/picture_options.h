@@ -1,0 +1,124 @@
+// cli/picture/picture_options.h -- the table of the options of a picture.
+//
+// Each row is one option: its name on the command line, its key in a scene file, the values that it
+// takes, the products that use it, its help, and the setting that it sets. The command line and the
+// check of what a product uses (scene_options.h) and scene files (scene_file.h) read this table;
+// --help, the manual pages and the completions of shells come from the command line.
+// Thread contract: the table is constant.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "stormcellar/base/number_range.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/render/scene.h"
+
+namespace stormcellar::cli {
+
+struct LoopSettings;
+struct SceneOptions;
+
+// What the options set.
+struct PictureSettings {
+    SceneOptions& options;
+    render::Scene& scene;  // that of the options
+    LoopSettings* loop;    // null where only options of the scene are set
+};
+
+// Says who refuses a number on the command line that is out of range. In a scene file such a number
+// is always refused on its line.
+enum class Checked { with_the_scene, by_the_parser };
+
+// A flag on the command line, true or false in a scene file.
+struct FlagValue {
+    bool* (*field)(PictureSettings) = nullptr;
+    bool is_reversed = false;  // the key says the opposite of the flag
+};
+struct WholeValue {
+    int* (*field)(PictureSettings) = nullptr;
+    NumberRange range{};
+    Checked checked = Checked::with_the_scene;
+};
+struct NumberValue {
+    double* (*field)(PictureSettings) = nullptr;
+    NumberRange range{};  // in the unit of the option
+    double unit = 1;      // of the option in that of the field: 1000 for kilometers and meters
+    bool or_zero = false;
+    Checked checked = Checked::with_the_scene;
+};
+// As many numbers as there are places: "35,-98" on the command line, an array in a scene file.
+struct NumberPlace {
+    std::string_view name;
+    NumberRange range;
+};
+struct NumbersValue {
+    std::span<const NumberPlace> places{};
+    void (*set)(PictureSettings, std::span<const double>) = nullptr;
+};
+struct TextValue {
+    std::string* (*field)(PictureSettings) = nullptr;
+    Status (*check)(const std::string&) = nullptr;  // its message says why a text is refused
+    // What a text stands for in a scene file of this directory; null: for itself.
+    std::string (*beside)(const std::filesystem::path& directory,
+                          const std::string& text) = nullptr;
+    std::string (*known)() = nullptr;  // the texts that there are, for {} in the help; null: any
+};
+// "gradient,shadow" on the command line, an array of texts in a scene file, where an empty one is
+// "none".
+struct NamesValue {
+    Status (*set)(PictureSettings, const std::string& names) = nullptr;
+    std::string (*get)(PictureSettings) = nullptr;
+};
+using PictureValue =
+    std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
+
+// The products that use an option: one product only, all but one, or, with neither, all.
+struct ProductUse {
+    std::optional<render::Product> only{};
+    std::optional<render::Product> all_but{};
+
+    [[nodiscard]] bool includes(render::Product product) const {
+        return (!only || product == *only) && (!all_but || product != *all_but);
+    }
+    // As in "cappi", "any product but section".
+    [[nodiscard]] std::string text() const;
+};
+
+struct PictureOption {
+    std::string_view option{};      // "--tilt"
+    std::string_view old_option{};  // an older spelling, which is taken and not shown
+    std::string_view section{};     // of a scene file; empty: the option is in none
+    std::string_view key{};
+    std::string_view old_key{};
+    PictureValue value{};
+    ProductUse used_by{};
+    std::string_view help{};  // {} or {0} and {1} in it stand for the ends of the range
+
+    // The options of [loop] are those of `loop` alone; the others are those of the scene.
+    [[nodiscard]] bool is_of_loop() const { return section == "loop"; }
+    [[nodiscard]] bool is_used_by(render::Product product) const {
+        return used_by.includes(product);
+    }
+};
+
+// In the order of --help.
+[[nodiscard]] std::span<const PictureOption> picture_options();
+
+// The two that other code asks about.
+[[nodiscard]] const PictureOption& slices_option();
+[[nodiscard]] const PictureOption& section_option();
+
+// As a message names a key: "[volume] slices".
+[[nodiscard]] std::string key_of(const PictureOption& option);
+[[nodiscard]] std::string help_of(const PictureOption& option);
+
+using ChosenOptions = std::vector<const PictureOption*>;
+[[nodiscard]] bool contains(const ChosenOptions& chosen, const PictureOption& option);
+
+}  // namespace stormcellar::cli

@@ -1,0 +1,132 @@
+// Options of a picture, subcommands and formats stand in one place each. These tests count where
+// their names stand, so that a second list of them is found when it is written.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/testing/data.h"
+
+namespace stormcellar {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> names_in(const std::string& text, const std::regex& what) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), what), end; at != end; ++at)
+        found.push_back((*at)[1]);
+    return found;
+}
+
+std::string without_comments(const std::string& text) {
+    std::istringstream lines(text);
+    std::string code;
+    for (std::string line; std::getline(lines, line);)
+        code += line.substr(0, line.find("//")) + '\n';
+    return code;
+}
+
+// The code of the rooms that have a table here, by the paths of the sources.
+const std::map<std::string, std::string>& code_by_path() {
+    static const auto all = [] {
+        const fs::path root = testing::source_directory();
+        std::map<std::string, std::string> code;
+        for (const char* room : {"cli", "daemon", "export", "pipeline", "render"}) {
+            for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+                const auto ending = entry.path().extension();
+                if (ending != ".h" && ending != ".cpp") continue;
+                code[fs::relative(entry.path(), root).string()] =
+                    without_comments(contents_of(entry.path()));
+            }
+        }
+        return code;
+    }();
+    return all;
+}
+
+// The sources below these folders in whose code a text stands.
+std::set<std::string> sources_with(const std::string& text, const std::vector<std::string>& below) {
+    std::set<std::string> found;
+    for (const auto& [path, code] : code_by_path()) {
+        const bool is_below = std::ranges::any_of(below, [&path = path](const std::string& folder) {
+            return path.starts_with(folder + "/");
+        });
+        if (is_below && code.find(text) != std::string::npos) found.insert(path);
+    }
+    return found;
+}
+
+std::string quoted(const std::string& text) {
+    return '"' + text + '"';
+}
+
+const std::set<std::string> option_table{"cli/picture/picture_options.cpp"};
+const std::set<std::string> subcommand_registry{"cli/subcommands.cpp"};
+
+TEST(OnePlace, AnOptionOfAPictureIsNamedInTheTableAlone) {
+    const std::string table = contents_of(testing::source_directory() / *option_table.begin());
+    const auto options = names_in(table, std::regex(R"re(option = "(--[a-z-]+)")re"));
+    ASSERT_GE(options.size(), 29U);
+    const std::set<std::string> distinct(options.begin(), options.end());
+    EXPECT_EQ(distinct.size(), options.size()) << "each is one row";
+    for (const std::string& option : options) {
+        EXPECT_EQ(sources_with(quoted(option), {"cli/picture", "cli/loop"}), option_table)
+            << option;
+    }
+}
+
+TEST(OnePlace, AKeyOfASceneFileIsNamedInTheTableAlone) {
+    const std::string table = contents_of(testing::source_directory() / *option_table.begin());
+    const auto keys = names_in(table, std::regex(R"re(key = "([a-z_]+)")re"));
+    ASSERT_GE(keys.size(), 28U);
+    // These are words that the metadata and the JSON of a picture have as well.
+    const std::set<std::string> also_facts{"product", "moment", "width", "height"};
+    for (const std::string& key : keys) {
+        if (also_facts.contains(key)) continue;
+        EXPECT_EQ(sources_with(quoted(key), {"cli/picture", "cli/loop"}), option_table) << key;
+    }
+}
+
+TEST(OnePlace, ASubcommandIsRegisteredOnce) {
+    const std::string registry =
+        contents_of(testing::source_directory() / *subcommand_registry.begin());
+    const auto names = names_in(registry, std::regex(R"re(Subcommand\{"([a-z]+)")re"));
+    ASSERT_GE(names.size(), 11U);
+    EXPECT_TRUE(std::ranges::is_sorted(names)) << "as --help shows them";
+    for (const std::string& name : names) {
+        const std::string function = "set_up_" + name + "(";
+        const auto sources = sources_with(function, {"cli"});
+        EXPECT_EQ(sources.size(), 2U) << function << ": its own file and the registry";
+        EXPECT_TRUE(sources.contains(*subcommand_registry.begin())) << function;
+    }
+    EXPECT_EQ(sources_with("add_subcommand(app,", {"cli"}), std::set<std::string>{"cli/main.cpp"})
+        << "a subcommand comes from the registry";
+}
+
+TEST(OnePlace, AnEndingOfALoopOrOfAGridIsInItsRegistryAlone) {
+    // The usual ending of a loop on standard output is chosen in cli/loop/loop.cpp.
+    for (const char* ending : {".gif", ".apng", ".mp4", ".webm"}) {
+        EXPECT_EQ(sources_with(quoted(ending), {"cli", "daemon", "pipeline", "render"}),
+                  std::set<std::string>{"render/animation/animation.cpp"})
+            << ending;
+    }
+    EXPECT_EQ(sources_with(quoted(".nc"), {"cli/grid", "export"}),
+              std::set<std::string>{"export/grid_format.cpp"});
+}
+
+}  // namespace
+}  // namespace stormcellar
