@@ -276,9 +276,9 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
     EXPECT_TRUE(daemon.wait_for_log("[paths] cannot change"));
     write_file(file,
                "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n"
-               "[ingest]\nworkers = 2\nchunk_grace_seconds = 31\n");
+               "[ingest]\nworkers = 2\n[catalog]\nbytes = \"8 GB\"\n");
     daemon.signal(SIGHUP);
-    EXPECT_TRUE(daemon.wait_for_log("the chunks' times, refill_hours and compression change"));
+    EXPECT_TRUE(daemon.wait_for_log("the catalog's bytes change at a restart only"));
     write_file(file, "[paths]\ndorp = \"drop\"\n");
     daemon.signal(SIGHUP);
     EXPECT_TRUE(daemon.wait_for_log("the configuration stays as it was"));
