@@ -170,7 +170,7 @@ std::filesystem::path socket_of(const FixedConfig& config) {
     return default_socket(config.paths.state, std::getenv("RUNTIME_DIRECTORY"));
 }
 
-int serve(const Config& config, const std::filesystem::path& file, bool keeps_loops) {
+int serve(const Config& config, const std::filesystem::path& file, bool runs_loops) {
     keep_freed_memory();
     cache::install_map_guard();
     raise_descriptor_limit();
@@ -194,7 +194,7 @@ int serve(const Config& config, const std::filesystem::path& file, bool keeps_lo
                      .notifier = notifier,
                      .file_system = real_file_system(),
                      .signals = &*signals,
-                     .keeps_loops = keeps_loops,
+                     .runs_loops = runs_loops,
                      .board = &board,
                      .state = &state,
                      .socket = socket});

@@ -14,7 +14,7 @@
 #include "cli/picture/picture.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/progress.h"
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/grid/grid_window.h"
 
 namespace stormcellar::cli {

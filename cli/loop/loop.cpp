@@ -14,7 +14,7 @@
 #include "cli/loop/loop_grids.h"
 #include "cli/loop/loop_options.h"
 #include "cli/loop/loop_report.h"
-#include "cli/picture/kept_frames.h"
+#include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_metadata.h"
 #include "cli/picture/picture_plan.h"
@@ -192,7 +192,7 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
     auto opened = open_if_there(options.cache);
     if (!opened) return report_error(opened.error());
     std::optional<cache::StoreReader> store = std::move(*opened);
-    KeptFrames kept;
+    DrawnFrames kept;
     options.kept = &kept;
     return follow({options.cache, options.domain, scene.moment,
                    [&] { return entries_of(store, options, scene.moment); },

@@ -1,7 +1,7 @@
 #include "cli/loop/loop_draw.h"
 
 #include "base/stopwatch.h"
-#include "cli/picture/kept_frames.h"
+#include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/render/render.h"
@@ -60,7 +60,7 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     facts.interpolated = grid->made && options.time_method != "nearest";
     const int threads = thread_count(options.scene);
     const auto render = [&] {
-        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.keeper);
+        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.cache);
     };
     auto picture = options.kept != nullptr && frame.stored
                        ? options.kept->frame(frame.stored->path, drawing.scene, render)

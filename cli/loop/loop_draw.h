@@ -6,7 +6,7 @@
 #include "cli/loop/loop_grids.h"
 #include "cli/loop/loop_options.h"
 #include "cli/loop/loop_report.h"
-#include "render/frame/frame_keeper.h"
+#include "render/frame/frame_cache.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
 #include "stormcellar/render/scene.h"
@@ -16,7 +16,7 @@ namespace stormcellar::cli {
 // What the frames of a loop share.
 struct Drawing {
     render::Scene scene;
-    render::FrameKeeper keeper;
+    render::FrameCache keeper;
 };
 
 // One frame; none when the grid's file is damaged, which is noted in the report.

@@ -17,7 +17,7 @@
 
 namespace stormcellar::cli {
 
-class KeptFrames;
+class DrawnFrames;
 
 struct LoopOptions : LoopSettings {
     std::string piped;  // of the outputs the one that goes to standard output
@@ -32,7 +32,7 @@ struct LoopOptions : LoopSettings {
     bool only_check = false;  // nothing is drawn
     SceneOptions scene;
     PicturePlanOptions plan;
-    KeptFrames* kept = nullptr;  // of a loop that is followed
+    DrawnFrames* kept = nullptr;  // of a loop that is followed
 };
 
 // Puts the options that are the loop's own on its subcommand, and those of the scene and the plan.

@@ -9,20 +9,20 @@
 
 namespace stormcellar::daemon {
 
-void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_kept) {
+void RowKeeper::look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_for) {
     if (work_.valid()) {
         if (work_.wait_for(std::chrono::seconds{0}) != std::future_status::ready) return;
         rested_ = began_ + (rest + 1) * work_.get();
     }
     if (now < rested_) return;
-    const bool deletes = gone_kept.count() > 0 && now >= next_deletion_;
-    const auto work = [this, deletes, gone_kept] {
+    const bool deletes = gone_rows_kept_for.count() > 0 && now >= next_deletion_;
+    const auto work = [this, deletes, gone_rows_kept_for] {
         const SteadyTime began = std::chrono::steady_clock::now();
         try {
             const AtWork at_work(pulse_);
             mark_missing();
             roll_rows();
-            if (deletes) delete_gone(gone_kept);
+            if (deletes) delete_gone(gone_rows_kept_for);
         } catch (const std::exception& error) {  // no memory
             log_warning({Event::files_gone_failed}, "cannot look for files that went: {}",
                         error.what());
@@ -63,8 +63,9 @@ void RowKeeper::roll_rows() {
     }
 }
 
-void RowKeeper::delete_gone(std::chrono::milliseconds gone_kept) {
-    const Result<int> deleted = sink_.forget_gone(now_utc() - gone_kept, [this] { pulse_.beat(); });
+void RowKeeper::delete_gone(std::chrono::milliseconds gone_rows_kept_for) {
+    const Result<int> deleted =
+        sink_.forget_gone(now_utc() - gone_rows_kept_for, [this] { pulse_.beat(); });
     if (!deleted) {
         log_warning({Event::files_gone_failed}, "cannot delete rows of files that went: {}",
                     printable(deleted.error().message));

@@ -24,13 +24,13 @@ class RowKeeper {
 
     // Begins, unless it is at work or rests. Rows of files that are gone stay so long after their
     // last registration; 0: for ever.
-    void look(SteadyTime now, std::chrono::milliseconds gone_kept);
+    void look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_for);
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of its thread
 
   private:
     void mark_missing();
     void roll_rows();
-    void delete_gone(std::chrono::milliseconds gone_kept);
+    void delete_gone(std::chrono::milliseconds gone_rows_kept_for);
 
     Sink& sink_;
     Pulse pulse_;

@@ -209,7 +209,7 @@ void read_bytes(TomlTable& table, std::optional<std::uint64_t>& bytes) {
 void read_catalog(TomlTable catalog, Config& config) {
     read_bytes(catalog, config.fixed.storage.catalog_bytes);
     if (const auto days = catalog.number("gone_days", {0, 36500}))
-        config.reloadable.gone_kept = milliseconds_of(*days * 86400);
+        config.reloadable.gone_rows_kept_for = milliseconds_of(*days * 86400);
 }
 
 void read_rest(TomlTable watch, TomlTable log, Config& config) {

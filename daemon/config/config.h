@@ -99,7 +99,7 @@ struct ReloadableConfig {
     std::chrono::milliseconds rescan{60'000};
     std::chrono::milliseconds poll{5'000};  // the same where changes come without events
     cache::Budgets budgets = default_budgets();
-    std::chrono::milliseconds gone_kept{0};  // rows of files that are gone; 0: for ever
+    std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
     std::string log_level = "info";
     std::vector<LoopConfig> loops;
 

@@ -2,7 +2,7 @@
 //
 // For a service of its own, at a lower priority and with limits of its own, beside a stormcellard
 // that was started with --no-loops. It reads no drop directory, catalog or grid itself; it keeps
-// the loops (daemon/loops/loop_keeper.h) and says how they are:
+// the loops (daemon/loops/loop_supervisor.h) and says how they are:
 //   STATE/loops/status.json    {"state","pid","version","started","updated","loops"}, the fields as
 //                              in daemon/status/status.h; at most once a second, and at the stop
 //   STATE/loops/stormcellard.lock   held while it runs: one keeper of loops a state directory
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "daemon/config/config.h"
-#include "daemon/loops/loop_keeper.h"
+#include "daemon/loops/loop_supervisor.h"
 #include "daemon/process/notify.h"
 #include "daemon/process/signals.h"
 #include "daemon/process/wake_up.h"
@@ -60,7 +60,7 @@ class LoopsService {
     SteadyTime next_publish_{};
     std::atomic<bool> stop_requested_ = false;
     WakeUp wake_up_;
-    LoopKeeper keeper_;  // the last member: its thread uses what stands above
+    LoopSupervisor keeper_;  // the last member: its thread uses what stands above
 };
 
 }  // namespace stormcellar::daemon

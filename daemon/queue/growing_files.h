@@ -62,7 +62,7 @@ class GrowingFiles {
     struct Due {
         std::filesystem::path path;
         FileStamp stamp;
-        bool finish_partial = false;
+        bool finish_as_is = false;
     };
     // Reads the stamps when a poll is due; what it returns is no longer kept. A file that vanished
     // or became something else is forgotten, and an incomplete one is due: others may wait for it.

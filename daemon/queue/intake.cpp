@@ -225,7 +225,7 @@ void Intake::poll_growing() {
     for (GrowingFiles::Due& due : growing_.poll(
              clock_.steady(), [this](const std::filesystem::path& path) { return look(path); })) {
         Job job = job_for(due.path, Urgency::live);
-        job.finish_partial = due.finish_partial;
+        job.finish_as_is = due.finish_as_is;
         job.newest_ns = std::min(due.stamp.modified_ns, clock_.wall_ns());
         offer(std::move(job), due.stamp);
     }
@@ -249,7 +249,7 @@ void Intake::job_failed(const Finished& finished) {
 void Intake::give_next_turn(const Finished& finished) {
     schedule_.finished(finished.job.path);
     Job job = job_for(finished.job.path, Urgency::backlog);
-    job.finish_partial = finished.job.finish_partial;
+    job.finish_as_is = finished.job.finish_as_is;
     job.newest_ns = finished.job.newest_ns;
     offer(std::move(job), finished.taken->stamp);
 }
@@ -274,8 +274,8 @@ void Intake::job_ended(const Finished& finished) {
     } else if (std::holds_alternative<ended::Vanished>(outcome.ending)) {
         seen_.forget(path);
     }
-    const std::filesystem::path& waiter = outcome.instead_of;
-    if (!waiter.empty() && waiter != path) growing_.forget(waiter);
+    const std::filesystem::path& representative = outcome.former_representative;
+    if (!representative.empty() && representative != path) growing_.forget(representative);
     schedule_.finished(path, again);
     note_displaced();
 }

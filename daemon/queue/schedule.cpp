@@ -12,7 +12,7 @@ constexpr std::chrono::milliseconds look_at_shares{50};
 }  // namespace
 
 void Schedule::merge(Job& into, const Job& job) {
-    into.finish_partial = into.finish_partial && job.finish_partial;
+    into.finish_as_is = into.finish_as_is && job.finish_as_is;
     into.closed_at = std::max(into.closed_at, job.closed_at);  // none is less than any time
     into.newest_ns = std::max(into.newest_ns, job.newest_ns);
     into.not_before = std::max(into.not_before, job.not_before);

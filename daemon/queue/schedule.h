@@ -37,7 +37,7 @@ namespace stormcellar::daemon {
 
 struct Job {
     std::filesystem::path path;
-    bool finish_partial = false;          // the file was quiet for long enough
+    bool finish_as_is = false;            // the file was quiet for long enough
     std::optional<SteadyTime> closed_at;  // the last close that was seen; none: found by a scan
     std::int64_t newest_ns = 0;           // since the epoch
     SteadyTime not_before{};
@@ -57,7 +57,7 @@ class Schedule {
 
     explicit Schedule(std::size_t limit) : limit_(limit) {}
 
-    // Merged: the later close and time count, and finish_partial only when both ask for it (a new
+    // Merged: the later close and time count, and finish_as_is only when both ask for it (a new
     // close means that the file was not quiet).
     Offered offer(Job job, SteadyTime now = {});
     // The first job that may run now; it counts as running until finished() or retry().

@@ -50,7 +50,7 @@ class Sink {
 
     // An error is ours alone (catalog or cache cannot be written): the file is tried again later.
     // After the last try it is rejected, with its reason, where that can be stored.
-    virtual Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+    virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
     // For one that has to wait: writes the file into the catalog as it is there, unread
     // (stands), or marks its rows when it is gone (gone: there is nothing left to do). May run

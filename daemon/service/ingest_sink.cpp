@@ -116,7 +116,7 @@ std::vector<std::string> IngestSink::take_repairs() {
     return lines;
 }
 
-Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_partial,
+Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) {
     Taken taken;
     const FileFound found = look_at(path, drop_);
@@ -125,7 +125,7 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_pa
         taken.ingest.ending = pipeline::ended::Vanished{};  // something else took its name
         return taken;
     }
-    Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_partial, tries);
+    Result<pipeline::IngestOutcome> outcome = ingestor_.ingest(path, finish_as_is, tries);
     if (!outcome) return pass_on(outcome);
     taken.ingest = std::move(*outcome);
     return taken;

@@ -18,7 +18,7 @@ class IngestSink final : public Sink {
     // Opens state/catalog and the cache for writing, making them where they are missing.
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
-    Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+    Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                        pipeline::Tries tries) override;
     Result<pipeline::Noted> note(const std::filesystem::path& path) override {
         return ingestor_.note(path);

@@ -31,7 +31,7 @@ constexpr std::size_t most_kept_bytes(int workers) {
 
 Result<Taken> take(Sink& sink, const Job& job) {
     const bool is_last = job.failures + 1 >= Intake::most_tries;
-    return sink.take(job.path, job.finish_partial,
+    return sink.take(job.path, job.finish_as_is,
                      is_last ? pipeline::Tries::last : pipeline::Tries::more_follow);
 }
 
@@ -98,7 +98,7 @@ Stopped Service::run() {
 
 void Service::start() {
     scan();
-    if (parts_.keeps_loops) loop_keeper_.set(config_.loops);
+    if (parts_.runs_loops) loop_keeper_.set(config_.loops);
 }
 
 // Without READY systemd would give up after TimeoutStartSec: it is told that we still wait.
@@ -191,7 +191,7 @@ void Service::apply(const Config& fresh) {
         log_warning({Event::reload_ignored}, "reload: {}", sentence);
     if (reloadable.budgets != config_.budgets) cache_keeper_.roll_soon();
     config_ = reloadable;
-    if (parts_.keeps_loops) loop_keeper_.set(reloadable.loops);
+    if (parts_.runs_loops) loop_keeper_.set(reloadable.loops);
     pool_.resize(reloadable.worker_count());
     intake_.reload(reloadable);
     scan_times_.no_later_than(parts_.clock.steady() + reloadable.rescan);
@@ -234,7 +234,7 @@ void Service::scan() {
     const Status scanned = watcher_.scan();
     intake_.end_scan(scanned.has_value());
     drop_trouble_.scanned(scanned, fixed_.paths.drop, config_.rescan, status_);
-    if (scanned && !is_poll) row_keeper_.look(began, config_.gone_kept);
+    if (scanned && !is_poll) row_keeper_.look(began, config_.gone_rows_kept_for);
     status_.count_scan();
     status_file_.changed();
     const SteadyTime ended = parts_.clock.steady();
@@ -269,7 +269,7 @@ void Service::look_for_troubles(SteadyTime now) {
     look_at_catalog(now);
     backlog_trouble_.look(now, intake_, status_);
     const bool has_news =
-        others_loops_.look(now, fixed_.paths.state, config_.loops, parts_.keeps_loops, status_);
+        others_loops_.look(now, fixed_.paths.state, config_.loops, parts_.runs_loops, status_);
     if (has_news) status_file_.changed();
 }
 

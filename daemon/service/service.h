@@ -7,7 +7,7 @@
 //   SIGTERM, SIGINT   running jobs end, the queue is dropped (the next start finds the files again)
 //   SIGHUP   the configuration is read again; its reloadable part counts, the fixed part stays
 //            until a restart (daemon/config/config.h)
-// Loops are other programs, which end with the service (daemon/loops/loop_keeper.h), unless a
+// Loops are other programs, which end with the service (daemon/loops/loop_supervisor.h), unless a
 // service of their own keeps them. The cache is brought within its budgets every few seconds, in a
 // thread of its own. Thread contract: run() once; request_stop(), is_idle() and sites_compared()
 // from any thread.
@@ -23,7 +23,7 @@
 #include "daemon/care/row_keeper.h"
 #include "daemon/care/state_keeper.h"
 #include "daemon/config/config.h"
-#include "daemon/loops/loop_keeper.h"
+#include "daemon/loops/loop_supervisor.h"
 #include "daemon/process/notify.h"
 #include "daemon/process/pulse.h"
 #include "daemon/process/readiness.h"
@@ -52,7 +52,7 @@ struct ServiceParts {
     FileSystem& file_system;
     const Signals* signals = nullptr;  // none: only request_stop() ends it
     Clock clock = real_clock();
-    bool keeps_loops = true;       // false: another process does (daemon/loops/loops_service.h)
+    bool runs_loops = true;        // false: another process does (daemon/loops/loops_service.h)
     StatusBoard* board = nullptr;  // none: the status is in its file alone
     StateKeeper* state = nullptr;  // none: a state directory that goes is not made again
     std::filesystem::path socket = {};  // where the status is answered, to be named in it
@@ -134,7 +134,7 @@ class Service {
     // The last members: their threads are waited for before the rest goes.
     RowKeeper row_keeper_;
     CacheKeeper cache_keeper_;
-    LoopKeeper loop_keeper_;
+    LoopSupervisor loop_keeper_;
 };
 
 }  // namespace stormcellar::daemon

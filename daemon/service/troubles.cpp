@@ -129,11 +129,11 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
 
 // Loops that a service of its own keeps are in this one's metrics, as that one answers none.
 bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
-                       const std::vector<LoopConfig>& loops, bool keeps_loops, StatusBook& status) {
+                       const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status) {
     if (now < next_) return false;
     next_ = now + between_loops_looks;
     auto others = others_loops(state, loops);
-    if (keeps_loops) {
+    if (runs_loops) {
         const bool are_kept_twice = std::any_of(
             others.begin(), others.end(), [](const LoopState& loop) { return loop.is_running; });
         if (are_kept_twice && !are_kept_twice_) {

@@ -70,9 +70,9 @@ class BacklogTrouble {
 // Two processes keep the loops; or, where it is another one alone, what it says of them.
 class OthersLoops {
   public:
-    // `keeps_loops`: this process keeps them. True when the status has news of them.
+    // `runs_loops`: this process keeps them. True when the status has news of them.
     bool look(SteadyTime now, const std::filesystem::path& state,
-              const std::vector<LoopConfig>& loops, bool keeps_loops, StatusBook& status);
+              const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status);
 
   private:
     SteadyTime next_{};

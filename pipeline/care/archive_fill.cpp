@@ -9,7 +9,7 @@
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/file_facts.h"
 #include "pipeline/ingest/ingest.h"
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/grid_window.h"
@@ -274,7 +274,7 @@ Status ArchiveFill::fill(const std::vector<ArchiveVolume>& missing, const FillPr
 Status ArchiveFill::make_frames(const std::vector<UtcTime>& instants, const FillProgress& progress,
                                 const std::atomic<bool>& stop, FillReport& report) {
     if (!options_.domain) return {};
-    MosaicKeeper keeper(&store_, {*options_.domain}, FramesWhen::asked_for);
+    MosaicMaker keeper(&store_, {*options_.domain}, FramesWhen::asked_for);
     std::vector<std::string> problems;
     std::size_t done = 0;
     for (const UtcTime instant : instants) {

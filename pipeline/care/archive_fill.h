@@ -3,7 +3,7 @@
 //
 // The volumes are read, gridded and committed by the daemon's own chain (pipeline/ingest/ingest.h),
 // some at a time; of a domain the sites' partials first and then each frame once
-// (pipeline/mosaic/mosaic_keeper.h). What stands in the cache already is taken as it is: a grid
+// (pipeline/mosaic/mosaic_maker.h). What stands in the cache already is taken as it is: a grid
 // made of this file as it now is, on this grid; a frame made of these partials by these rules. So a
 // second call goes on where the first one was ended, however that happened, for grids appear whole.
 // A file that is gone, or holds nothing that can be gridded, is named and left out. So is one that

@@ -100,7 +100,7 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
     const auto found = look_at(entry.path, depth);
     // Evicted or replaced meanwhile: nothing is wrong with that.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
-    const MosaicKeeper& mosaics = ingestor_.mosaics();
+    const MosaicMaker& mosaics = ingestor_.mosaics();
     if (mosaics.find(entry.domain, entry.moment) != nullptr) {
         if (is_damage(*found, true)) return mend_frame(entry, found->error);
         return MendedGrid{GridCondition::left_alone, found->error.message, {}, {}};

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "pipeline/ingest/ingest.h"
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"

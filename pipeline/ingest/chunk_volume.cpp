@@ -44,17 +44,17 @@ class ShelfDepot final : public level2::SweepDepot {
 };
 
 // Null where there is no room for one.
-std::unique_ptr<KeptVolume> kept_volume_in(const fs::path& directory) {
+std::unique_ptr<ShelvedVolume> kept_volume_in(const fs::path& directory) {
     auto shelf = SweepShelf::make_in(directory);
     if (!shelf) return nullptr;
-    auto kept = std::make_unique<KeptVolume>();
+    auto kept = std::make_unique<ShelvedVolume>();
     kept->shelf = std::move(*shelf);
     return kept;
 }
 
 }  // namespace
 
-ChunkVolume::ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live)
+ChunkVolume::ChunkVolume(const FollowedFile::Options& options, const level2::LiveOptions& live)
     : moment_(options.moment),
       beneath_(options.beneath),
       kept_(kept_volume_in(options.scratch)),
@@ -101,7 +101,7 @@ Result<ChunkVolume::Added> ChunkVolume::read_and_add(const ChunkPath& chunk,
     }
     if (*added == level2::LiveVolume::Added::another_volume) return Added::not_ours;
     files_.insert_or_assign(chunk.path, file);
-    former_waiter_ = std::exchange(waiter_, chunk.path);
+    former_representative_ = std::exchange(representative_, chunk.path);
     shelve_new_sweeps();
     return Added::added;
 }
@@ -120,10 +120,10 @@ bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
            volume.refused_.size() - refused >= most_refused_at_once;
 }
 
-// `of` becomes the waiter, whatever is added in its name.
+// `of` becomes the representative, whatever is added in its name.
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const InOneJob before{read_bytes_, refused_.size()};
-    waiter_ = of.path;
+    representative_ = of.path;
     const auto found = chunks_beside(of, beneath_);
     if (!found) {
         const ErrorCode code = found.error().code;
@@ -138,8 +138,8 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
         if (!stamp || !stamp->regular) continue;
         if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
     }
-    waiter_ = of.path;
-    former_waiter_.clear();  // nobody was told to ask for it
+    representative_ = of.path;
+    former_representative_.clear();  // nobody was told to ask for it
     const auto now = level2::LiveVolume::Clock::now();
     if (!all && !fails_since_) fails_since_ = now;
     // One bad sector must not keep the rest of the volume from everybody.
@@ -155,7 +155,7 @@ void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     next_catching_up_ = now + between_catching_up;
     const auto found = chunks_beside(of, beneath_);
     if (!found) return;
-    const fs::path waiter = waiter_, former = former_waiter_;
+    const fs::path representative = representative_, former = former_representative_;
     const InOneJob before{read_bytes_, refused_.size()};
     for (const ChunkPath& chunk : *found) {
         if (before.is_enough(*this)) break;
@@ -163,17 +163,17 @@ void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
         const auto stamp = stamp_of(chunk.path, beneath_);
         if (stamp && stamp->regular) (void)add(chunk, *stamp);
     }
-    waiter_ = waiter;
-    former_waiter_ = former;
+    representative_ = representative;
+    former_representative_ = former;
 }
 
-bool ChunkVolume::has_waiter() const {
-    const auto waiter = files_.find(waiter_);
-    return waiter != files_.end() && waiter->second.is_whole;
+bool ChunkVolume::has_representative() const {
+    const auto representative = files_.find(representative_);
+    return representative != files_.end() && representative->second.is_whole;
 }
 
-bool ChunkVolume::is_waiter(const fs::path& path) const {
-    return path == waiter_ && has_waiter();
+bool ChunkVolume::is_representative(const fs::path& path) const {
+    return path == representative_ && has_representative();
 }
 
 fs::path ChunkVolume::first_file() const {
@@ -193,7 +193,8 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
     const bool has_moment = sweep.find(moment_) != nullptr;
     kept_->places.insert_or_assign(cut, *place);
-    kept_->sweeps.insert_or_assign(cut, KeptVolume::Kept{has_moment, sweep.mean_elevation_deg()});
+    kept_->sweeps.insert_or_assign(cut,
+                                   ShelvedVolume::Kept{has_moment, sweep.mean_elevation_deg()});
     if (!has_moment) return;
     news_.any = true;
     news_.low = news_.low || kept_->is_lowest(sweep.mean_elevation_deg());

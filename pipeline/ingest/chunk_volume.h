@@ -16,15 +16,15 @@
 
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/file_facts.h"
+#include "pipeline/ingest/followed_file.h"
 #include "pipeline/ingest/growing_set.h"
-#include "pipeline/ingest/living_file.h"
 #include "stormcellar/level2/live_volume.h"
 
 namespace stormcellar::pipeline {
 
 class ChunkVolume {
   public:
-    ChunkVolume(const LivingFile::Options& options, const level2::LiveOptions& live);
+    ChunkVolume(const FollowedFile::Options& options, const level2::LiveOptions& live);
 
     enum class Added : std::uint8_t {
         added,       // or was there
@@ -42,16 +42,18 @@ class ChunkVolume {
     // may wait behind others for long. At most once a second.
     void add_what_is_missing(const ChunkPath& of);
 
-    // One file is offered again, on behalf of all, when nothing has come for a while: the waiter.
-    // That is the chunk that was added last, until it is named otherwise.
-    // False when the waiter's file holds no whole chunk (any more): another must take its place.
-    [[nodiscard]] bool has_waiter() const;
-    // Whether this file is the waiter, and holds a whole chunk, whatever has become of it since.
-    [[nodiscard]] bool is_waiter(const std::filesystem::path& path) const;
-    void set_waiter(const std::filesystem::path& path) { waiter_ = path; }
-    // The file that was the waiter before the last chunk was added, once; empty: none.
-    [[nodiscard]] std::filesystem::path take_former_waiter() {
-        return std::exchange(former_waiter_, {});
+    // The representative is the one file that is polled on behalf of the volume when nothing has
+    // come for a while. It is the chunk that was added last, unless set_representative() names
+    // another. Returns false if its file no longer holds a whole chunk; then another must replace
+    // it.
+    [[nodiscard]] bool has_representative() const;
+    // Returns true if this file is the representative and held a whole chunk when it was read.
+    [[nodiscard]] bool is_representative(const std::filesystem::path& path) const;
+    void set_representative(const std::filesystem::path& path) { representative_ = path; }
+    // Returns the representative of before the last chunk was added; empty if there was none, and
+    // at the second call.
+    [[nodiscard]] std::filesystem::path take_former_representative() {
+        return std::exchange(former_representative_, {});
     }
 
     // Nothing more is added to a closed volume. Whoever meets one asks for a new one in its place.
@@ -61,10 +63,10 @@ class ChunkVolume {
     [[nodiscard]] bool is_whole() const { return live_.is_whole(); }
     [[nodiscard]] bool is_due() const { return live_.is_due(level2::LiveVolume::Clock::now()); }
     [[nodiscard]] std::vector<int> missing_numbers() const { return live_.missing_numbers(); }
-    [[nodiscard]] LivingNews news() const { return news_; }
+    [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
     // Null where there is no room on the shelf.
-    [[nodiscard]] const KeptVolume* kept() const { return kept_.get(); }
+    [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
     // Some of its sweeps have closed.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
     // What it holds in memory, about, and on the shelf.
@@ -84,7 +86,7 @@ class ChunkVolume {
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    [[nodiscard]] std::shared_ptr<const KeptVolume> take_kept() { return std::move(kept_); }
+    [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
     // What had been read when a job began.
@@ -103,15 +105,15 @@ class ChunkVolume {
     bool is_closed_ = false;
     level2::Moment moment_;
     std::filesystem::path beneath_;
-    std::unique_ptr<KeptVolume> kept_;
+    std::unique_ptr<ShelvedVolume> kept_;
     std::unique_ptr<level2::SweepDepot> depot_;  // on the shelf of kept_
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;
     // What was read and is no chunk of this volume, as it was then.
     std::map<std::filesystem::path, FileStamp> refused_;
-    std::filesystem::path waiter_, former_waiter_;
-    LivingNews news_;
+    std::filesystem::path representative_, former_representative_;
+    UnshownSweeps news_;
     std::optional<level2::LiveVolume::Clock::time_point> fails_since_;
     level2::LiveVolume::Clock::time_point next_catching_up_{};
 };

@@ -10,7 +10,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 // Of volumes that found no place. Beyond it all are forgotten.
-constexpr std::size_t most_waiters = 4096;
+constexpr std::size_t most_representatives = 4096;
 
 }  // namespace
 
@@ -31,10 +31,11 @@ bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
     return has_end || waited >= options_.chunk_timeout;
 }
 
-std::filesystem::path ChunkVolumes::wait_for_place(const ChunkPath& chunk) {
+std::filesystem::path ChunkVolumes::poll_for_place(const ChunkPath& chunk) {
     const std::scoped_lock lock(mutex_);
-    if (waiters_.size() >= most_waiters && !waiters_.contains(chunk.key)) waiters_.clear();
-    std::filesystem::path former = std::exchange(waiters_[chunk.key], chunk.path);
+    if (representatives_.size() >= most_representatives && !representatives_.contains(chunk.key))
+        representatives_.clear();
+    std::filesystem::path former = std::exchange(representatives_[chunk.key], chunk.path);
     return former == chunk.path ? std::filesystem::path{} : former;
 }
 
@@ -56,7 +57,7 @@ ChunkVolumes::Shared ChunkVolumes::find(const ChunkPath& chunk, const std::strin
     live.decode.array_limit_bytes = most_array_bytes(options_.selection);
     live.decode.selection = options_.selection;
     live.decode.fallback_station = station_of_path(chunk.path);
-    waiters_.erase(chunk.key);
+    representatives_.erase(chunk.key);
     auto made = std::make_shared<Guarded<ChunkVolume>>(options_, live);
     volumes_.add(chunk.key, made, station);
     return made;
@@ -82,7 +83,7 @@ std::uint64_t ChunkVolumes::take_given_up() {
 
 void ChunkVolumes::forget_key(const std::string& key) {
     volumes_.forget(key);
-    waiters_.erase(key);
+    representatives_.erase(key);
 }
 
 void ChunkVolumes::forget(const ChunkPath& chunk) {

@@ -21,14 +21,14 @@
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/ingest/chunk_volume.h"
 #include "pipeline/ingest/followed.h"
+#include "pipeline/ingest/followed_file.h"
 #include "pipeline/ingest/guarded.h"
-#include "pipeline/ingest/living_file.h"
 
 namespace stormcellar::pipeline {
 
 class ChunkVolumes {
   public:
-    explicit ChunkVolumes(LivingFile::Options options, GrowingLimits limits = {})
+    explicit ChunkVolumes(FollowedFile::Options options, GrowingLimits limits = {})
         : options_(std::move(options)), volumes_(limits) {}
 
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
@@ -45,7 +45,7 @@ class ChunkVolumes {
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
     // Of a volume that found no place: this chunk waits for it now, in the place of the one that is
     // given (empty: none).
-    [[nodiscard]] std::filesystem::path wait_for_place(const ChunkPath& chunk);
+    [[nodiscard]] std::filesystem::path poll_for_place(const ChunkPath& chunk);
     // Null where it is not.
     [[nodiscard]] Shared find_known(const ChunkPath& chunk) const;
     // Counts what it takes now. False: that is more than its share, and it was given up.
@@ -60,10 +60,10 @@ class ChunkVolumes {
   private:
     void forget_key(const std::string& key);
 
-    LivingFile::Options options_;
+    FollowedFile::Options options_;
     mutable std::mutex mutex_;  // guards what follows
     Followed<std::string, Guarded<ChunkVolume>> volumes_;
-    std::map<std::string, std::filesystem::path> waiters_;  // of those that found no place
+    std::map<std::string, std::filesystem::path> representatives_;  // of those that found no place
 };
 
 }  // namespace stormcellar::pipeline

@@ -13,7 +13,7 @@ FileKind kind_by_itself(const IngestContext& context, const OfferedFile& file,
         return Growing{stamp, std::move(followed), {}};
     // What has been quiet for long enough is not followed any more.
     if (file.may_be_partial()) return Whole{stamp};
-    if (auto start = LivingFile::growing(file.path, context.options.beneath))
+    if (auto start = FollowedFile::growing(file.path, context.options.beneath))
         return Growing{stamp, nullptr, std::move(*start)};
     return Whole{stamp};
 }

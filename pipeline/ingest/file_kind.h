@@ -19,8 +19,8 @@
 
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/file_facts.h"
+#include "pipeline/ingest/followed_file.h"
 #include "pipeline/ingest/ingest_context.h"
-#include "pipeline/ingest/living_file.h"
 #include "pipeline/options/ingest_options.h"
 #include "stormcellar/base/result.h"
 
@@ -54,8 +54,8 @@ struct Chunk {
 };
 struct Growing {
     FileStamp stamp;
-    std::shared_ptr<LivingFile> followed;  // null: it begins with this look
-    LivingFile::Growing start;             // of one that begins
+    std::shared_ptr<FollowedFile> followed;  // null: it begins with this look
+    FollowedFile::Growing start;             // of one that begins
 };
 struct Whole {
     FileStamp stamp;

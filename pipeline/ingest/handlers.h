@@ -53,7 +53,7 @@ class TakeChunk {
 
   private:
     [[nodiscard]] ChunkVolumes::Expected expected() const;
-    Result<IngestOutcome> wait_for_place();
+    Result<IngestOutcome> poll_for_place();
     Result<IngestOutcome> add_to(const ChunkVolumes::Shared& shared,
                                  Guarded<ChunkVolume>::Locked& volume);
     Result<IngestOutcome> finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
@@ -84,7 +84,7 @@ class TakeGrowing {
     IngestContext& context_;
     const OfferedFile& file_;
     const Growing& growing_;
-    std::shared_ptr<LivingFile> followed_;
+    std::shared_ptr<FollowedFile> followed_;
     catalog::FileFacts facts_;
     std::string station_;  // whose the file says that it is, where its data are taken in
     IngestOutcome outcome_;

@@ -13,12 +13,12 @@ namespace fs = std::filesystem;
 struct Ingestor::Impl {
     IngestContext context;
 
-    [[nodiscard]] Finish finish_of(bool finish_partial) const {
-        if (!finish_partial) return Finish::when_it_ends;
+    [[nodiscard]] Finish finish_of(bool finish_as_is) const {
+        if (!finish_as_is) return Finish::when_it_ends;
         // Nobody who has nowhere to put things aside comes again when it has been quiet.
         return context.options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
     }
-    Result<IngestOutcome> ingest(const fs::path& path, bool finish_partial);
+    Result<IngestOutcome> ingest(const fs::path& path, bool finish_as_is);
     Result<IngestOutcome> give_up(const fs::path& path, const Error& why);
     [[nodiscard]] bool is_waited_for(const fs::path& path) const;
 };
@@ -66,19 +66,19 @@ Ingestor::Ingestor(catalog::CatalogWriter& catalog, IngestOptions options)
     : impl_(new Impl{{catalog, nullptr, std::move(options)}}) {}
 Ingestor::~Ingestor() = default;
 
-MosaicKeeper& Ingestor::mosaics() {
+MosaicMaker& Ingestor::mosaics() {
     return impl_->context.mosaics;
 }
 
-Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_partial, Tries tries) {
+Result<IngestOutcome> Ingestor::ingest(const fs::path& path, bool finish_as_is, Tries tries) {
     const Running running(impl_->context);
-    auto outcome = impl_->ingest(path, finish_partial);
+    auto outcome = impl_->ingest(path, finish_as_is);
     if (outcome || tries == Tries::more_follow || is_shortage(outcome.error().code)) return outcome;
     return impl_->give_up(path, outcome.error());
 }
 
-Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_partial) {
-    const OfferedFile file{.path = path, .finish = finish_of(finish_partial)};
+Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_as_is) {
+    const OfferedFile file{.path = path, .finish = finish_of(finish_as_is)};
     const auto kind = kind_of(context, file);
     if (!kind) return pass_on(kind);
     return take(context, file, *kind);
@@ -100,7 +100,7 @@ bool Ingestor::Impl::is_waited_for(const fs::path& path) const {
     const auto shared = chunk ? context.chunks.find_known(*chunk) : nullptr;
     if (!shared) return false;
     const auto volume = shared->lock();
-    return !volume->is_closed() && volume->is_waiter(path);
+    return !volume->is_closed() && volume->is_representative(path);
 }
 
 Result<Noted> Ingestor::note(const fs::path& path) {

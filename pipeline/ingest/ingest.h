@@ -22,7 +22,7 @@
 
 namespace stormcellar::pipeline {
 
-class MosaicKeeper;
+class MosaicMaker;
 
 // Whether a file that cannot be taken in is tried again after this.
 enum class Tries { more_follow, last };
@@ -36,8 +36,8 @@ class Ingestor {
     Ingestor(const Ingestor&) = delete;
     Ingestor& operator=(const Ingestor&) = delete;
 
-    // finish_partial: grid a volume that has not ended (the file was quiet long enough).
-    Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_partial,
+    // finish_as_is: grid a volume that has not ended (the file was quiet long enough).
+    Result<IngestOutcome> ingest(const std::filesystem::path& path, bool finish_as_is,
                                  Tries tries = Tries::more_follow);
     // Writes a file into the catalog as seen, unread, unless it stands there (stands), or marks
     // its rows when it is gone (gone; stands where a volume of chunks waits in its name).
@@ -48,7 +48,7 @@ class Ingestor {
     Result<IngestOutcome> ingest_again(const std::filesystem::path& path,
                                        const ReadCheck& is_the_same = {});
 
-    [[nodiscard]] MosaicKeeper& mosaics();
+    [[nodiscard]] MosaicMaker& mosaics();
 
   private:
     struct Impl;

@@ -25,7 +25,7 @@ std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     return moments;
 }
 
-LivingFile::Options follow_options(const IngestOptions& options) {
+FollowedFile::Options follow_options(const IngestOptions& options) {
     return {
         .selection = {moments_of(options), {}},
         .moment = options.moment,
@@ -39,7 +39,7 @@ LivingFile::Options follow_options(const IngestOptions& options) {
 
 GrowingLimits file_limits(const IngestOptions& options) {
     GrowingLimits limits = GrowingLimits::of(moments_of(options).size());
-    limits.shelf_bytes = options.living.put_aside_bytes;
+    limits.shelf_bytes = options.living.shelf_bytes;
     limits.count = options.living.count;
     limits.station_shelf_bytes = limits.shelf_bytes / 8;
     return limits;
@@ -49,8 +49,8 @@ bool grids_while_they_grow(const IngestOptions& options) {
     return options.living.make && !options.living.scratch.empty();
 }
 
-LivingFile::Options file_options(const IngestOptions& options) {
-    LivingFile::Options follow = follow_options(options);
+FollowedFile::Options file_options(const IngestOptions& options) {
+    FollowedFile::Options follow = follow_options(options);
     follow.open_sweep_limit_bytes = file_limits(options).station_held_bytes;
     return follow;
 }

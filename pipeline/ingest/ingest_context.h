@@ -13,10 +13,10 @@
 
 #include "pipeline/drop/file_facts.h"
 #include "pipeline/ingest/chunk_volumes.h"
-#include "pipeline/ingest/living_files.h"
+#include "pipeline/ingest/followed_files.h"
 #include "pipeline/ingest/open_archives.h"
 #include "pipeline/keep/site_grids.h"
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "pipeline/options/ingest_options.h"
 #include "pipeline/options/ingest_outcome.h"
 #include "stormcellar/cache/store.h"
@@ -33,9 +33,9 @@ struct IngestContext {
     catalog::CatalogWriter& catalog;
     cache::StoreWriter* store;
     const IngestOptions options;
-    MosaicKeeper mosaics;
+    MosaicMaker mosaics;
     std::optional<SiteGrids> site_grids;  // where there is a store
-    std::optional<LivingFiles> living;    // where volumes are gridded while they grow
+    std::optional<FollowedFiles> living;  // where volumes are gridded while they grow
     ChunkVolumes chunks;
     OpenArchives archives;
     std::atomic<int> running{0};  // files that are taken in at this moment

@@ -4,7 +4,7 @@
 
 namespace stormcellar::pipeline {
 
-Result<bool> show_living(IngestContext& context, const KeptVolume& kept, LivingNews news,
+Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, UnshownSweeps news,
                          const std::string& file, std::int64_t modified_ns,
                          IngestOutcome& outcome) {
     const IngestOptions& options = context.options;
@@ -19,7 +19,7 @@ Result<bool> show_living(IngestContext& context, const KeptVolume& kept, LivingN
     }
     const auto last = context.living->last_of(kept.facts.station);
     std::size_t standing = 0;
-    const auto volume = living_volume(kept, last.get(), &standing);
+    const auto volume = volume_for_living_grid(kept, last.get(), &standing);
     // Its grid would be named by another time than the whole volume's, and stay beside it.
     if (!volume || volume->start_time() != kept.facts.header->time()) return true;
     GridSource source{file, modified_ns, true};

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "pipeline/ingest/followed_file.h"
 #include "pipeline/ingest/ingest_context.h"
-#include "pipeline/ingest/living_file.h"
 
 namespace stormcellar::pipeline {
 
@@ -15,8 +15,8 @@ namespace stormcellar::pipeline {
 // to the outcome's `living`. `file`: what the grid's provenance is to say of the raw file. False:
 // the news have still to be shown, as there is no time for that now, or no grid can be made yet.
 // Errors: those of the cache and the system.
-[[nodiscard]] Result<bool> show_living(IngestContext& context, const KeptVolume& kept,
-                                       LivingNews news, const std::string& file,
+[[nodiscard]] Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept,
+                                       UnshownSweeps news, const std::string& file,
                                        std::int64_t modified_ns, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

@@ -37,7 +37,7 @@ Result<IngestOutcome> TakeChunk::take() {
     while (true) {
         const auto shared = context_.chunks.find(chunk_, path_station, to_come);
         outcome_.given_up += context_.chunks.take_given_up();
-        if (!shared) return wait_for_place();
+        if (!shared) return poll_for_place();
         auto volume = shared->lock();
         if (!volume->is_closed()) return add_to(shared, volume);
         // Another worker has finished it while this one waited for it.
@@ -53,8 +53,8 @@ Result<IngestOutcome> TakeChunk::take() {
 }
 
 // One chunk of the volume, the newest, is offered again on behalf of all.
-Result<IngestOutcome> TakeChunk::wait_for_place() {
-    outcome_.instead_of = context_.chunks.wait_for_place(chunk_);
+Result<IngestOutcome> TakeChunk::poll_for_place() {
+    outcome_.former_representative = context_.chunks.poll_for_place(chunk_);
     return context_.wait_unread(facts_unread(chunk_.path, stamp_, station_of_path(chunk_.path)),
                                 std::move(outcome_));
 }
@@ -94,7 +94,7 @@ Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, Chun
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));
     // Nobody need ask for it any more.
-    if (finished) finished->instead_of = volume.take_former_waiter();
+    if (finished) finished->former_representative = volume.take_former_representative();
     context_.chunks.forget(chunk_, shared);
     return finished;
 }
@@ -118,10 +118,10 @@ Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkV
         if (*shown) volume.set_shown();
     }
     // One chunk of a volume is offered again on behalf of all.
-    if (!volume.has_waiter()) volume.set_waiter(chunk_.path);
-    if (volume.is_waiter(chunk_.path)) {
+    if (!volume.has_representative()) volume.set_representative(chunk_.path);
+    if (volume.is_representative(chunk_.path)) {
         outcome_.ending = ended::Incomplete{};
-        outcome_.instead_of = volume.take_former_waiter();
+        outcome_.former_representative = volume.take_former_representative();
     } else {
         outcome_.ending = ended::Registered{};
     }

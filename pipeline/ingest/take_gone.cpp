@@ -12,7 +12,7 @@ Result<IngestOutcome> TakeGone::take(const Gone& gone) {
     const auto shared = gone.chunk ? context_.chunks.find_known(*gone.chunk) : nullptr;
     if (!shared) return outcome;
     const auto volume = shared->lock();
-    if (volume->is_closed() || !volume->is_waiter(file_.path)) return outcome;
+    if (volume->is_closed() || !volume->is_representative(file_.path)) return outcome;
     const bool is_over = file_.finish == Finish::as_it_is ||
                          (file_.finish == Finish::when_quiet && volume->is_due());
     if (is_over) return finish(*gone.chunk, shared, *volume);

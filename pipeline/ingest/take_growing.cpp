@@ -23,7 +23,7 @@ Result<IngestOutcome> TakeGrowing::take() {
     if (!followed_) {
         // What is not followed is read when it has ended or has been quiet, and not before: again
         // and again it would be read in vain.
-        if (LivingFile::has_ended(file_.path, growing_.start, beneath)) return take_whole();
+        if (FollowedFile::has_ended(file_.path, growing_.start, beneath)) return take_whole();
         return context_.wait_unread(std::move(facts_), std::move(outcome_));
     }
     if (!followed_->kept().facts.station.empty())
@@ -65,7 +65,7 @@ bool TakeGrowing::read() {
 
 // What has come of a volume that has not ended: for the catalog, and as a living grid.
 Result<IngestOutcome> TakeGrowing::show() {
-    const KeptVolume& kept = followed_->kept();
+    const ShelvedVolume& kept = followed_->kept();
     outcome_.ending = ended::Incomplete{.is_followed = true};
     outcome_.goes_on = !kept.places.empty();
     // Also where no sweep is complete yet: something has come of the station.

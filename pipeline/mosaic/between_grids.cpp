@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "pipeline/mosaic/frame_parts.h"
-#include "pipeline/mosaic/mosaic_keeper.h"
-#include "pipeline/mosaic/open_partials.h"
+#include "pipeline/mosaic/mapped_partials.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::pipeline {
@@ -164,7 +164,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
 
 Result<std::optional<MosaicFrame>> BetweenGrids::of_partials(UtcTime instant) {
     std::vector<std::string> damaged;  // left out, as the domain's own frames do
-    auto partials = OpenPartials::open(store_, *mosaic_, moment_, instant, instant, damaged);
+    auto partials = MappedPartials::open(store_, *mosaic_, moment_, instant, instant, damaged);
     if (!partials) return pass_on(partials);
     const FrameOptions options = frame_options(*mosaic_, moment_, options_.threads);
     while (true) {

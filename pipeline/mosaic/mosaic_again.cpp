@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
-#include "pipeline/mosaic/mosaic_keeper.h"
-#include "pipeline/mosaic/open_partials.h"
+#include "pipeline/mosaic/mapped_partials.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/cache/grid_file.h"
 
@@ -47,14 +47,14 @@ bool lies_between(const std::vector<PartialView>& partials, UtcTime instant) {
 Result<bool> is_due(const cache::StoreReader& store, const Domain& domain, level2::Moment moment,
                     UtcTime instant) {
     std::vector<std::string> ignored;
-    const auto partials = OpenPartials::open(store, domain, moment, instant, instant, ignored);
+    const auto partials = MappedPartials::open(store, domain, moment, instant, instant, ignored);
     if (!partials) return pass_on(partials);
     return lies_between(partials->views(), instant);
 }
 
 }  // namespace
 
-const Domain* MosaicKeeper::find(std::string_view name, level2::Moment moment) const {
+const Domain* MosaicMaker::find(std::string_view name, level2::Moment moment) const {
     for (const Domain& domain : domains_) {
         const auto& moments = domain.moments;
         const bool has = std::find(moments.begin(), moments.end(), moment) != moments.end();
@@ -63,12 +63,12 @@ const Domain* MosaicKeeper::find(std::string_view name, level2::Moment moment) c
     return nullptr;
 }
 
-Result<FrameStanding> MosaicKeeper::standing_of(const cache::GridName& frame) const {
+Result<FrameStanding> MosaicMaker::standing_of(const cache::GridName& frame) const {
     const Domain* domain = find(frame.domain, frame.moment);
     if (domain == nullptr || store_ == nullptr) return no_domain(frame);
     std::vector<std::string> ignored;
     const auto partials =
-        OpenPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, ignored);
+        MappedPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, ignored);
     if (!partials) return pass_on(partials);
     const auto views = partials->views();
     if (!lies_between(views, frame.time)) return FrameStanding::not_due;
@@ -89,8 +89,8 @@ Result<FrameStanding> MosaicKeeper::standing_of(const cache::GridName& frame) co
     return is_current ? FrameStanding::current : FrameStanding::to_make;
 }
 
-Result<FrameMade> MosaicKeeper::make_again(const cache::GridName& frame, int threads,
-                                           std::vector<std::string>& problems) {
+Result<FrameMade> MosaicMaker::make_again(const cache::GridName& frame, int threads,
+                                          std::vector<std::string>& problems) {
     const Domain* domain = find(frame.domain, frame.moment);
     if (domain == nullptr || store_ == nullptr) return no_domain(frame);
     if (!is_frame_time(frame.time, domain->interval)) {
@@ -99,14 +99,14 @@ Result<FrameMade> MosaicKeeper::make_again(const cache::GridName& frame, int thr
     }
     const std::scoped_lock lock(frames_of(domain->name, frame.moment));
     auto partials =
-        OpenPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, problems);
+        MappedPartials::open(*store_, *domain, frame.moment, frame.time, frame.time, problems);
     if (!partials) return pass_on(partials);
     return make({*domain, frame.moment, frame.time, threads}, *partials, problems);
 }
 
-Status MosaicKeeper::add_missing(const Domain& domain, level2::Moment moment,
-                                 std::chrono::milliseconds newest,
-                                 std::vector<cache::GridName>& all) const {
+Status MosaicMaker::add_missing(const Domain& domain, level2::Moment moment,
+                                std::chrono::milliseconds newest,
+                                std::vector<cache::GridName>& all) const {
     const auto starts = starts_of(*store_, domain, moment);
     if (!starts) return pass_on(starts);
     if (starts->empty()) return {};
@@ -129,7 +129,7 @@ Status MosaicKeeper::add_missing(const Domain& domain, level2::Moment moment,
     return {};
 }
 
-Result<std::vector<cache::GridName>> MosaicKeeper::missing_frames(
+Result<std::vector<cache::GridName>> MosaicMaker::missing_frames(
     std::chrono::milliseconds newest) const {
     std::vector<cache::GridName> all;
     if (is_idle()) return all;

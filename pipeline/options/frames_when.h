@@ -5,7 +5,7 @@ namespace stormcellar::pipeline {
 
 enum class FramesWhen {
     volume_comes,  // each that it changes, at once, as the daemon does
-    asked_for,     // by MosaicKeeper::make_again() alone: of an archive each is then made once
+    asked_for,     // by MosaicMaker::make_again() alone: of an archive each is then made once
 };
 
 }  // namespace stormcellar::pipeline

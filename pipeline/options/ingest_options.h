@@ -23,7 +23,7 @@ namespace stormcellar::pipeline {
 // What growing volumes may have put aside on disk, packed, so that little is held in memory: of
 // files that are followed, with what stands of the sites' last volumes, and of chunks each. Of a
 // feed of 160 sites either takes 1 to 3 GB.
-inline constexpr std::uint64_t most_put_aside_bytes = std::uint64_t{4} << 30;
+inline constexpr std::uint64_t most_shelf_bytes = std::uint64_t{4} << 30;
 
 // What a file, or the chunks of a volume, may unpack to: three times a large volume.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
@@ -51,7 +51,7 @@ struct LivingGrids {
     std::chrono::seconds chunk_grace{30};
     // See above. Beyond it what has not grown for longest is given up, and read again from its
     // files.
-    std::uint64_t put_aside_bytes = most_put_aside_bytes;
+    std::uint64_t shelf_bytes = most_shelf_bytes;
     // So many files, volumes of chunks, and sites' last volumes, each with a descriptor.
     std::size_t count = 320;
 };

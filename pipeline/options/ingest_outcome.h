@@ -48,7 +48,7 @@ struct NoPosition {
 struct OtherStation {
     static constexpr IngestResult result = IngestResult::other_station;
 };
-// Not settled: the volume has not ended and finish_partial is false, or the file changed while it
+// Not settled: the volume has not ended and finish_as_is is false, or the file changed while it
 // was read, or an archive has more members than one turn takes. The file must be offered again.
 struct Incomplete {
     static constexpr IngestResult result = IngestResult::incomplete;
@@ -98,7 +98,7 @@ struct IngestOutcome {
     // What was made of it.
     bool partial = false;  // some volume had not ended, or was damaged
     std::vector<std::filesystem::path> grids;
-    std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic/mosaic_keeper.h)
+    std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic/mosaic_maker.h)
     std::vector<std::filesystem::path> frames;    // of mosaics that it changed
     bool no_room = false;  // some volume was not gridded: the cache's budgets left no room for it
     int not_kept = 0;      // volumes that the cache's budgets do not keep: nothing was made of them
@@ -112,7 +112,7 @@ struct IngestOutcome {
     // read again from their files.
     std::uint64_t given_up = 0;
     // The chunk that was to be offered again until this one came.
-    std::filesystem::path instead_of;
+    std::filesystem::path former_representative;
 
     // How long each step took.
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;

@@ -1,6 +1,6 @@
 #include "stormcellar/render/render.h"
 
-#include "render/frame/frame_keeper.h"
+#include "render/frame/frame_cache.h"
 #include "render/image/canvas.h"
 #include "render/image/shades.h"
 #include "render/map/labels.h"
@@ -27,7 +27,7 @@ struct Frame {
 // The picture with its lines, without the labels round it.
 Result<Image> draw_picture(const grid::BrickView& view, const std::vector<ColumnSummary>& columns,
                            const Scene& scene, const ViewGeometry& geometry, const Frame& frame,
-                           int threads, FrameKeeper& keeper) {
+                           int threads, FrameCache& cache) {
     const double scale = frame.layout.scale;
     const bool volume = view_of(scene.product) == View::volume;
     const ColourTable& colours = colours_of(scene);
@@ -53,10 +53,10 @@ Result<Image> draw_picture(const grid::BrickView& view, const std::vector<Column
         const VolumeSlicer slicer(
             colours, view.quantization, geometry,
             {scene.slices, scene.integration, scene.opacity, scene.pixel_tolerance, scene.light},
-            &keeper.transfer);
-        slicer.prepare(view, threads, keeper.room);
-        slicer.cast(view, threads, keeper.room);
-        composite_over(keeper.room.layer, picture, 0, 0, threads);
+            &cache.transfer);
+        slicer.prepare(view, threads, cache.room);
+        slicer.cast(view, threads, cache.room);
+        composite_over(cache.room.layer, picture, 0, 0, threads);
     }
     return picture;
 }
@@ -99,7 +99,7 @@ ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, in
 }
 
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& scene,
-                           int threads, FrameKeeper* kept) {
+                           int threads, FrameCache* kept) {
     if (auto valid = check_frame(view, facts, scene); !valid) return pass_on(valid);
     const auto columns = summarize_columns(view, threads);
     Frame frame;
@@ -123,10 +123,10 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     frame.lines.sites = &facts.sites;
     frame.lines.heights = view_of(scene.product) == View::volume;
     frame.lines.scale = frame.layout.scale;
-    FrameKeeper own;
-    FrameKeeper& keeper = kept != nullptr ? *kept : own;
+    FrameCache own;
+    FrameCache& cache = kept != nullptr ? *kept : own;
     if (scene.labels) {
-        const auto map = keeper.map.get(*view.spec, geometry, frame.layout.scale);
+        const auto map = cache.map.get(*view.spec, geometry, frame.layout.scale);
         if (!map) return pass_on(map);
         frame.lines.map = *map;
         frame.marks = plan_marks(frame.fonts, frame.lines);
@@ -134,7 +134,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
 
     const bool section = view_of(scene.product) == View::section;
     auto picture = section ? draw_section_picture(view, scene, frame, threads)
-                           : draw_picture(view, columns, scene, geometry, frame, threads, keeper);
+                           : draw_picture(view, columns, scene, geometry, frame, threads, cache);
     if (!picture || !scene.labels) return picture;
     Canvas canvas(scene.width, scene.height, shades::page);
     canvas.place(*picture, frame.layout.left, frame.layout.top);

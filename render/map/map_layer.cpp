@@ -300,8 +300,8 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
     return layer;
 }
 
-Result<const MapLayer*> MapKeeper::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
-                                       double scale) {
+Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
+                                      double scale) {
     // A view of a plane is known by four points of it, no three on a line.
     std::vector<double> view = {static_cast<double>(geometry.width()),
                                 static_cast<double>(geometry.height()), scale};

@@ -43,7 +43,7 @@ struct MapLayer {
 
 // Keeps the map of the last picture: the frames of a loop need it made once.
 // Thread contract: one thread at a time.
-class MapKeeper {
+class MapCache {
   public:
     // Prepared anew where the grid's geometry, the view of the ground, the size or the scale is
     // another one than last time. Good until the next call.

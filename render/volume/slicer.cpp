@@ -28,9 +28,9 @@ PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry,
 
 VolumeSlicer::VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
                            const ViewGeometry& geometry, const VolumeOptions& options,
-                           TransferKeeper* keeper)
+                           TransferCache* keeper)
     : geometry_(geometry), options_(options) {
-    TransferKeeper own;
+    TransferCache own;
     transfer_ = (keeper != nullptr ? *keeper : own)
                     .get(table, quantization, options.opacity, step_m(), options.integration);
 }

@@ -28,7 +28,7 @@
 #include "render/volume/light_volume.h"
 #include "render/volume/ray_packet.h"
 #include "render/volume/slice_mask.h"
-#include "render/volume/transfer_keeper.h"
+#include "render/volume/transfer_cache.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/render/colour_table.h"
 #include "stormcellar/render/light.h"
@@ -59,10 +59,10 @@ struct VolumeOptions {
 // Thread contract: immutable; draw() may run on many threads.
 class VolumeSlicer {
   public:
-    // The geometry must outlive this; `keeper` may be null.
+    // The geometry must outlive this; `cache` may be null.
     VolumeSlicer(const ColourTable& table, const grid::Quantization& quantization,
                  const ViewGeometry& geometry, const VolumeOptions& options,
-                 TransferKeeper* keeper = nullptr);
+                 TransferCache* cache = nullptr);
 
     // Of the geometry's grid.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;

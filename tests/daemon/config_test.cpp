@@ -77,7 +77,7 @@ TEST_F(ConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->fixed.ingest.bunzip, bunzip::Path::libbz2);
     EXPECT_EQ(config->fixed.storage.refill, std::chrono::minutes{30});
     EXPECT_EQ(config->fixed.storage.packing, cache::Packing::lz4);
-    EXPECT_EQ(config->reloadable.gone_kept, std::chrono::hours{36});
+    EXPECT_EQ(config->reloadable.gone_rows_kept_for, std::chrono::hours{36});
     EXPECT_EQ(config->fixed.grid.moment, level2::Moment::vel);
     EXPECT_EQ(config->fixed.grid.spacing_m, 500);
     EXPECT_EQ(config->fixed.grid.nx, 200);

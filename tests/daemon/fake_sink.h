@@ -20,14 +20,14 @@ class FakeSink final : public Sink {
 
     explicit FakeSink(Answer answer) : answer_(std::move(answer)) {}
 
-    Result<Taken> take(const std::filesystem::path& path, bool finish_partial,
+    Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                        pipeline::Tries /*tries*/) override {
         Taken taken;
         taken.stamp = look_at(path).stamp;
-        Result<pipeline::IngestOutcome> outcome = answer_(path, finish_partial);
+        Result<pipeline::IngestOutcome> outcome = answer_(path, finish_as_is);
         {
             const std::lock_guard lock(mutex_);
-            calls_.push_back(path.filename().native() + (finish_partial ? "!" : ""));
+            calls_.push_back(path.filename().native() + (finish_as_is ? "!" : ""));
         }
         called_.notify_all();
         if (!outcome) return pass_on(outcome);

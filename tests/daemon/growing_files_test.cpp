@@ -26,7 +26,7 @@ class Growing : public ::testing::Test {
             return {Standing::regular, found->second};
         };
         for (const auto& due : files_.poll(t0 + seconds{second}, look)) {
-            text += due.path.native() + (due.finish_partial ? "!" : "");
+            text += due.path.native() + (due.finish_as_is ? "!" : "");
         }
         return text;
     }

@@ -39,7 +39,7 @@ class IntakeTest : public ::testing::Test {
     std::string next() {
         const auto job = intake_.next_job();
         if (!job) return "";
-        return job->path.filename().native() + (job->finish_partial ? "!" : "");
+        return job->path.filename().native() + (job->finish_as_is ? "!" : "");
     }
     void end(const char* name, Result<pipeline::IngestOutcome> outcome) {
         Finished finished{.job = {}, .taken = Taken{}, .started = now_, .ended = now_};

@@ -102,7 +102,7 @@ TEST_F(IntakeTest, OneChunkOfAVolumeIsWaitedForTheNewest) {
     end("a", IngestResult::incomplete);
     EXPECT_EQ(intake_.pending().growing, 1U);
     pipeline::IngestOutcome newer = outcome_of(IngestResult::incomplete);
-    newer.instead_of = at("a");
+    newer.former_representative = at("a");
     intake_.file_closed(at("b"), make("b"));
     ASSERT_EQ(next(), "b");
     end("b", newer);
@@ -221,7 +221,7 @@ TEST_F(IntakeTest, TheCloseOfTheLastChunkCountsForTheLatency) {
     const auto job = intake_.next_job();
     ASSERT_TRUE(job);
     EXPECT_EQ(job->closed_at, closed) << "the wait is part of the latency";
-    EXPECT_FALSE(job->finish_partial);
+    EXPECT_FALSE(job->finish_as_is);
 }
 
 TEST_F(IntakeTest, AFileThatIsNeverClosedIsReadWhenItRests) {

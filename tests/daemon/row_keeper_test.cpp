@@ -48,9 +48,9 @@ class RowKeeperTest : public ::testing::Test {
     }
     void TearDown() override { set_up_logging("info"); }
     // Until it has looked so often.
-    void look(int looks, milliseconds gone_kept = {}) {
+    void look(int looks, milliseconds gone_rows_kept_for = {}) {
         for (int i = 0; i < 10'000 && sink_.looks < looks; ++i) {
-            keeper_.look(now_, gone_kept);
+            keeper_.look(now_, gone_rows_kept_for);
             std::this_thread::sleep_for(milliseconds{1});
         }
         wait_for_rest();

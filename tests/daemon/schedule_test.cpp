@@ -44,7 +44,7 @@ TEST(Schedule, OneEntryAPath) {
     Schedule schedule(10);
     Job first = job("a", 1);
     first.closed_at = t0;
-    first.finish_partial = true;
+    first.finish_as_is = true;
     Job second = job("a", 7);
     second.closed_at = t0 + seconds{1};
     schedule.offer(first);
@@ -54,7 +54,7 @@ TEST(Schedule, OneEntryAPath) {
     ASSERT_TRUE(merged);
     EXPECT_EQ(merged->newest_ns, 7);
     EXPECT_EQ(merged->closed_at, t0 + seconds{1}) << "the latest close counts";
-    EXPECT_FALSE(merged->finish_partial) << "a file that was closed again is not quiet";
+    EXPECT_FALSE(merged->finish_as_is) << "a file that was closed again is not quiet";
     EXPECT_FALSE(schedule.next(t0));
 }
 

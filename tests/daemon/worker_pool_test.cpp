@@ -23,7 +23,7 @@ Job job(const std::string& path) {
 
 WorkerPool::Work work_of(Sink& sink) {
     return [&sink](const Job& given) {
-        return sink.take(given.path, given.finish_partial, pipeline::Tries::more_follow);
+        return sink.take(given.path, given.finish_as_is, pipeline::Tries::more_follow);
     };
 }
 

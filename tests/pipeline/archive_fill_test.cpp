@@ -8,7 +8,7 @@
 
 #include "pipeline/care/rebuild_catalog.h"
 #include "pipeline/ingest/ingest.h"
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 #include "tests/pipeline/small_domain.h"
 #include "tests/testing/data.h"

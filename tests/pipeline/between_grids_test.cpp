@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/level2/decode.h"
 #include "tests/grid/moving_blobs.h"
@@ -194,7 +194,7 @@ class BetweenMosaics : public ::testing::Test {
         return domain;
     }
     void fill(const Domain& domain) {
-        MosaicKeeper keeper(&store_, {domain});
+        MosaicMaker keeper(&store_, {domain});
         for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"}) {
             level2::DecodeOptions options;
             options.fallback_station = "KBGM";

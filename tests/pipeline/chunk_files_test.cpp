@@ -73,7 +73,7 @@ TEST_F(ChunkFiles, WithoutLivingGridsTheyArePutTogetherAllTheSame) {
         const auto outcome = ingestor.ingest(path, false);
         ASSERT_TRUE(outcome) << outcome.error().message;
         if (outcome->result() == IngestResult::incomplete) {
-            EXPECT_EQ(outcome->instead_of, i == 0 ? fs::path{} : paths_[i - 1]);
+            EXPECT_EQ(outcome->former_representative, i == 0 ? fs::path{} : paths_[i - 1]);
         }
         EXPECT_TRUE(outcome->living.empty());
         gridded += outcome->result() == IngestResult::gridded ? 1 : 0;

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/ingest/followed_files.h"
 #include "pipeline/ingest/ingest.h"
-#include "pipeline/ingest/living_files.h"
 #include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
 #include "tests/testing/temporary_directory.h"
@@ -179,8 +179,8 @@ TEST_F(Claims, TheLastTryRejectsWhatCannotBeStored) {
 
 class LivingMemory : public Claims {
   protected:
-    std::shared_ptr<LivingFile> read(LivingFiles& files, const fs::path& path,
-                                     const std::string& station) {
+    std::shared_ptr<FollowedFile> read(FollowedFiles& files, const fs::path& path,
+                                       const std::string& station) {
         const auto file = files.begin(path, station, station);
         if (!file) return nullptr;
         const Status done =
@@ -188,13 +188,13 @@ class LivingMemory : public Claims {
         EXPECT_TRUE(done || done.error().code == ErrorCode::over_budget) << done.error().message;
         return file;
     }
-    LivingFile::Options options_{
+    FollowedFile::Options options_{
         {{level2::Moment::ref}, {}}, level2::Moment::ref, {}, directory_.path()};
 };
 
 // 2026-11-25: an open sweep counted as nothing, and a hundred such files took 5 GiB.
 TEST_F(LivingMemory, AnOpenSweepCounts) {
-    LivingFiles files(options_, GrowingLimits{.station_held_bytes = std::uint64_t{64} << 20});
+    FollowedFiles files(options_, GrowingLimits{.station_held_bytes = std::uint64_t{64} << 20});
     const fs::path path = put("KTLX_a", endless_sweep("KTLX", 25));
     const auto file = read(files, path, "KTLX");
     ASSERT_TRUE(file);
@@ -205,7 +205,7 @@ TEST_F(LivingMemory, AnOpenSweepCounts) {
 }
 
 TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
-    LivingFiles files(options_);
+    FollowedFiles files(options_);
     wire::Bytes bytes = wire::archive_header();
     wire::Bytes record = wire::Writer{}.u32(9'000'000).text("BZh91AY&SY").bytes;
     record.resize(4'000'000, std::byte{7});
@@ -218,7 +218,7 @@ TEST_F(LivingMemory, AnUnfinishedRecordCounts) {
 // All of it comes in one stretch: some kilobytes.
 TEST_F(LivingMemory, AnOpenSweepIsReadNoFurtherThanItsBound) {
     options_.open_sweep_limit_bytes = 6'000'000;
-    LivingFiles files(options_);
+    FollowedFiles files(options_);
     const fs::path a = put("KTLX_a", endless_sweep("KTLX", 25));
     const auto file = files.begin(a, "KTLX", "KTLX");
     ASSERT_TRUE(file);
@@ -233,7 +233,7 @@ TEST_F(LivingMemory, AnOpenSweepIsReadNoFurtherThanItsBound) {
 }
 
 TEST_F(LivingMemory, BeyondItsStationsBoundAFileIsGivenUpAndNotFollowedAgain) {
-    LivingFiles files(options_, GrowingLimits{.station_held_bytes = 30'000'000});
+    FollowedFiles files(options_, GrowingLimits{.station_held_bytes = 30'000'000});
     const fs::path a = put("KTLX_a", endless_sweep("KTLX", 25));
     const fs::path b = put("KTLX_b", endless_sweep("KTLX", 2));
     ASSERT_TRUE(read(files, a, "KTLX")->is_whole());
@@ -252,8 +252,8 @@ TEST_F(LivingMemory, BeyondItsStationsBoundAFileIsGivenUpAndNotFollowedAgain) {
 }
 
 TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
-    LivingFiles files(options_, GrowingLimits{.held_bytes = 40'000'000,
-                                              .station_held_bytes = std::uint64_t{64} << 20});
+    FollowedFiles files(options_, GrowingLimits{.held_bytes = 40'000'000,
+                                                .station_held_bytes = std::uint64_t{64} << 20});
     const fs::path a = put("KTLX_a", endless_sweep("KTLX", 20));
     const fs::path b = put("b", endless_sweep("XAAA", 10));
     const fs::path c = put("KOKX_c", endless_sweep("KOKX", 14));
@@ -270,12 +270,12 @@ TEST_F(LivingMemory, AFileThatIsNotFollowedIsReadAtItsEnd) {
     const wire::Bytes messages = wire::radial_messages(2, 360);
     const wire::Bytes bytes =
         wire::join({wire::archive_header(), wire::ldm_record(messages, false)});
-    const auto growing = LivingFile::growing(put("KTLX_a", bytes));
+    const auto growing = FollowedFile::growing(put("KTLX_a", bytes));
     ASSERT_TRUE(growing);
-    EXPECT_TRUE(LivingFile::has_ended(drop() / "KTLX_a", *growing));
+    EXPECT_TRUE(FollowedFile::has_ended(drop() / "KTLX_a", *growing));
     const fs::path endless = put("KTLX_b", endless_sweep("KTLX", 1));
-    ASSERT_TRUE(LivingFile::growing(endless));
-    EXPECT_FALSE(LivingFile::has_ended(endless, *LivingFile::growing(endless)));
+    ASSERT_TRUE(FollowedFile::growing(endless));
+    EXPECT_FALSE(FollowedFile::has_ended(endless, *FollowedFile::growing(endless)));
     EXPECT_EQ(ingestor.ingest(drop() / "KTLX_a", false)->result(), IngestResult::gridded);
 }
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "pipeline/ingest/followed_file.h"
 #include "pipeline/ingest/ingest.h"
-#include "pipeline/ingest/living_file.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/cache/store.h"
 #include "tests/level2/wire.h"
@@ -43,8 +43,8 @@ class Hostile : public ::testing::Test {
         return made;
     }
     // "rejected: REASON" and so on.
-    std::string take(const fs::path& path, bool finish_partial = true) {
-        const auto outcome = ingestor_.ingest(path, finish_partial);
+    std::string take(const fs::path& path, bool finish_as_is = true) {
+        const auto outcome = ingestor_.ingest(path, finish_as_is);
         if (!outcome) return "error: " + outcome.error().message;
         switch (outcome->result()) {
             case IngestResult::rejected:
@@ -97,12 +97,12 @@ TEST_F(Hostile, APathThatLeadsOutIsNotThere) {
 TEST_F(Hostile, AGrowingFileBehindALinkIsNotFollowed) {
     const auto bytes = wire::join({wire::archive_header(), {}});
     put(outside() / "KTLX_a", bytes);
-    EXPECT_TRUE(LivingFile::growing(outside() / "KTLX_a"));
-    EXPECT_FALSE(LivingFile::growing(outside() / "KTLX_a", drop()));
+    EXPECT_TRUE(FollowedFile::growing(outside() / "KTLX_a"));
+    EXPECT_FALSE(FollowedFile::growing(outside() / "KTLX_a", drop()));
     fs::create_symlink(outside() / "KTLX_a", drop() / "KTLX_a");
-    EXPECT_FALSE(LivingFile::growing(drop() / "KTLX_a", drop()));
+    EXPECT_FALSE(FollowedFile::growing(drop() / "KTLX_a", drop()));
     fs::create_directory_symlink(outside(), drop() / "day");
-    EXPECT_FALSE(LivingFile::growing(drop() / "day/KTLX_a", drop()));
+    EXPECT_FALSE(FollowedFile::growing(drop() / "day/KTLX_a", drop()));
 }
 
 // Two sweeps, a record each; the first does not end the volume.
@@ -174,9 +174,9 @@ TEST_F(Hostile, AStationHasNoMoreGridsOfAnHourThanARadarMakes) {
 TEST_F(Hostile, AFollowedFileThatGrowsAsItEndsIsReadNoFurther) {
     const wire::Bytes whole = wire::ldm_volume(3, 360);
     const fs::path path = put(drop() / "KTLX_grows", whole);
-    LivingFile::Options follow;
+    FollowedFile::Options follow;
     follow.scratch = directory_.path();
-    auto file = LivingFile::begin(path, follow);
+    auto file = FollowedFile::begin(path, follow);
     ASSERT_TRUE(file);
     ASSERT_TRUE((*file)->read_to(whole.size()));
     fs::resize_file(path, (std::uintmax_t{1} << 40) - 1);

@@ -50,7 +50,7 @@ TEST_F(LivingChunks, MayComeInAnyOrder) {
 TEST_F(LivingChunks, AreTakenUpByAnotherProcess) {
     for (std::size_t i = 0; i < 30; ++i)
         take(house_, i);
-    begin_again_with(most_put_aside_bytes);
+    begin_again_with(most_shelf_bytes);
     for (std::size_t i = 30; i < names_.size(); ++i)
         take(house_, i);
     expect_same_cells(house_);
@@ -129,15 +129,15 @@ TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (i != 20) take(house_, i);
     }
-    const fs::path waiter = drop_ / names_.back();
-    fs::remove(waiter);
-    EXPECT_EQ(house_.ingestor->note(waiter).value(), Noted::stands);
-    const auto gone = house_.ingestor->ingest(waiter, false);
+    const fs::path representative = drop_ / names_.back();
+    fs::remove(representative);
+    EXPECT_EQ(house_.ingestor->note(representative).value(), Noted::stands);
+    const auto gone = house_.ingestor->ingest(representative, false);
     ASSERT_TRUE(gone) << gone.error().message;
     EXPECT_EQ(gone->result(), IngestResult::incomplete);
     fs::remove(drop_ / names_[3]);
     EXPECT_EQ(house_.ingestor->ingest(drop_ / names_[3], false)->result(), IngestResult::vanished);
-    const auto outcome = house_.ingestor->ingest(waiter, true);
+    const auto outcome = house_.ingestor->ingest(representative, true);
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->result(), IngestResult::gridded);
     EXPECT_TRUE(outcome->partial);
@@ -149,21 +149,22 @@ TEST_F(LivingChunks, AWaiterThatIsDeletedStillWaits) {
         EXPECT_EQ(row.state == catalog::FileState::gone, !fs::exists(row.path)) << row.path;
         EXPECT_NE(row.state, catalog::FileState::seen) << row.path;
     }
-    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result(), IngestResult::vanished) << "once";
+    EXPECT_EQ(house_.ingestor->ingest(representative, true)->result(), IngestResult::vanished)
+        << "once";
 }
 
 TEST_F(LivingChunks, ADeletedWaiterIsRelievedByTheNextChunk) {
     for (std::size_t i = 0; i < 10; ++i)
         take(house_, i);
-    const fs::path waiter = drop_ / names_[9];
-    fs::remove(waiter);
-    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result(), IngestResult::incomplete)
+    const fs::path representative = drop_ / names_[9];
+    fs::remove(representative);
+    EXPECT_EQ(house_.ingestor->ingest(representative, true)->result(), IngestResult::incomplete)
         << "not due: its end has not come";
     const IngestOutcome next = take(house_, 10);
     EXPECT_EQ(next.result(), IngestResult::incomplete);
-    EXPECT_EQ(next.instead_of, waiter);
-    EXPECT_EQ(house_.ingestor->ingest(waiter, true)->result(), IngestResult::vanished);
-    EXPECT_EQ(house_.ingestor->note(waiter).value(), Noted::gone);
+    EXPECT_EQ(next.former_representative, representative);
+    EXPECT_EQ(house_.ingestor->ingest(representative, true)->result(), IngestResult::vanished);
+    EXPECT_EQ(house_.ingestor->note(representative).value(), Noted::gone);
     for (std::size_t i = 11; i < names_.size(); ++i)
         take(house_, i);
     expect_same_cells(house_);
@@ -178,7 +179,7 @@ TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
     for (std::size_t i = 1; i <= 10; ++i)
         append_to(directory / names_[i], rubbish);
     append_to(directory / names_[11], parts_[11]);
-    LivingFile::Options options;
+    FollowedFile::Options options;
     options.scratch = directory_ / "living";
     ChunkVolumes volumes(options);
     const auto first = ChunkPath::of(directory / names_[0]).value();
@@ -212,7 +213,7 @@ TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
         }
         return std::pair(has_its_share, ChunkPath::of(directory / names_[0]).value());
     };
-    LivingFile::Options options;
+    FollowedFile::Options options;
     options.scratch = directory_ / "living";
     ChunkVolumes ample(options);
     const auto first = grow(ample, "A").second;
@@ -267,7 +268,7 @@ TEST_F(LivingChunks, WithoutRoomOnDiskTheyAreReadAgain) {
     for (; next < 20; ++next)
         given_up += take(house_, next).given_up;
     EXPECT_EQ(given_up, 1U) << "once: after that nothing of it is read until it is quiet";
-    begin_again_with(most_put_aside_bytes);
+    begin_again_with(most_shelf_bytes);
     for (; next < names_.size(); ++next)
         EXPECT_EQ(take(house_, next).given_up, 0U);
     expect_same_cells(house_);
@@ -317,7 +318,7 @@ TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
         << "the sanitizer needs a pipe to look at memory, and takes all for damaged without";
 #endif
     take(house_, 0);  // opens the database
-    begin_again_with(most_put_aside_bytes);
+    begin_again_with(most_shelf_bytes);
     for (std::size_t i = 1; i < names_.size(); ++i)
         append_to(drop_ / names_[i], parts_[i]);
     rlimit before{};

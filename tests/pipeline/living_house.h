@@ -115,16 +115,16 @@ class LivingChunks : public Living {
         ASSERT_EQ(whole_.ingestor->ingest(file, false)->result(), IngestResult::gridded);
     }
     // As another process would, with so much room for what is put aside.
-    void begin_again_with(std::uint64_t put_aside_bytes) {
+    void begin_again_with(std::uint64_t shelf_bytes) {
         house_.ingestor.reset();
         IngestOptions options;
         options.spacing_m = 4000;
         options.nx = options.ny = 115;
         options.living.scratch = directory_ / "living";
-        options.living.put_aside_bytes = put_aside_bytes;
+        options.living.shelf_bytes = shelf_bytes;
         house_.ingestor.emplace(*house_.catalog, *house_.store, options);
     }
-    IngestOutcome take(House& house, std::size_t i, bool finish_partial = false) {
+    IngestOutcome take(House& house, std::size_t i, bool finish_as_is = false) {
         const fs::path path = drop_ / names_[i];
         if (!fs::exists(path)) {
             append_to(path, parts_[i]);
@@ -133,7 +133,7 @@ class LivingChunks : public Living {
             EXPECT_EQ(::utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
             ++came_;
         }
-        auto outcome = house.ingestor->ingest(path, finish_partial);
+        auto outcome = house.ingestor->ingest(path, finish_as_is);
         EXPECT_TRUE(outcome) << outcome.error().message;
         return outcome ? *outcome : IngestOutcome{};
     }

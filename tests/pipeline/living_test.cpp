@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/checksum.h"
-#include "pipeline/ingest/living_files.h"
+#include "pipeline/ingest/followed_files.h"
 #include "pipeline/keep/sweep_shelf.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/column_geometry.h"
@@ -185,8 +185,8 @@ TEST_F(Living, AVolumeThatStopsIsWhatItIsWhenReadWhole) {
 }
 
 TEST_F(Living, WhereNoPlaceIsLeftANewcomerIsNotFollowed) {
-    LivingFiles files(LivingFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
-                      GrowingLimits{.count = 3, .station_count = 2});
+    FollowedFiles files(FollowedFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
+                        GrowingLimits{.count = 3, .station_count = 2});
     const auto a = files.begin("/drop/a", "KTLX", "KTLX");
     const auto b = files.begin("/drop/b", "KTLX", "KTLX");
     ASSERT_TRUE(a && b);
@@ -205,7 +205,7 @@ TEST_F(Living, WhereNoPlaceIsLeftANewcomerIsNotFollowed) {
 TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
     const level2::Volume volume = level2::decode(real_bytes(busy))->volume;
     const auto last_of = [&](const char* station, int minutes) {
-        auto kept = std::make_shared<KeptVolume>();
+        auto kept = std::make_shared<ShelvedVolume>();
         kept->shelf = SweepShelf::make_in(directory_.path()).value();
         (void)kept->shelf->put(volume.sweeps.front());
         kept->facts = later(volume, std::chrono::minutes{minutes});
@@ -215,8 +215,8 @@ TEST_F(Living, BeyondTheBytesTheOldestLastVolumeGoes) {
     };
     const auto a = last_of("KAAA", 5);
     const std::uint64_t of_one = a->shelf->bytes();
-    LivingFiles files(LivingFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
-                      GrowingLimits{.shelf_bytes = 2 * of_one});
+    FollowedFiles files(FollowedFile::Options{{}, level2::Moment::ref, {}, directory_ / "living"},
+                        GrowingLimits{.shelf_bytes = 2 * of_one});
     files.keep_last(a);
     files.keep_last(last_of("KBBB", 1));
     EXPECT_TRUE(files.last_of("KAAA") && files.last_of("KBBB"));
@@ -235,15 +235,15 @@ TEST_F(Living, GrowthIsToldByTheRecords) {
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";
     append_to(path, std::span{bytes}.first(24));
-    EXPECT_TRUE(LivingFile::growing(path));
+    EXPECT_TRUE(FollowedFile::growing(path));
     append_to(path, std::span{bytes}.subspan(24, 1'000'000));
-    EXPECT_TRUE(LivingFile::growing(path));
+    EXPECT_TRUE(FollowedFile::growing(path));
     append_to(path, std::span{bytes}.subspan(1'000'024));
-    EXPECT_FALSE(LivingFile::growing(path));  // whole: its last record says so
+    EXPECT_FALSE(FollowedFile::growing(path));  // whole: its last record says so
     EXPECT_FALSE(
-        LivingFile::growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
-    EXPECT_FALSE(LivingFile::growing(directory_.path()));
-    EXPECT_FALSE(LivingFile::growing(directory_ / "nothing"));
+        FollowedFile::growing(*testing::data_directory() / "volumes/KLIX20050828_180149.gz"));
+    EXPECT_FALSE(FollowedFile::growing(directory_.path()));
+    EXPECT_FALSE(FollowedFile::growing(directory_ / "nothing"));
 }
 
 TEST_F(Living, SweepsComeBackFromTheShelfBitForBit) {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 #include "synth/observe.h"
 #include "tests/testing/temporary_directory.h"
 #include "tests/testing/two_radars.h"
@@ -93,7 +93,7 @@ class SiteWatchTest : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    MosaicKeeper keeper_{&store_, {plains()}};
+    MosaicMaker keeper_{&store_, {plains()}};
     SiteWatch watch_{store_, {plains()}};
 };
 

@@ -224,9 +224,9 @@ TEST(MapMarks, TheArrowPointsNorth) {
     }
 }
 
-TEST(MapKeeper, MakesTheMapAgainWhenTheViewIsAnother) {
+TEST(MapCache, MakesTheMapAgainWhenTheViewIsAnother) {
     const grid::GridSpec spec = spec_of(Projection::azimuthal_equidistant, 40, -97, 100, 100, 4000);
-    MapKeeper keeper;
+    MapCache keeper;
     const ViewGeometry view(spec, Camera{180, 0, 1}, 1, 300, 300);
     const MapLayer* first = keeper.get(spec, view, 1).value();
     const std::size_t strokes = first->strokes.size();

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/colour/built_in_tables.h"
-#include "render/frame/frame_keeper.h"
+#include "render/frame/frame_cache.h"
 #include "render/image/shades.h"
 #include "render/map/map_layer.h"
 #include "stormcellar/render/colour_table.h"
@@ -101,7 +101,7 @@ TEST(RenderFrame, WhatIsKeptChangesNoPixel) {
     const auto other = bricks_of(make_grid_of(storm.spec, [](int ix, int iy, int iz) {
         return (ix + iy) % 50 < 9 && iz < 12 ? valued(20 + iz) : Cell{};
     }));
-    FrameKeeper keeper;
+    FrameCache keeper;
     const auto expect_same = [&](const grid::BrickGrid& drawn, Product product, int slices) {
         Scene scene;
         scene.product = product;

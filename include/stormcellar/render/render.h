@@ -4,7 +4,7 @@
 // and time are drawn over it. The same input gives the same pixels for any number of threads.
 //
 // Units     Those of stormcellar/render/scene.h.
-// Threads   Any thread may call; render_frame() uses `threads` threads of its own. A FrameKeeper
+// Threads   Any thread may call; render_frame() uses `threads` threads of its own. A FrameCache
 //           may be used by one call at a time.
 // Errors    See each function.
 #pragma once
@@ -18,15 +18,15 @@
 
 namespace stormcellar::render {
 
-struct FrameKeeper;  // render/frame/frame_keeper.h
+struct FrameCache;  // render/frame/frame_cache.h
 
-// Draws a picture. If a loop hands the same keeper to all its frames, the map and the colors are
+// Draws a picture. If a loop hands the same cache to all its frames, the map and the colors are
 // prepared only once and memory is allocated only once; the pixels are the same with or without it.
 // Errors: bad_argument if the moment of the grid is not that of the scene, for heights beyond those
 // of the grid, and for a section outside the grid; those of check_frame().
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
-                                         FrameKeeper* keeper = nullptr);
+                                         FrameCache* cache = nullptr);
 
 // Checks, before anything is drawn, what render_frame() requires. Also returns unsupported for a
 // volume of more than 2^31 codes.

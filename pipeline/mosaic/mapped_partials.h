@@ -1,4 +1,4 @@
-// pipeline/mosaic/open_partials.h -- the partials of a domain about a time, as their files have
+// pipeline/mosaic/mapped_partials.h -- the partials of a domain about a time, as their files have
 // them.
 //
 // Inside the pipeline room only. Each holds a descriptor and a map; at most those of 35 minutes
@@ -22,14 +22,14 @@ inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minu
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
-class OpenPartials {
+class MappedPartials {
   public:
     // Those that count for an instant between `from` and `to`. What cannot be opened is named in
     // `problems`; partials of a configuration that has changed since are left out.
     // Errors: the cache cannot be read.
-    static Result<OpenPartials> open(const cache::StoreReader& store, const Domain& domain,
-                                     level2::Moment moment, UtcTime from, UtcTime to,
-                                     std::vector<std::string>& problems);
+    static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
+                                       level2::Moment moment, UtcTime from, UtcTime to,
+                                       std::vector<std::string>& problems);
 
     // Valid until one is dropped.
     [[nodiscard]] std::vector<PartialView> views() const;

@@ -1,4 +1,4 @@
-#include "pipeline/mosaic/open_partials.h"
+#include "pipeline/mosaic/mapped_partials.h"
 
 #include <utility>
 
@@ -20,10 +20,10 @@ Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store
     return domains;
 }
 
-Result<OpenPartials> OpenPartials::open(const cache::StoreReader& store, const Domain& domain,
-                                        level2::Moment moment, UtcTime from, UtcTime to,
-                                        std::vector<std::string>& problems) {
-    OpenPartials all;
+Result<MappedPartials> MappedPartials::open(const cache::StoreReader& store, const Domain& domain,
+                                            level2::Moment moment, UtcTime from, UtcTime to,
+                                            std::vector<std::string>& problems) {
+    MappedPartials all;
     const auto domains = partial_domains(store, domain.name);
     if (!domains) return pass_on(domains);
     for (const std::string& name : *domains) {
@@ -43,21 +43,21 @@ Result<OpenPartials> OpenPartials::open(const cache::StoreReader& store, const D
     return all;
 }
 
-std::vector<PartialView> OpenPartials::views() const {
+std::vector<PartialView> MappedPartials::views() const {
     std::vector<PartialView> views;
     for (const cache::GridFile& file : files_)
         views.push_back({&file.description(), file.view(), &file});
     return views;
 }
 
-Status OpenPartials::check_whole() const {
+Status MappedPartials::check_whole() const {
     for (const cache::GridFile& file : files_) {
         if (Status whole = file.check_whole(); !whole) return whole;
     }
     return {};
 }
 
-bool OpenPartials::drop_damaged(std::vector<std::string>& problems) {
+bool MappedPartials::drop_damaged(std::vector<std::string>& problems) {
     const auto dropped = std::erase_if(files_, [&](const cache::GridFile& file) {
         const Status good = file.verify();
         if (!good) problems.push_back(good.error().message);

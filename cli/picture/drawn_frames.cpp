@@ -1,4 +1,4 @@
-#include "cli/picture/kept_frames.h"
+#include "cli/picture/drawn_frames.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -17,8 +17,8 @@ std::string key_of(const std::filesystem::path& grid, const render::Scene& scene
 
 }  // namespace
 
-Result<render::Image> KeptFrames::frame(const std::filesystem::path& grid,
-                                        const render::Scene& scene, const Draw& draw) {
+Result<render::Image> DrawnFrames::frame(const std::filesystem::path& grid,
+                                         const render::Scene& scene, const Draw& draw) {
     // Asked before it is drawn: a grid that is replaced meanwhile is another one next time.
     const std::string key = key_of(grid, scene);
     if (const auto found = frames_.find(key); found != frames_.end()) {
@@ -32,7 +32,7 @@ Result<render::Image> KeptFrames::frame(const std::filesystem::path& grid,
     return drawn;
 }
 
-void KeptFrames::next_loop() {
+void DrawnFrames::next_loop() {
     for (auto at = frames_.begin(); at != frames_.end();) {
         if (std::exchange(at->second.is_wanted, false)) {
             ++at;

@@ -1,4 +1,4 @@
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 
 #include <algorithm>
 #include <set>
@@ -7,7 +7,7 @@
 #include "grid/plan/grid_effects.h"
 #include "pipeline/keep/keep_rule.h"
 #include "pipeline/keep/site_grids.h"
-#include "pipeline/mosaic/open_partials.h"
+#include "pipeline/mosaic/mapped_partials.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/brick_grid.h"
 
@@ -104,8 +104,7 @@ std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::sec
     return instants;
 }
 
-MosaicKeeper::MosaicKeeper(cache::StoreWriter* store, std::vector<Domain> domains,
-                           FramesWhen frames)
+MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains, FramesWhen frames)
     : store_(store),
       domains_(std::move(domains)),
       frames_when_(frames),
@@ -113,7 +112,7 @@ MosaicKeeper::MosaicKeeper(cache::StoreWriter* store, std::vector<Domain> domain
       instants_(kept_instants_bytes) {}
 
 // What goes wrong with one domain keeps nothing from the others.
-Result<Kept> MosaicKeeper::take_in(const VolumeSource& source, int threads) {
+Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     Kept kept;
     Status all;
     if (is_idle()) return kept;
@@ -134,13 +133,13 @@ Result<Kept> MosaicKeeper::take_in(const VolumeSource& source, int threads) {
     return kept;
 }
 
-std::mutex& MosaicKeeper::frames_of(const std::string& domain, level2::Moment moment) {
+std::mutex& MosaicMaker::frames_of(const std::string& domain, level2::Moment moment) {
     const std::scoped_lock lock(mutex_);
     return frames_[{domain, moment}];
 }
 
-Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
-                          int threads, Kept& kept) {
+Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const VolumeSource& source,
+                         int threads, Kept& kept) {
     auto made = make_partial(source.volume, source.site, domain.spec,
                              partial_options(domain, moment, source.site, threads), geometries_);
     if (!made) return of_gridding(made.error());
@@ -166,11 +165,11 @@ Status MosaicKeeper::keep(const Domain& domain, level2::Moment moment, const Vol
     return refresh(domain, moment, description, threads, kept);
 }
 
-Status MosaicKeeper::refresh(const Domain& domain, level2::Moment moment,
-                             const cache::GridDescription& changed, int threads, Kept& kept) {
+Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
+                            const cache::GridDescription& changed, int threads, Kept& kept) {
     const UtcTime middle = middle_of(changed);
-    auto partials = OpenPartials::open(*store_, domain, moment, middle - greatest_frame_gap,
-                                       middle + greatest_frame_gap, kept.problems);
+    auto partials = MappedPartials::open(*store_, domain, moment, middle - greatest_frame_gap,
+                                         middle + greatest_frame_gap, kept.problems);
     if (!partials) return pass_on(partials);
     const Span span = span_changed_by(changed, partials->views());
     for (const UtcTime instant : instants_between(span.from, span.to, domain.interval)) {
@@ -184,9 +183,9 @@ Status MosaicKeeper::refresh(const Domain& domain, level2::Moment moment,
 }
 
 // A partial that turns out to be damaged is left out: it is mended by others.
-Result<MosaicFrame> MosaicKeeper::frame_of_sound(const FrameJob& job, OpenPartials& partials,
-                                                 const PreviousFrame* previous,
-                                                 std::vector<std::string>& problems) {
+Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedPartials& partials,
+                                                const PreviousFrame* previous,
+                                                std::vector<std::string>& problems) {
     const FrameOptions options = frame_options(job.domain, job.moment, job.threads);
     while (true) {
         auto frame = make_frame(job.domain.spec, partials.views(), job.instant, options,
@@ -195,8 +194,8 @@ Result<MosaicFrame> MosaicKeeper::frame_of_sound(const FrameJob& job, OpenPartia
     }
 }
 
-Result<FrameMade> MosaicKeeper::make(const FrameJob& job, OpenPartials& partials,
-                                     std::vector<std::string>& problems) {
+Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partials,
+                                    std::vector<std::string>& problems) {
     const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
     if (!path) return pass_on(path);
     const auto stands = cache::GridFile::open(*path);

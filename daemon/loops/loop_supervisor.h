@@ -1,5 +1,5 @@
-// daemon/loops/loop_keeper.h -- keeps animations fresh by running `stormcellar loop --follow` for
-// each.
+// daemon/loops/loop_supervisor.h -- keeps animations fresh by running `stormcellar loop --follow`
+// for each.
 //
 // A loop is another program, so that whatever is wrong with a picture never stops ingest. One that
 // ends by itself is logged with its status and its last line on stderr and started again, 1 s later
@@ -27,14 +27,14 @@
 
 namespace stormcellar::daemon {
 
-class LoopKeeper {
+class LoopSupervisor {
   public:
     // `program` is run; empty: stormcellar, beside this program or on PATH.
-    LoopKeeper(std::filesystem::path cache, std::function<void()> wake,
-               std::filesystem::path program = {});
-    LoopKeeper(const LoopKeeper&) = delete;
-    LoopKeeper& operator=(const LoopKeeper&) = delete;
-    ~LoopKeeper();
+    LoopSupervisor(std::filesystem::path cache, std::function<void()> wake,
+                   std::filesystem::path program = {});
+    LoopSupervisor(const LoopSupervisor&) = delete;
+    LoopSupervisor& operator=(const LoopSupervisor&) = delete;
+    ~LoopSupervisor();
 
     // From now on these. One goes on undisturbed when neither it nor its scene file has changed.
     void set(std::vector<LoopConfig> loops);

@@ -1,4 +1,4 @@
-// pipeline/ingest/living_file.h -- one file whose volume is still growing, decoded once.
+// pipeline/ingest/followed_file.h -- one file whose volume is still growing, decoded once.
 //
 // What has been appended since the last look is read and decoded; sweeps that have closed are put
 // aside (pipeline/keep/sweep_shelf.h), so that little is held. finish() gives what decoding the
@@ -27,7 +27,7 @@
 namespace stormcellar::pipeline {
 
 // The sweeps of a volume, put aside; const once the volume has ended.
-struct KeptVolume {
+struct ShelvedVolume {
     level2::Volume facts;  // without sweeps
     std::string source_file;
     std::unique_ptr<SweepShelf> shelf;
@@ -47,11 +47,11 @@ struct KeptVolume {
 };
 
 // Sweeps that no living grid shows yet.
-struct LivingNews {
+struct UnshownSweeps {
     bool any = false, low = false;
 };
 
-class LivingFile {
+class FollowedFile {
   public:
     struct Options {
         level2::Selection selection;
@@ -78,8 +78,8 @@ class LivingFile {
     // control word says.
     [[nodiscard]] static bool has_ended(const std::filesystem::path& path, const Growing& growing,
                                         const std::filesystem::path& beneath = {});
-    static Result<std::unique_ptr<LivingFile>> begin(const std::filesystem::path& path,
-                                                     const Options& options);
+    static Result<std::unique_ptr<FollowedFile>> begin(const std::filesystem::path& path,
+                                                       const Options& options);
 
     // Reads and decodes up to this size. not_found when the file is gone. `may_read_on` is asked
     // after each stretch, and ends the reading where it says no: that is over_budget.
@@ -89,10 +89,10 @@ class LivingFile {
     [[nodiscard]] bool is_whole() const { return is_whole_; }
     // Its last radial has come.
     [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
-    [[nodiscard]] LivingNews news() const { return news_; }
+    [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
     // Station, pattern and position, and the sweeps that have closed; radials counts all theirs.
-    [[nodiscard]] const KeptVolume& kept() const { return *kept_; }
+    [[nodiscard]] const ShelvedVolume& kept() const { return *kept_; }
     [[nodiscard]] std::size_t radials() const { return radials_; }
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
@@ -104,10 +104,10 @@ class LivingFile {
 
     [[nodiscard]] Result<level2::Decoded> finish();
     // After finish(), for the next volume of the site.
-    [[nodiscard]] std::shared_ptr<const KeptVolume> take_kept() { return std::move(kept_); }
+    [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    LivingFile(std::filesystem::path path, const Options& options);
+    FollowedFile(std::filesystem::path path, const Options& options);
     Status read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on);
     Status take(std::span<const std::byte> bytes);
     Status shelve_new_sweeps();
@@ -116,22 +116,22 @@ class LivingFile {
     std::filesystem::path path_, beneath_;
     level2::Moment moment_;
     level2::GrowingVolume growing_;
-    std::unique_ptr<KeptVolume> kept_;
+    std::unique_ptr<ShelvedVolume> kept_;
     std::size_t dropped_ = 0;  // sweeps below are on the shelf alone
     Xxh3Stream hash_;
     std::uint64_t inode_ = 0, read_bytes_ = 0;
     std::size_t radials_ = 0;
     std::map<std::size_t, std::size_t> radials_of_;
     std::optional<UtcTime> newest_;
-    LivingNews news_;
+    UnshownSweeps news_;
     bool is_whole_ = true;
 };
 
 // The sweeps of a volume that is still growing, and before them those of the site's last volume
 // whose elevation has not come again: within 0.2 degrees. None of these when it is more than 20
 // minutes older. Only sweeps with the moment.
-[[nodiscard]] Result<level2::Volume> living_volume(const KeptVolume& growing,
-                                                   const KeptVolume* last,
-                                                   std::size_t* standing = nullptr);
+[[nodiscard]] Result<level2::Volume> volume_for_living_grid(const ShelvedVolume& growing,
+                                                            const ShelvedVolume* last,
+                                                            std::size_t* standing = nullptr);
 
 }  // namespace stormcellar::pipeline

@@ -1,4 +1,4 @@
-// render/volume/transfer_keeper.h -- keeps the transfer function of the last picture.
+// render/volume/transfer_cache.h -- keeps the transfer function of the last picture.
 //
 // It takes milliseconds to make and is the same for all frames of a loop.
 // Thread contract: one thread at a time.
@@ -11,7 +11,7 @@
 
 namespace stormcellar::render {
 
-class TransferKeeper {
+class TransferCache {
   public:
     // Made anew where anything is another one than last time.
     [[nodiscard]] std::shared_ptr<const TransferFunction> get(

@@ -1,5 +1,5 @@
 // Mosaics that are kept as volumes come, and the same made at once.
-#include "pipeline/mosaic/mosaic_keeper.h"
+#include "pipeline/mosaic/mosaic_maker.h"
 
 #include <algorithm>
 #include <fstream>
@@ -64,7 +64,7 @@ class MosaicKeeperTest : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     cache::StoreWriter store_ =
         *cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
-    MosaicKeeper keeper_{&store_, {small_domain()}};
+    MosaicMaker keeper_{&store_, {small_domain()}};
 };
 
 TEST_F(MosaicKeeperTest, FramesStandAtWholeIntervalsAndAreReplacedAsVolumesCome) {
@@ -259,7 +259,7 @@ TEST_F(MosaicKeeperTest, WhatCannotBeMadeAgainSaysWhy) {
 TEST_F(MosaicKeeperTest, ADomainThatTakesNotTheStationKeepsNothing) {
     Domain other = small_domain();
     other.stations = {"KTLX"};
-    MosaicKeeper keeper(&store_, {other});
+    MosaicMaker keeper(&store_, {other});
     const Loaded loaded = load_volume(sequence[0]);
     const auto kept = keeper.take_in({loaded.volume, loaded.site, loaded.file}, 1);
     ASSERT_TRUE(kept);

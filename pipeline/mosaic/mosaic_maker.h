@@ -1,4 +1,4 @@
-// pipeline/mosaic/mosaic_keeper.h -- keeps the mosaics of configured domains fresh as volumes come.
+// pipeline/mosaic/mosaic_maker.h -- keeps the mosaics of configured domains fresh as volumes come.
 //
 // A volume of a site that a domain takes is gridded on the domain's columns and kept in the store
 // as the domain "NAME.ICAO"; then the frames of "NAME" that it changes are made again: those
@@ -72,13 +72,13 @@ enum class FrameStanding {
     to_make,  // is missing, damaged, or not what the partials of now give
 };
 
-class OpenPartials;
+class MappedPartials;
 
-class MosaicKeeper {
+class MosaicMaker {
   public:
     // Without a store, or without domains, it does nothing.
-    MosaicKeeper(cache::StoreWriter* store, std::vector<Domain> domains,
-                 FramesWhen frames = FramesWhen::volume_comes);
+    MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
+                FramesWhen frames = FramesWhen::volume_comes);
 
     // Does nothing for volumes that no domain takes. `threads` work on it. Errors: what may pass,
     // as when the system refuses a write; all other domains have the volume then all the same.
@@ -110,11 +110,11 @@ class MosaicKeeper {
         int threads;
     };
     std::mutex& frames_of(const std::string& domain, level2::Moment moment);
-    Result<MosaicFrame> frame_of_sound(const FrameJob& job, OpenPartials& partials,
+    Result<MosaicFrame> frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                        const PreviousFrame* previous,
                                        std::vector<std::string>& problems);
     // The mutex of the domain's frames must be held.
-    Result<FrameMade> make(const FrameJob& job, OpenPartials& partials,
+    Result<FrameMade> make(const FrameJob& job, MappedPartials& partials,
                            std::vector<std::string>& problems);
     Status add_missing(const Domain& domain, level2::Moment moment,
                        std::chrono::milliseconds newest, std::vector<cache::GridName>& all) const;

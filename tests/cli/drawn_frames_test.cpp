@@ -1,4 +1,4 @@
-#include "cli/picture/kept_frames.h"
+#include "cli/picture/drawn_frames.h"
 
 #include <fstream>
 
@@ -18,7 +18,7 @@ class KeptFramesTest : public ::testing::Test {
         return directory_ / name;
     }
     // 400 bytes of pixels; the red one says which drawing it was.
-    Result<render::Image> frame(KeptFrames& kept, const fs::path& path,
+    Result<render::Image> frame(DrawnFrames& kept, const fs::path& path,
                                 const render::Scene& scene = {}) {
         return kept.frame(path, scene, [this]() -> Result<render::Image> {
             ++drawn_;
@@ -30,7 +30,7 @@ class KeptFramesTest : public ::testing::Test {
 };
 
 TEST_F(KeptFramesTest, TheSameGridIsDrawnOnce) {
-    KeptFrames kept;
+    DrawnFrames kept;
     const fs::path a = grid("a");
     const fs::path b = grid("b");
     EXPECT_EQ(frame(kept, a)->at(3, 3)[0], 1);
@@ -41,7 +41,7 @@ TEST_F(KeptFramesTest, TheSameGridIsDrawnOnce) {
 }
 
 TEST_F(KeptFramesTest, WhatDiffersIsDrawnAnew) {
-    KeptFrames kept;
+    DrawnFrames kept;
     const fs::path a = grid("a");
     render::Scene scene;
     (void)frame(kept, a, scene);
@@ -63,7 +63,7 @@ TEST_F(KeptFramesTest, WhatDiffersIsDrawnAnew) {
 }
 
 TEST_F(KeptFramesTest, WhatALoopDidNotWantGoes) {
-    KeptFrames kept;
+    DrawnFrames kept;
     const fs::path a = grid("a");
     const fs::path b = grid("b");
     (void)frame(kept, a);
@@ -79,7 +79,7 @@ TEST_F(KeptFramesTest, WhatALoopDidNotWantGoes) {
 }
 
 TEST_F(KeptFramesTest, NoMoreIsKeptThanThereIsRoomFor) {
-    KeptFrames kept(1000);
+    DrawnFrames kept(1000);
     const fs::path all[] = {grid("a"), grid("b"), grid("c")};
     for (int round = 0; round < 2; ++round) {
         for (const fs::path& path : all)
@@ -98,7 +98,7 @@ TEST_F(KeptFramesTest, NoMoreIsKeptThanThereIsRoomFor) {
 }
 
 TEST_F(KeptFramesTest, WhatCannotBeDrawnIsNotKept) {
-    KeptFrames kept;
+    DrawnFrames kept;
     const auto failed = kept.frame(
         grid("a"), {}, []() -> Result<render::Image> { return fail(ErrorCode::io, "broken"); });
     EXPECT_FALSE(failed);

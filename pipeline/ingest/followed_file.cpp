@@ -1,4 +1,4 @@
-#include "pipeline/ingest/living_file.h"
+#include "pipeline/ingest/followed_file.h"
 
 #include <algorithm>
 #include <array>
@@ -107,15 +107,15 @@ bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) 
 
 }  // namespace
 
-bool KeptVolume::is_lowest(double elevation_deg) const {
+bool ShelvedVolume::is_lowest(double elevation_deg) const {
     return std::none_of(sweeps.begin(), sweeps.end(), [&](const auto& entry) {
         return entry.second.has_moment &&
                entry.second.elevation_deg < elevation_deg - same_elevation_deg;
     });
 }
 
-std::optional<LivingFile::Growing> LivingFile::growing(const fs::path& path,
-                                                       const fs::path& beneath) {
+std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
+                                                           const fs::path& beneath) {
     const OpenFile file(path, beneath);
     if (!file.is_open()) return std::nullopt;
     const auto facts = file.facts();
@@ -135,7 +135,8 @@ std::optional<LivingFile::Growing> LivingFile::growing(const fs::path& path,
     return growing;
 }
 
-bool LivingFile::has_ended(const fs::path& path, const Growing& growing, const fs::path& beneath) {
+bool FollowedFile::has_ended(const fs::path& path, const Growing& growing,
+                             const fs::path& beneath) {
     if (growing.last_record == 0) return false;
     const OpenFile file(path, beneath);
     const auto facts = file.is_open() ? file.facts() : std::nullopt;
@@ -143,7 +144,7 @@ bool LivingFile::has_ended(const fs::path& path, const Growing& growing, const f
            ends_volume(file, growing.last_record, static_cast<std::uint64_t>(facts->st_size));
 }
 
-LivingFile::LivingFile(fs::path path, const Options& options)
+FollowedFile::FollowedFile(fs::path path, const Options& options)
     : path_(std::move(path)),
       beneath_(options.beneath),
       moment_(options.moment),
@@ -153,25 +154,25 @@ LivingFile::LivingFile(fs::path path, const Options& options)
                                      .open_sweep_limit_bytes = options.open_sweep_limit_bytes,
                                      .selection = options.selection,
                                      .fallback_station = options.fallback_station}),
-      kept_(std::make_unique<KeptVolume>()) {}
+      kept_(std::make_unique<ShelvedVolume>()) {}
 
-Result<std::unique_ptr<LivingFile>> LivingFile::begin(const fs::path& path,
-                                                      const Options& options) {
+Result<std::unique_ptr<FollowedFile>> FollowedFile::begin(const fs::path& path,
+                                                          const Options& options) {
     auto shelf = SweepShelf::make_in(options.scratch);
     if (!shelf) return pass_on(shelf);
-    std::unique_ptr<LivingFile> file(new LivingFile(path, options));
+    std::unique_ptr<FollowedFile> file(new FollowedFile(path, options));
     file->kept_->shelf = std::move(*shelf);
     file->kept_->source_file = path.filename().string();
     return file;
 }
 
-Status LivingFile::read_to(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
+Status FollowedFile::read_to(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
     Status read = read_on(size_bytes, may_read_on);
     is_whole_ = is_whole_ && read.has_value();
     return read;
 }
 
-Status LivingFile::read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
+Status FollowedFile::read_on(std::uint64_t size_bytes, const std::function<bool()>& may_read_on) {
     const OpenFile file(path_, beneath_);
     if (!file.is_open()) return tl::unexpected<Error>(file.failure());
     const auto facts = file.facts();
@@ -195,7 +196,7 @@ Status LivingFile::read_on(std::uint64_t size_bytes, const std::function<bool()>
     return {};
 }
 
-Status LivingFile::take(std::span<const std::byte> bytes) {
+Status FollowedFile::take(std::span<const std::byte> bytes) {
     hash_.append(bytes);
     read_bytes_ += bytes.size();
     if (Status taken = growing_.append(bytes); !taken) return taken;
@@ -205,14 +206,14 @@ Status LivingFile::take(std::span<const std::byte> bytes) {
     return shelve_new_sweeps();
 }
 
-Status LivingFile::shelve_new_sweeps() {
+Status FollowedFile::shelve_new_sweeps() {
     for (level2::LiveSweep& live : growing_.take_sweeps()) {
         const auto place = kept_->shelf->put(live.sweep);
         if (!place) return pass_on(place);
         kept_->places.insert_or_assign(live.index, *place);
         const bool has_moment = live.sweep.find(moment_) != nullptr;
         kept_->sweeps.insert_or_assign(
-            live.index, KeptVolume::Kept{has_moment, live.sweep.mean_elevation_deg()});
+            live.index, ShelvedVolume::Kept{has_moment, live.sweep.mean_elevation_deg()});
         std::size_t& radials = radials_of_[live.index];
         radials_ += live.sweep.radials.size() - radials;
         radials = live.sweep.radials.size();
@@ -231,7 +232,7 @@ Status LivingFile::shelve_new_sweeps() {
     return {};
 }
 
-Status LivingFile::is_as_followed() const {
+Status FollowedFile::is_as_followed() const {
     const OpenFile file(path_, beneath_);
     if (!file.is_open()) return tl::unexpected<Error>(file.failure());
     Xxh3Stream hash;
@@ -251,7 +252,7 @@ Status LivingFile::is_as_followed() const {
     return {};
 }
 
-Result<level2::Decoded> LivingFile::finish() {
+Result<level2::Decoded> FollowedFile::finish() {
     if (Status same = is_as_followed(); !same) return pass_on(same);
     for (std::size_t index = 0; index < dropped_; ++index) {
         auto sweep = kept_->shelf->get(kept_->places.at(index));
@@ -269,15 +270,15 @@ Result<level2::Decoded> LivingFile::finish() {
         if (!place) break;  // it is missing in the next volume's living grids, and nowhere else
         kept_->places.insert_or_assign(index, *place);
         kept_->sweeps.insert_or_assign(
-            index, KeptVolume::Kept{sweep.find(moment_) != nullptr, sweep.mean_elevation_deg()});
+            index, ShelvedVolume::Kept{sweep.find(moment_) != nullptr, sweep.mean_elevation_deg()});
     }
     return decoded;
 }
 
-Result<level2::Volume> living_volume(const KeptVolume& growing, const KeptVolume* last,
-                                     std::size_t* standing) {
+Result<level2::Volume> volume_for_living_grid(const ShelvedVolume& growing,
+                                              const ShelvedVolume* last, std::size_t* standing) {
     level2::Volume volume = growing.facts;
-    const auto add = [&volume](const KeptVolume& from, std::size_t index) -> Status {
+    const auto add = [&volume](const ShelvedVolume& from, std::size_t index) -> Status {
         auto sweep = from.shelf->get(from.places.at(index));
         if (!sweep) return pass_on(sweep);
         volume.sweeps.push_back(std::move(*sweep));

@@ -1,4 +1,4 @@
-#include "daemon/loops/loop_keeper.h"
+#include "daemon/loops/loop_supervisor.h"
 
 #include <atomic>
 #include <chrono>
@@ -33,7 +33,7 @@ class LoopKeeperTest : public ::testing::Test {
         return path;
     }
     void keep(const fs::path& program) {
-        keeper_ = std::make_unique<LoopKeeper>(
+        keeper_ = std::make_unique<LoopSupervisor>(
             "/the/cache", [this] { ++wakes_; }, program);
     }
     bool wait_for(const std::function<bool()>& seen) {
@@ -60,7 +60,7 @@ class LoopKeeperTest : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     std::atomic<int> wakes_ = 0;
     std::vector<LoopState> states_;
-    std::unique_ptr<LoopKeeper> keeper_;
+    std::unique_ptr<LoopSupervisor> keeper_;
 };
 
 constexpr const char* for_ever = "while true; do sleep 0.05; done\n";
@@ -192,7 +192,7 @@ TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
 // Told of news in the middle of its turn, it is held there.
 TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
     std::atomic<bool> hangs = true;
-    keeper_ = std::make_unique<LoopKeeper>(
+    keeper_ = std::make_unique<LoopSupervisor>(
         "/the/cache",
         [&] {
             while (hangs)

@@ -1,4 +1,4 @@
-#include "pipeline/ingest/living_files.h"
+#include "pipeline/ingest/followed_files.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,42 +10,42 @@ constexpr std::chrono::minutes farthest_ahead{10};  // of a clock that is fast
 
 }  // namespace
 
-std::shared_ptr<LivingFile> LivingFiles::find(const std::filesystem::path& path) const {
+std::shared_ptr<FollowedFile> FollowedFiles::find(const std::filesystem::path& path) const {
     const std::scoped_lock lock(mutex_);
     return files_.find(path);
 }
 
-std::shared_ptr<LivingFile> LivingFiles::begin(const std::filesystem::path& path,
-                                               const std::string& fallback_station,
-                                               const std::string& station) {
+std::shared_ptr<FollowedFile> FollowedFiles::begin(const std::filesystem::path& path,
+                                                   const std::string& fallback_station,
+                                                   const std::string& station) {
     {
         const std::scoped_lock lock(mutex_);
         if (files_.was_given_up(path) || !files_.make_place(station)) return nullptr;
     }
-    LivingFile::Options options = options_;
+    FollowedFile::Options options = options_;
     options.fallback_station = fallback_station;
-    auto begun = LivingFile::begin(path, options);
+    auto begun = FollowedFile::begin(path, options);
     if (!begun) return nullptr;
-    std::shared_ptr<LivingFile> file = std::move(*begun);
+    std::shared_ptr<FollowedFile> file = std::move(*begun);
     const std::scoped_lock lock(mutex_);
     files_.add(path, file, station);
     return file;
 }
 
-bool LivingFiles::grew(const std::filesystem::path& path, const LivingFile& file,
-                       const std::string& station) {
+bool FollowedFiles::grew(const std::filesystem::path& path, const FollowedFile& file,
+                         const std::string& station) {
     const std::scoped_lock lock(mutex_);
     const bool stands = files_.grew(path, &file, station, file.growth());
     drop_last_beyond_limits();
     return stands;
 }
 
-void LivingFiles::give_up(const std::filesystem::path& path) {
+void FollowedFiles::give_up(const std::filesystem::path& path) {
     const std::scoped_lock lock(mutex_);
     files_.give_up(path);
 }
 
-void LivingFiles::drop_last_beyond_limits() {
+void FollowedFiles::drop_last_beyond_limits() {
     std::uint64_t shelf = files_.shelf_bytes();
     for (const auto& [station, volume] : last_)
         shelf += volume->shelf->bytes();
@@ -60,17 +60,17 @@ void LivingFiles::drop_last_beyond_limits() {
     }
 }
 
-std::uint64_t LivingFiles::take_given_up() {
+std::uint64_t FollowedFiles::take_given_up() {
     const std::scoped_lock lock(mutex_);
     return files_.take_given_up();
 }
 
-void LivingFiles::forget(const std::filesystem::path& path) {
+void FollowedFiles::forget(const std::filesystem::path& path) {
     const std::scoped_lock lock(mutex_);
     files_.forget(path);
 }
 
-void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {
+void FollowedFiles::keep_last(std::shared_ptr<const ShelvedVolume> volume) {
     if (!volume || volume->facts.station.empty()) return;
     // Nothing would take the place of what claims to be of the future.
     if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
@@ -81,18 +81,18 @@ void LivingFiles::keep_last(std::shared_ptr<const KeptVolume> volume) {
     drop_last_beyond_limits();
 }
 
-std::shared_ptr<const KeptVolume> LivingFiles::last_of(const std::string& station) const {
+std::shared_ptr<const ShelvedVolume> FollowedFiles::last_of(const std::string& station) const {
     const std::scoped_lock lock(mutex_);
     const auto at = last_.find(station);
     return at == last_.end() ? nullptr : at->second;
 }
 
-std::size_t LivingFiles::count() const {
+std::size_t FollowedFiles::count() const {
     const std::scoped_lock lock(mutex_);
     return files_.count();
 }
 
-std::uint64_t LivingFiles::held_bytes() const {
+std::uint64_t FollowedFiles::held_bytes() const {
     const std::scoped_lock lock(mutex_);
     return files_.held_bytes();
 }

@@ -1,4 +1,4 @@
-// cli/picture/kept_frames.h -- pictures that were drawn for a followed loop and will be wanted
+// cli/picture/drawn_frames.h -- pictures that were drawn for a followed loop and will be wanted
 // again.
 //
 // When one grid comes, all frames but one of the next loop are those of the last. A frame is known
@@ -20,11 +20,11 @@
 
 namespace stormcellar::cli {
 
-class KeptFrames {
+class DrawnFrames {
   public:
     static constexpr std::size_t default_limit = std::size_t{512} << 20U;  // bytes of pixels
 
-    explicit KeptFrames(std::size_t limit_bytes = default_limit) : limit_(limit_bytes) {}
+    explicit DrawnFrames(std::size_t limit_bytes = default_limit) : limit_(limit_bytes) {}
 
     using Draw = std::function<Result<render::Image>()>;
     // The picture of the grid's file, drawn if there is none of it yet, and kept as far as there is

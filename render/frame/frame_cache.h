@@ -1,17 +1,17 @@
-// render/frame/frame_keeper.h -- what the frames of a loop need once.
+// render/frame/frame_cache.h -- what the frames of a loop need once.
 //
 // The pixels are the same with it or without. Thread contract: one thread at a time.
 #pragma once
 
 #include "render/map/map_layer.h"
 #include "render/volume/slicer.h"
-#include "render/volume/transfer_keeper.h"
+#include "render/volume/transfer_cache.h"
 
 namespace stormcellar::render {
 
-struct FrameKeeper {
-    MapKeeper map;
-    TransferKeeper transfer;
+struct FrameCache {
+    MapCache map;
+    TransferCache transfer;
     SlicerRoom room;
 };
 

@@ -1,4 +1,4 @@
-#include "daemon/loops/loop_keeper.h"
+#include "daemon/loops/loop_supervisor.h"
 
 #include <algorithm>
 #include <csignal>
@@ -31,16 +31,16 @@ FileStamp stamp_of_scene(const std::filesystem::path& scene) {
 
 }  // namespace
 
-LoopKeeper::LoopKeeper(std::filesystem::path cache, std::function<void()> wake,
-                       std::filesystem::path program)
+LoopSupervisor::LoopSupervisor(std::filesystem::path cache, std::function<void()> wake,
+                               std::filesystem::path program)
     : cache_(std::move(cache)), wake_(std::move(wake)), program_(std::move(program)) {}
 
-LoopKeeper::~LoopKeeper() {
+LoopSupervisor::~LoopSupervisor() {
     stop();
     wait();
 }
 
-void LoopKeeper::set(std::vector<LoopConfig> loops) {
+void LoopSupervisor::set(std::vector<LoopConfig> loops) {
     if (loops.empty() && !thread_.joinable()) return;
     {
         const std::scoped_lock lock(mutex_);
@@ -55,22 +55,22 @@ void LoopKeeper::set(std::vector<LoopConfig> loops) {
     }
 }
 
-void LoopKeeper::stop() {
+void LoopSupervisor::stop() {
     stopping_ = true;
     wake_up_.set();
 }
 
-void LoopKeeper::wait() {
+void LoopSupervisor::wait() {
     if (thread_.joinable()) thread_.join();
 }
 
-std::optional<std::vector<LoopState>> LoopKeeper::news() {
+std::optional<std::vector<LoopState>> LoopSupervisor::news() {
     const std::scoped_lock lock(mutex_);
     if (!std::exchange(is_news_, false)) return std::nullopt;
     return states_;
 }
 
-void LoopKeeper::run() {
+void LoopSupervisor::run() {
     while (true) {
         const SteadyTime now = std::chrono::steady_clock::now();
         pulse_.beat(now);
@@ -93,7 +93,7 @@ void LoopKeeper::run() {
     pulse_.rest();
 }
 
-void LoopKeeper::take_wanted() {
+void LoopSupervisor::take_wanted() {
     std::optional<std::vector<LoopConfig>> loops;
     {
         const std::scoped_lock lock(mutex_);
@@ -121,7 +121,7 @@ void LoopKeeper::take_wanted() {
     }
 }
 
-void LoopKeeper::dismiss(Slot& slot, SteadyTime now) {
+void LoopSupervisor::dismiss(Slot& slot, SteadyTime now) {
     if (slot.is_leaving) return;
     slot.is_leaving = true;
     if (!slot.child) return;
@@ -129,7 +129,7 @@ void LoopKeeper::dismiss(Slot& slot, SteadyTime now) {
     slot.kill_at = now + time_to_end;
 }
 
-void LoopKeeper::start_due(SteadyTime now) {
+void LoopSupervisor::start_due(SteadyTime now) {
     for (Slot& slot : slots_) {
         if (slot.child || slot.is_leaving || now < slot.not_before) continue;
         // Not beside the one that it follows.
@@ -140,7 +140,7 @@ void LoopKeeper::start_due(SteadyTime now) {
     }
 }
 
-void LoopKeeper::start(Slot& slot, SteadyTime now) {
+void LoopSupervisor::start(Slot& slot, SteadyTime now) {
     const std::filesystem::path program = program_.empty() ? find_program("stormcellar") : program_;
     Result<Child> child = fail(ErrorCode::not_found,
                                "no program stormcellar, neither beside "
@@ -165,7 +165,7 @@ void LoopKeeper::start(Slot& slot, SteadyTime now) {
              "loop {}: started, process {}", slot.state.name, slot.child->id());
 }
 
-void LoopKeeper::listen(Slot& slot, SteadyTime now) {
+void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
     if (!slot.child) return;
     if (slot.kill_at && now >= *slot.kill_at) {
         slot.child->signal(SIGKILL);
@@ -180,7 +180,7 @@ void LoopKeeper::listen(Slot& slot, SteadyTime now) {
 }
 
 // One document a loop that was made.
-void LoopKeeper::note_made(Slot& slot, const std::string& line) {
+void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
     const auto document = nlohmann::json::parse(line, nullptr, false);
     if (!document.is_object()) return;
     const auto number = [&](const char* key) {
@@ -197,7 +197,7 @@ void LoopKeeper::note_made(Slot& slot, const std::string& line) {
              counted(static_cast<std::uint64_t>(slot.state.frames), "frame"), took_s);
 }
 
-void LoopKeeper::note_line(Slot& slot, const std::string& line) {
+void LoopSupervisor::note_line(Slot& slot, const std::string& line) {
     constexpr std::string_view speaker = "stormcellar: ";
     slot.last_line = printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
     const bool is_note = slot.last_line.starts_with("note: ");
@@ -206,7 +206,7 @@ void LoopKeeper::note_line(Slot& slot, const std::string& line) {
              fmt::format("loop {}: {}", slot.state.name, slot.last_line));
 }
 
-void LoopKeeper::note_end(Slot& slot, const std::string& how, SteadyTime now) {
+void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now) {
     slot.child.reset();
     slot.kill_at.reset();
     slot.state.is_running = false;
@@ -226,12 +226,12 @@ void LoopKeeper::note_end(Slot& slot, const std::string& how, SteadyTime now) {
               Schedule::retry_delay(slot.failures).count());
 }
 
-void LoopKeeper::delay(Slot& slot, SteadyTime now) {
+void LoopSupervisor::delay(Slot& slot, SteadyTime now) {
     ++slot.failures;
     slot.not_before = now + Schedule::retry_delay(slot.failures);
 }
 
-void LoopKeeper::sleep(SteadyTime now) {
+void LoopSupervisor::sleep(SteadyTime now) {
     SteadyTime until = now + longest_rest;
     std::vector<pollfd> sources{{wake_up_.descriptor(), POLLIN, 0}};
     for (const Slot& slot : slots_) {
@@ -251,7 +251,7 @@ void LoopKeeper::sleep(SteadyTime now) {
            static_cast<int>(std::max<std::int64_t>(0, left.count())));
 }
 
-void LoopKeeper::publish() {
+void LoopSupervisor::publish() {
     std::vector<LoopState> states;
     for (const Slot& slot : slots_) {
         if (!slot.is_leaving) states.push_back(slot.state);
