@@ -23,19 +23,20 @@ bool is_tdwr(const SitePosition& site) {
     return beam_width_of(site.icao) < 0.9;
 }
 
-// The ends of the code range take what lies beyond them.
+// Returns the nearest code; a value beyond the range of codes takes its end.
 std::uint16_t nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    // To the nearest whole number, of halves to the even one: what lies above 2^52 has no fraction.
+    // Adding 2^52 rounds to the nearest whole number (halves to the even one), because numbers
+    // above 2^52 have no fraction.
     constexpr double no_fraction = 0x1.8p52;
     const double code = steps + no_fraction - no_fraction + first_value_code;
     return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
                                                  static_cast<double>(quantization.largest_code())));
 }
 
-// Two ends of which none has a value anywhere: what both say, or what the one says that sees.
+// Joins two ends without any value: the state of both, or that of the end that sees.
 std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
     if (a == b || b == CellStatus::not_seen) return a;
     if (a == CellStatus::not_seen) return b;
@@ -108,7 +109,7 @@ void InstantBrick::read_times(std::size_t end) {
     }
 }
 
-// Of the brick at this height.
+// Finds the times of the cells of the brick at this height.
 void InstantBrick::take_times(std::size_t end, int bz) {
     Source& source = sources_[end];
     source.seconds.fill(static_cast<float>(maker_.ends_[end].middle_s));
@@ -122,7 +123,7 @@ void InstantBrick::take_times(std::size_t end, int bz) {
     }
 }
 
-// The columns that any cell of the brick may be made of.
+// Finds the columns from which any cell of the brick may be made.
 void InstantBrick::find_box(std::size_t end) {
     const GridSpec& spec = maker_.geometry_->spec();
     Source& source = sources_[end];
@@ -158,7 +159,7 @@ Sample InstantBrick::sample_of(std::uint16_t code) const {
     return {CellStatus::value, maker_.ends_[0].timed.view.quantization.value_of(code), 0, 0};
 }
 
-// What no echo stands for in a mixture with echo.
+// Adds the detection limit, which no echo stands for when it is mixed with echo.
 Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     const bool counts =
         sample.status == CellStatus::no_echo && maker_.blending_ == Blending::with_detection_limit;
@@ -174,7 +175,7 @@ Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     return sample;
 }
 
-// Of four columns about a place.
+// Mixes four columns around a place.
 Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t cell) {
     const std::size_t z = cell % brick_edge;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
@@ -210,7 +211,8 @@ Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     return mix(source, x, y, cell);
 }
 
-// Linear from one end's time to the other's; the instant is at 0.
+// Returns the weight of the later end. It is linear between the times of the two ends; the instant
+// is at 0.
 float InstantBrick::weight_of_after(std::size_t cell) const {
     const float before = sources_[0].seconds[cell], after = sources_[1].seconds[cell];
     if (!(after > before)) return 0.5F;

@@ -16,7 +16,7 @@ namespace {
 constexpr float least_power = -99.6578428F;  // 1e-30
 constexpr std::size_t state_block_bytes = brick_cells / 4;
 
-// All bricks with the same bx, by one thread.
+// Fills all bricks with the same bx, in one thread.
 template <class Code>
 class Slab {
   public:
@@ -101,8 +101,8 @@ class Slab {
         if (weights_) weights_->put_codes(to, counted.weights.data(), extent);
     }
 
-    // What needs no weights, by every rule alike: one site alone, and sites none of which has a
-    // value or a folded cell, where no echo is what any of them sees.
+    // Merges bricks that need no weights, whatever the rule: one site alone; and sites without a
+    // value or a folded cell, where a cell is no echo if any of them sees no echo.
     bool merge_by_rule_of_thumb(std::size_t to, const BrickExtent& extent) {
         if (layers_.size() == 1) {
             cells_.copy(to, *layers_[0].view, layers_[0].brick);
@@ -110,7 +110,7 @@ class Slab {
         }
         bool any_stored = false;
         bool any_folded = false;
-        bool all_no_echo = false;  // by one site
+        bool all_no_echo = false;  // one site sees no echo everywhere
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
             const bool uniform = entry.kind == BrickKind::uniform;
@@ -140,7 +140,7 @@ class Slab {
         return true;
     }
 
-    // Distances and weights of the layers, once for all bricks above each other.
+    // Computes distances and weights of the layers, once for all bricks above each other.
     void measure(int by) {
         const bool by_distance = work_.options.overlap == Overlap::distance_weighted;
         const auto log2_per_m2 = static_cast<float>(
@@ -170,13 +170,13 @@ class Slab {
     std::optional<BricksWriter> counts_, weights_;
     BrickMerger<Code> merger_;
     std::vector<const PlacedSite*> here_;
-    std::vector<LayerColumns> columns_;  // of those here
+    std::vector<LayerColumns> columns_;  // for the sites of this column of bricks
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
-    std::vector<std::size_t> layer_sites_;  // among those here
+    std::vector<std::size_t> layer_sites_;  // index among these sites
 };
 
-// What the writers of all slabs hold, in the order of its bricks.
+// Puts together what the writers of all slabs hold, in the order of the bricks.
 template <class Code, class Pick>
 std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
@@ -186,7 +186,8 @@ std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& sla
     return writers;
 }
 
-// Each grid of the mosaic takes over what the writers hold by finish(grid, writers).
+// Calls finish(grid, writers) for each grid of the mosaic, so that it takes over what the writers
+// hold.
 template <class Code, class Finish>
 void fill(const MosaicWork& work, Finish finish) {
     const int count = work.made.cells.view().bricks_x;
