@@ -12,12 +12,13 @@ namespace {
 
 using level2::Moment;
 
-// Values below the table's first class, 0, do not exist.
+// For these moments there are no values below 0, where the first class begins.
 bool is_never_negative(Moment moment) {
     return moment == Moment::sw || moment == Moment::phi || moment == Moment::cfp;
 }
 
-// "no echo and < 5 dBZ" of a table that begins there; "no echo" of one that takes all values.
+// Returns "no echo and < 5 dBZ" for a table that begins there; "no echo" for one that takes all
+// values.
 std::string clear_words(const Scene& scene, std::string_view between) {
     const ColourTable& table = colours_of(scene);
     const bool takes_all =

@@ -1,6 +1,7 @@
-// render/products/product.h -- a scene's 2D product: its numbers, and what its picture says of it.
+// render/products/product.h -- the 2D product of a scene: its numbers, and what its picture says
+// about it.
 //
-// Thread contract: pure functions.
+// Threads   Pure functions.
 #pragma once
 
 #include <string>
@@ -15,13 +16,14 @@
 
 namespace stormcellar::render {
 
-// Of a map (is_map(scene.product)); the scene must be valid. bad_argument as the products.
+// Computes the product of a map (is_map(scene.product)). The scene must be valid. Errors:
+// bad_argument, as for each product.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);
 
-// "Reflectivity", "Correlation coefficient".
+// Returns a title such as "Reflectivity" or "Correlation coefficient".
 [[nodiscard]] std::string moment_title(level2::Moment moment);
-// "Composite reflectivity (column maximum)".
+// Returns a title such as "Composite reflectivity (column maximum)".
 [[nodiscard]] std::string product_title(const Scene& scene);
 
 }  // namespace stormcellar::render

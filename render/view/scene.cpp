@@ -22,7 +22,7 @@ constexpr std::array<Named, 8> products = {{{Product::volume, "volume"},
                                             {Product::lowest_seen, "lowest-seen"},
                                             {Product::highest_seen, "highest-seen"}}};
 
-// NaN is outside every range.
+// Checks a range; NaN is outside every range.
 Status check_range(std::string_view what, double value, double low, double high) {
     if (is_within(value, low, high)) return {};
     return fail(ErrorCode::bad_argument, "{} must be {} to {}, not {}", what, low, high, value);

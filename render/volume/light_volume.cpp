@@ -11,12 +11,12 @@ namespace {
 
 constexpr double to_radians = std::numbers::pi / 180;
 constexpr double sky_elevation_deg = 35;
-constexpr int sky_directions = 9;  // the zenith and eight round it
-// Shares of the sky's light and of the sun's.
+constexpr int sky_directions = 9;  // the zenith and eight directions around it
+// The shares of the light from the sky and from the sun.
 constexpr float sky_share = 0.45F;
 constexpr float scattered_sky_share = 0.35F;
-constexpr double forward_g = 0.4;    // of the phase function
-constexpr double least_phase = 0.4;  // what is left of the sun's share at its weakest
+constexpr double forward_g = 0.4;    // parameter of the phase function
+constexpr double least_phase = 0.4;  // what is left of the sun's share where the phase is weakest
 
 Vec3 direction(double azimuth_deg, double elevation_deg) {
     const double azimuth = azimuth_deg * to_radians;
@@ -25,7 +25,7 @@ Vec3 direction(double azimuth_deg, double elevation_deg) {
             std::sin(elevation)};
 }
 
-// 1 where one looks straight into the sun.
+// Returns the phase function relative to its value straight into the sun.
 double relative_phase(double cosine) {
     const double g2 = forward_g * forward_g;
     const double phase = std::pow(1 + g2 - 2 * forward_g * cosine, -1.5);
@@ -84,7 +84,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
     }
 }
 
-// The mean over the coarse cell's cells, those without a value and beyond the grid's edge as none.
+// Averages the extinction over the cells of each coarse cell. Cells without a value and beyond the
+// edge of the grid count as 0.
 void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunction& transfer,
                                  double step_m) {
     const grid::GridSpec& spec = *view.spec;
@@ -118,10 +119,10 @@ void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunc
     }
 }
 
-// From the side where the light comes in, plane by plane along the axis with the most planes a
-// metre of the way; beyond the grid is clear.
+// Computes the transmittance from the side where the light comes in, plane by plane along the axis
+// with the most planes for each meter of the way. Beyond the grid the air is clear.
 std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
-    Vec3 rate{};  // coarse cells a metre
+    Vec3 rate{};  // in coarse cells for each meter
     for (std::size_t axis = 0; axis < 3; ++axis)
         rate[axis] = towards[axis] / widths_m_[axis];
     std::size_t main = 0;
@@ -144,7 +145,7 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
-    // Light that has passed the cell of the plane before; 1 beyond the grid.
+    // Returns the light that has passed the cell of the plane before; 1 beyond the grid.
     const auto passed = [&](int plane, int iu, int iv) {
         if (iu < 0 || iv < 0 || iu >= sizes_[u] || iv >= sizes_[v]) return 1.0F;
         const std::size_t cell = place(plane, iu, iv);

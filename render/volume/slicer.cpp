@@ -12,7 +12,7 @@
 namespace stormcellar::render {
 namespace {
 
-// The widest stride that leaves no cell between the first rays.
+// Returns the widest stride that leaves no cell between the first rays.
 PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry, double tolerance) {
     PixelSteps steps;
     if (!(tolerance > 0)) return steps;
@@ -39,8 +39,8 @@ double VolumeSlicer::step_m() const {
     return (geometry_.far_m() - geometry_.near_m()) / options_.slices;
 }
 
-// Surfaces are steep where values change by 4 steps of their codes a kilometre of drawn space: 2
-// dB.
+// Prepares the light. A surface is steep if values change by 4 steps of their codes (2 dB) for each
+// kilometer of drawn space.
 PacketLight VolumeSlicer::light_of(const grid::GridSpec& spec) const {
     PacketLight light;
     light.gradient = options_.light.gradient;
@@ -70,7 +70,7 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    // Where the picture is interpolated between rays, about every second one is cast.
+    // Where the picture is interpolated between rays, about half of the rays are cast.
     const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
     room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads,
                       all_rays ? small_tile_edge : tile_edge);
