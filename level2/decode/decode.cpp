@@ -24,8 +24,8 @@ namespace {
 
 constexpr int most_layers = 4;  // gzip around bzip2 around gzip ...
 
-// What comes out of a compressed layer: messages, read at once, or something to peel further, which
-// is held until it is whole.
+// The output of a compressed layer: either messages, which are read at once, or something to peel
+// further, which is held until it is complete.
 struct LayerOutput {
     LayerOutput(std::uint64_t limit_bytes, const Selection& selection)
         : room(limit_bytes), builder(room, rows_of_a_stretch, selection) {}
@@ -38,7 +38,7 @@ struct LayerOutput {
     bool messages = false;
 };
 
-// One decode, from the outermost layer inwards.
+// One decode, from the outermost layer inward.
 class Decoder {
   public:
     explicit Decoder(const DecodeOptions& options) : options_(options) {}
@@ -48,9 +48,10 @@ class Decoder {
     Result<Decoded> run(std::span<const std::byte> bytes);
 
   private:
-    // Each gives an error only where nothing can be kept: limits, and content of another kind.
+    // These return an error only if nothing can be kept: for limits, and for content of another
+    // kind.
     Status read_layer(std::span<const std::byte> bytes, int depth);
-    // Everything that a stream of pieces gives.
+    // Reads everything that a stream of pieces gives.
     template <class Stream>
     Status take_all(Stream& stream, LayerOutput& output);
     Status read_gzip(std::span<const std::byte> bytes, int depth);
@@ -110,7 +111,7 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
             break;
     }
     if (read_archive_header(bytes)) {
-        // Too short to know what it begins.
+        // The bytes are too few to know what they begin.
         if (bytes.size() < archive_header_bytes + message_header_bytes) {
             return fail(ErrorCode::truncated, "holds a volume header and next to nothing else");
         }
@@ -175,7 +176,8 @@ Status Decoder::take_all(Stream& stream, LayerOutput& output) {
     }
 }
 
-// A damaged container: the stream of messages is wrong from where the reader is, or ends there.
+// Reports a damaged container: the stream of messages is wrong from the reader's place on, or ends
+// there.
 void Decoder::report_container(const LayerOutput& output, Severity severity, std::string_view code,
                                std::string message, std::uint64_t position) {
     DecodeReport& report = builder_.report_data();
@@ -264,8 +266,8 @@ Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     return end_output(output, depth);
 }
 
-// Decodes the parts that the source gives, in their order. False when `check` says no to one; of
-// the builder, only the time spent is then of use.
+// Decodes the parts that the source gives, in order. Returns false if `check` rejects one; then the
+// builder is useless except for the time that it has spent.
 Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
                                  const std::function<bool(const Fragment&)>& check) {
     RecordQueue queue{source, options_.threads, options_.output_limit_bytes, options_.selection};
@@ -292,8 +294,8 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
                 plan->report(builder_.report_data());
                 return {};
             }
-            // The file is not as its pattern says: nothing is skipped. The time is spent all the
-            // same.
+            // The file does not follow its pattern, so nothing is skipped. The time that was spent
+            // still counts.
             const double spent_s = builder_.report_data().decompress_s;
             builder_ = before;
             builder_.report_data().decompress_s = spent_s;

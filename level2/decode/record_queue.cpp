@@ -26,7 +26,7 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
         for (int i = 1; i < threads; ++i)
             workers_.emplace_back(&RecordQueue::run, this);
     } catch (const std::system_error&) {
-        // The system has no more threads: those there are do the work.
+        // The system has no more threads, so those that exist do the work.
     } catch (const std::bad_alloc&) {
         // The same.
     }
@@ -64,7 +64,8 @@ bool RecordQueue::has_turn(const Slot& slot) const {
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
-        if (slot.state != State::waiting) continue;  // who works on it may say that it is large
+        // the thread that works on it may find that it is large
+        if (slot.state != State::waiting) continue;
         const bool is_head = who == Who::caller && has_turn(slot);
         if (is_head || !(slot.large || alone_)) return &slot;
     }
@@ -77,13 +78,13 @@ std::uint64_t RecordQueue::wait_for_turn(const Slot& slot) {
     return stopping_ ? 0 : std::max<std::uint64_t>(*turn_bytes_, 1);
 }
 
-// The functions hold two pointers, so that none of them takes memory.
+// Each function holds two pointers, so that none of them allocates memory.
 ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
     if (has_turn(slot)) return ArrayRoom{*turn_bytes_};
     if (who == Who::worker && may_wait_) {
         return ArrayRoom{share_bytes_, [this, &slot] { return wait_for_turn(slot); }};
     }
-    // The caller never waits, since it is the one who takes the head.
+    // The caller never waits, because the caller is the one who takes the head.
     return ArrayRoom{share_bytes_, [&slot] {
                          slot.large = true;
                          return std::uint64_t{0};
@@ -116,7 +117,8 @@ void RecordQueue::run() {
     }
 }
 
-// With the room that there is, and not with that of one decoded ahead.
+// Decodes the head with all the room that there is, and not with the share of a record that is
+// decoded ahead.
 void RecordQueue::decode_alone(Slot& head, std::unique_lock<std::mutex>& lock) {
     changed_.wait(lock, [&] { return head.state != State::working; });
     head.fragment = {};
