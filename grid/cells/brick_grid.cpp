@@ -264,8 +264,8 @@ void BrickGrid::finish_again(std::span<BricksWriter> writers) {
     blocks.reserve(count);
     for (const BricksWriter& writer : writers) {
         for (std::size_t i = 0; i < writer.bricks_with_states_.size(); ++i) {
-            // Until all blocks are put in order, the numbers after those of the old blocks stand for
-            // the new blocks.
+            // Until all blocks are put in order, the numbers after those of the old blocks stand
+            // for the new blocks.
             bricks_[writer.bricks_with_states_[i]].status_index =
                 static_cast<std::uint32_t>(before.size() / state_block_bytes + blocks.size());
             blocks.push_back(writer.states_.data() + i * state_block_bytes);
