@@ -1,4 +1,4 @@
-// base/steady_time.h -- instants of the monotonic clock, which nobody sets.
+// base/steady_time.h -- instants of the monotonic clock, which nobody can set.
 #pragma once
 
 #include <chrono>
