@@ -1,8 +1,8 @@
 // synth/beam_quadrature.h -- the directions in which a beam of finite width is sampled.
 //
 // Units     Degrees, meters.
-// Pattern   Gaussian, both ways: exp(-8 ln 2 (d / width)^2) at an angle d off the axis. The width is
-//           that of half power one way, so the deviation is s = width / (4 sqrt(ln 2)), 0.3003
+// Pattern   Gaussian, both ways: exp(-8 ln 2 (d / width)^2) at an angle d off the axis. The width
+//           is that of half power one way, so the deviation is s = width / (4 sqrt(ln 2)), 0.3003
 //           widths. The pattern ends at 4 s; side lobes are left out. Meanwhile the antenna turns
 //           by the radial's spacing D. So in azimuth the pattern is the mean of Gaussians between
 //           -D/2 and D/2,
