@@ -89,6 +89,7 @@ InstantBrick::InstantBrick(const InstantMaker& maker, int bx, int by)
         read_times(end);
 }
 
+// Reads the time of each cell, for the columns of the brick at all heights.
 void InstantBrick::read_times(std::size_t end) {
     const InstantMaker::End& from = maker_.ends_[end];
     if (!from.clock) return;
@@ -135,6 +136,8 @@ void InstantBrick::find_box(std::size_t end) {
     if (source.is_still) return;
     float west = static_cast<float>(x1), east = static_cast<float>(x0);
     float south = static_cast<float>(y1), north = static_cast<float>(y0);
+    // The motion of a column is the same at all heights, and a cell is moved by motion times
+    // seconds. So the extremes over the brick are at the earliest and the latest time of its cells.
     const auto [early, late] = std::minmax_element(source.seconds.begin(), source.seconds.end());
     for (const float seconds : {*early, *late}) {
         for (int x = x0; x <= x1; ++x) {
@@ -181,6 +184,7 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const auto code = [&](int ix, int iy) { return source.codes.column(ix, iy)[z]; };
+    // A moment that wraps is not mixed: the nearest column gives the cell.
     if (is_circular(maker_.blending_)) {
         return sample_of(code(x0 + (fx >= 0.5F ? 1 : 0), y0 + (fy >= 0.5F ? 1 : 0)));
     }
@@ -199,6 +203,8 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     return {mixed.status, mixed.value, 0, 0};
 }
 
+// Returns what one end has for a cell: the cell itself, or the place from which the echo has moved
+// there.
 Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     const Source& source = sources_[end];
     const std::size_t column = cell / brick_edge;
@@ -242,6 +248,8 @@ void InstantBrick::write(int bz, BricksWriter& writer) {
     writer.put_codes(index, bytes.data(), extent);
 }
 
+// Makes the codes of the brick at this height. If all cells that may contribute have one state at
+// each end, the state of the brick is known without looking at any cell.
 std::optional<CellStatus> InstantBrick::make(int bz) {
     bz_ = bz;
     const std::size_t ends = maker_.ends_.size();
@@ -264,6 +272,8 @@ std::optional<CellStatus> InstantBrick::make(int bz) {
     return std::nullopt;
 }
 
+// Mixes the two ends cell by cell. If both have the same state, or one has not seen the cell, no
+// mixing is needed.
 void InstantBrick::fill() {
     codes_.fill(0);
     limits_.fill(std::numeric_limits<float>::quiet_NaN());

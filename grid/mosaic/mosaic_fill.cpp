@@ -58,6 +58,8 @@ class Slab {
         }
     }
 
+    // Merges all bricks above each other. Only the sites whose windows cover this column of bricks
+    // matter, and their distances are computed once for all of these bricks.
     void merge_column(int by) {
         here_.clear();
         for (const PlacedSite& site : work_.sites) {
@@ -70,6 +72,8 @@ class Slab {
             merge_brick(by, bz);
     }
 
+    // Merges one brick. A site that sees nothing in it is left out; if no site is left, the brick
+    // stays not seen.
     void merge_brick(int by, int bz) {
         layers_.clear();
         layer_sites_.clear();
@@ -119,6 +123,8 @@ class Slab {
             all_no_echo |= uniform && entry.uniform_status == CellStatus::no_echo;
         }
         if (any_stored || any_folded) return false;
+        // All cells have states only. A state is a number of two bits; without range folded, "or"
+        // over the sites gives no echo if any site sees no echo, else not seen.
         std::array<std::byte, state_block_bytes> any{};
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
@@ -156,6 +162,8 @@ class Slab {
                 columns.weights.fill(1);
                 continue;
             }
+            // The weight exp(-r^2 / L^2) is computed as a power of two, which fast_exp2()
+            // vectorizes.
             for (std::size_t c = 0; c < brick_columns; ++c) {
                 const float power = columns.squared_arcs_m2[c] * log2_per_m2;
                 columns.weights[c] = fast_exp2(std::max(power, least_power));

@@ -86,6 +86,8 @@ Status Decoder::flush(LayerOutput& output) {
     return taken;
 }
 
+// Peels one layer. What it holds is found by content; a compressed layer is read by this function
+// again.
 Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     if (depth == most_layers) {
         return fail(ErrorCode::unsupported, "more than {} layers of compression", most_layers - 1);
@@ -131,6 +133,8 @@ Status Decoder::read_messages(std::span<const std::byte> bytes) {
     return flush(output);
 }
 
+// Takes a piece of the output of a compressed layer. The first piece decides: messages are read at
+// once, piece by piece, and anything else is another layer, which is collected first.
 Status Decoder::take_output(LayerOutput& output, std::span<const std::byte> piece) {
     if (Status counted = builder_.count_output(piece.size()); !counted) return counted;
     if (std::exchange(output.first, false)) {
@@ -234,6 +238,8 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
     }
 }
 
+// A file that is compressed as a whole by bzip2 is read block by block, because each block has a
+// checksum of its own. After a damaged block, the reader must search for the next message.
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     bunzip::Workspace workspace;
     BzipBlocks blocks{bytes, workspace};
@@ -281,6 +287,9 @@ Result<bool> Decoder::read_parts(const RecordQueue::Source& source,
     return true;
 }
 
+// Reads a file of LDM records. If only some cuts are selected, it first tries a plan that skips the
+// records of the others; the plan works on a copy of the builder's state, which is restored if the
+// file does not follow it.
 Status Decoder::read_ldm(std::span<const std::byte> bytes) {
     builder_.report_data().ldm_records = 0;
     builder_.report_data().negative_control_words = 0;

@@ -58,6 +58,8 @@ std::size_t longest(int type) {
 
 }  // namespace
 
+// Reads message by message. At the end of a block no message goes on, so open damage ends there and
+// the next block begins in step.
 std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     std::size_t at = 0;
     while (at < data.size() && !full()) {
@@ -73,6 +75,9 @@ std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     return full() ? data.size() : at;
 }
 
+// Takes one step at the start of `rest`: a volume header, a fill frame, or a message. If none of
+// these can begin here, the reader searches for the next message. It needs enough bytes to decide,
+// and waits for more unless these are the last.
 std::size_t MessageReader::step(std::span<const std::byte> rest, bool last) {
     if (!last && rest.size() < frame_bytes + sure_message_bytes) return 0;
     if (!in_sync_) return resynchronise(rest, 0, last, "bytes of the message stream are missing");
@@ -113,6 +118,8 @@ std::size_t MessageReader::read_fill(std::span<const std::byte> rest, bool last)
     return frame.size();
 }
 
+// Reads a message whose header looks possible. The question is whether the message really ends
+// where its header says.
 std::size_t MessageReader::read_message(const MessageHeader& header,
                                         std::span<const std::byte> rest, bool last) {
     const std::size_t length = header.length_bytes();
@@ -124,6 +131,8 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
     }
     if (!last && rest.size() < length + sure_message_bytes) return 0;
     const auto message = rest.first(length);
+    // A firm message is a radial that agrees with its length, followed by a sure successor. Nearly
+    // all messages are firm, and nothing more is checked.
     const bool firm = is_firm_radial(header, message) &&
                       surely_follows(rest.subspan(length), last, is_radial(header));
     if (!firm) {
@@ -140,6 +149,9 @@ std::size_t MessageReader::read_message(const MessageHeader& header,
             return resynchronise(rest, *next, last, {});
         }
     }
+    // The message lost nothing, since no other begins inside it. It is framed if what follows is at
+    // least plausible. An unframed message must at least have a plausible header; its content is
+    // then read more strictly.
     const bool framed = firm || ((!is_radial(header) || places_its_gates(header, message)) &&
                                  plausibly_follows(rest.subspan(length), last));
     if (!framed && !is_plausible(header)) {
@@ -187,6 +199,7 @@ void MessageReader::close_damage() {
     open_damage_.reset();
 }
 
+// Reads the content of a message by its type.
 void MessageReader::take(const MessageHeader& header, std::span<const std::byte> message,
                          Framing framing, bool firm) {
     if (is_radial(header)) {
@@ -270,6 +283,8 @@ void MessageReader::note_oddities(const MessageHeader& header, std::span<const s
         builder_.report().refuse("lost_moment", lost.reason, offset_, lost.bytes);
 }
 
+// Reads a radial: expands it if it is compressed, reads its blocks, notes what is odd about it, and
+// hands it to the builder.
 void MessageReader::take_radial(const MessageHeader& header, std::span<const std::byte> message,
                                 Framing framing, bool firm) {
     auto body = message.subspan(message_header_bytes);

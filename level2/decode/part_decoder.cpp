@@ -44,6 +44,9 @@ double thread_cpu_s() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// Decompresses a record in pieces and reads its messages as they come. The buffer holds only what
+// the reader has not consumed yet. If the stream proves damaged, everything is given up;
+// read_blocks() then reads it again.
 std::optional<Fragment> PartDecoder::read_record(const LdmPart& part, ArrayRoom& room,
                                                  Damage& damage) {
     const bool large = part.bytes.size() > large_record_bytes;

@@ -28,7 +28,7 @@ RecordQueue::RecordQueue(Source source, int threads, std::uint64_t output_limit_
     } catch (const std::system_error&) {
         // The system has no more threads, so those that exist do the work.
     } catch (const std::bad_alloc&) {
-        // The same.
+        // the same
     }
 }
 
@@ -42,6 +42,7 @@ RecordQueue::~RecordQueue() {
         worker.join();
 }
 
+// Fills all free slots of the ring with the next parts.
 void RecordQueue::fill() {
     while (used_ < slots_.size() && !source_ended_) {
         std::optional<LdmPart> part = source_();
@@ -61,6 +62,8 @@ bool RecordQueue::has_turn(const Slot& slot) const {
     return turn_bytes_ && &slot == &slots_[head_];
 }
 
+// Returns the first slot that waits for work. A slot that outgrew its share, or any slot once the
+// caller decodes alone, is left to the caller when it is at the head.
 RecordQueue::Slot* RecordQueue::first_waiting(Who who) {
     for (std::size_t i = 0; i < used_; ++i) {
         Slot& slot = slots_[(head_ + i) % slots_.size()];
@@ -91,6 +94,8 @@ ArrayRoom RecordQueue::room_for(Slot& slot, Who who) {
                      }};
 }
 
+// Decodes the part of a slot without holding the mutex. A slot that outgrew its share goes back to
+// waiting, without its fragment.
 void RecordQueue::work(Slot& slot, PartDecoder& decoder, Who who,
                        std::unique_lock<std::mutex>& lock) {
     slot.state = State::working;
@@ -125,6 +130,9 @@ void RecordQueue::decode_alone(Slot& head, std::unique_lock<std::mutex>& lock) {
     work(head, own_decoder_, Who::caller, lock);
 }
 
+// Hands out the head of the ring. If it is not ready, the caller decodes too: the head, or any
+// other part that waits. When less room is left than a share, parts that were decoded ahead might
+// not fit, so from then on the caller decodes everything alone.
 std::optional<Fragment> RecordQueue::next(std::uint64_t limit_bytes) {
     std::unique_lock lock{mutex_};
     if (used_ == 0) return std::nullopt;

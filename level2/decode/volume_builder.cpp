@@ -138,6 +138,7 @@ bool VolumeBuilder::begin_volume(const Fragment::Piece& piece) {
     return true;
 }
 
+// Begins a sweep with what it has in common with the piece, and with the fixed angle of its cut.
 Sweep& VolumeBuilder::begin_sweep(const Sweep& from) {
     Sweep& sweep = volume_.sweeps.emplace_back();
     sweep.elevation_number = from.elevation_number;
@@ -175,6 +176,9 @@ bool VolumeBuilder::make_room_for(const Sweep& sweep, const Sweep& from) {
     return room_.add_radials(from.radials.size());
 }
 
+// Appends the rows of a piece to the open sweep. Each moment of the piece finds the rows of the
+// same kind, or begins a new kind; rows are widened if the piece has more gates, and padded for
+// radials that lacked the kind.
 void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     const std::size_t before = sweep.radials.size();
     sweep.radials.insert(sweep.radials.end(), from.radials.begin(), from.radials.end());
@@ -195,6 +199,8 @@ void VolumeBuilder::append_rows(Sweep& sweep, const Sweep& from) {
     }
 }
 
+// Appends a piece: it continues the open sweep or begins a new one, and perhaps a new volume. A
+// piece of a cut that is not selected is only counted.
 bool VolumeBuilder::append_piece(Fragment::Piece piece) {
     if (!note_marks(std::move(piece.before))) return false;
     const bool begins = begins_sweep_here(piece);
@@ -335,6 +341,8 @@ Status VolumeBuilder::append(Fragment fragment) {
     return {};
 }
 
+// Checks whether anything is whole, settles the station, and lets check_volume() find what is
+// missing.
 Result<Decoded> VolumeBuilder::finish(const std::string& fallback_station) {
     const bool last_is_newest = sweep_is_open_;
     end_sweep();

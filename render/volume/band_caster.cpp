@@ -25,6 +25,8 @@ class BandCaster::Tiles {
         const auto words = words_of(tile);
         return std::any_of(words.begin(), words.end(), [](std::uint64_t w) { return w != 0; });
     }
+    // A pixel asks for its ray. The ray is cast when the packet is full, or when the row of tiles
+    // ends.
     void want(int x, int y) {
         if (!has_joined_) join();
         wanted_[count_++] = {x, y};
@@ -49,6 +51,9 @@ class BandCaster::Tiles {
         const std::size_t count = packet_words_.size();
         return std::span(words_).subspan(static_cast<std::size_t>(tile) * count, count);
     }
+    // The first pixel of a tile adds the steps of its tile to those of the packet. A ray may then
+    // sample steps of another tile; this costs time but changes nothing, because there it finds
+    // only clear values.
     void join() {
         const auto words = words_of(tile_);
         if (count_ == 0) {
@@ -155,7 +160,9 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
            bends_between(at(x, y - stride), at(x, y + stride));
 }
 
-// Beyond the last column and the last row of the picture there are no pixels to interpolate from.
+// Fills the half-way pixels of one cell of the grid: interpolates them if the picture bends at none
+// of the cell's corners, and otherwise casts their rays. Beyond the last column and the last row of
+// the picture there are no pixels to interpolate from, so their rays are cast.
 void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
     if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
         return interpolate(x, y, stride);

@@ -61,6 +61,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
     extinction_.resize(index(sizes_[0] - 1, sizes_[1] - 1, sizes_[2] - 1) + 1);
     add_extinction(view, transfer, step_m);
 
+    // The sun and the nine directions of the sky are independent sweeps, one for each piece of
+    // work.
     std::vector<std::vector<float>> swept(1 + sky_directions);
     for_each_piece(static_cast<int>(swept.size()), threads, [&](int i) {
         const Vec3 towards = i == 0   ? sun_direction(light)
@@ -69,6 +71,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
         swept[static_cast<std::size_t>(i)] = transmittance(towards);
     });
     sun_ = std::move(swept.front());
+    // The light of a cell is a share from the sky and a share from the sun. With scattering, the
+    // sun's share depends on the angle between the view and the sun.
     const Vec3 sun = sun_direction(light);
     const Vec3& looks = geometry.forward();
     const double cosine = looks[0] * sun[0] + looks[1] * sun[1] + looks[2] * sun[2];
@@ -129,6 +133,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
     for (std::size_t axis = 1; axis < 3; ++axis) {
         if (std::abs(rate[axis]) > std::abs(rate[main])) main = axis;
     }
+    // The sweep goes along the main axis, beginning at the side of the light. From one plane to the
+    // next, the light moves by (du, dv) cells across, and crosses length_m of air.
     const std::size_t u = (main + 1) % 3;
     const std::size_t v = (main + 2) % 3;
     const auto length_m = static_cast<float>(1 / std::abs(rate[main]));
@@ -151,6 +157,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         const std::size_t cell = place(plane, iu, iv);
         return through[cell] * std::exp(-extinction_[cell] * length_m);
     };
+    // Each cell takes the light of the plane before at the place from which it comes, which lies
+    // between four cells.
     for (int n = 1; n < sizes_[main]; ++n) {
         const int plane = first + n * step;
         const int before = plane - step;

@@ -64,6 +64,8 @@ Layer VolumeSlicer::draw(const grid::BrickView& view, int threads) const {
     return std::move(room.layer);
 }
 
+// Prepares what the rays need: the mask of steps that may show anything, the light in the volume if
+// the scene asks for shadows, and the table of corners if there are enough samples for each cell.
 void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     Layer& layer = room.layer;
     layer.width = geometry_.width();
@@ -84,6 +86,9 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     if (room.has_corners) room.corners.fill(view, threads);
 }
 
+// Casts the rays, one band of tiles after another on several threads: first those on a grid of
+// `stride` pixels, then, halving the stride each time, those where the picture is not smooth enough
+// to be interpolated.
 void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);

@@ -22,6 +22,7 @@ TransferEntry entry_of(double red, double green, double blue, double depth) {
             static_cast<float>(depth)};
 }
 
+// The nearer value alone: the second bin does not matter.
 void fill_riemann(const Bins& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         const auto entry =
@@ -69,6 +70,8 @@ void integrate_steps(const Bins& look, std::size_t distance, bool rising, Entrie
         half_opacity[i] = -std::expm1(-0.5 * piece * look.depth[i]);
         opacity[i] = -std::expm1(-piece * look.depth[i]);
     }
+    // `through` is the light that still gets through each step, `depth` its optical depth so far.
+    // The inner loop treats all steps over this distance alike, so the compiler vectorizes it.
     const std::size_t count = bins - distance;
     std::array<double, bins> through{}, depth{};
     std::array<std::array<double, bins>, 3> colour{};
@@ -146,6 +149,8 @@ TransferFunction::TransferFunction(const ColourTable& table, const grid::Quantiz
     bin_slope_ = static_cast<float>(step / bin_width_);
     bin_offset_ = static_cast<float>((code_zero - lowest_) / bin_width_ + 1 + bin_slack);
 
+    // First the look of each bin, by its middle value; then the count of visible bins, from which
+    // shows() answers for any range with one subtraction; then the entries for all pairs of bins.
     Bins look;
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);

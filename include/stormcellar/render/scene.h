@@ -68,7 +68,7 @@ struct Scene {
     bool haze = false;                   // volumes: air that was not seen veils what is behind it
     double opacity = 1;                  // scales the transfer function's opacity; 0.001..1000
     double range_ring_spacing_m = 50e3;  // 1..1000 km
-    bool labels = true;                  // colour bar, title, time, rings
+    bool labels = true;                  // color bar, title, time, rings
 };
 // Checks a scene. Returns bad_argument, naming the first member that is outside its range. NaN is
 // outside every range.
