@@ -1,4 +1,4 @@
-// What every benchmark promises: options, and rows as a table or as JSON (DESIGN section 3).
+// What every benchmark promises: options, and rows as a table or as JSON.
 #include <algorithm>
 #include <filesystem>
 #include <set>

@@ -128,7 +128,7 @@ TEST_F(AccountTest, ReservedBytesCount) {
     EXPECT_EQ(account_.used(), 20U);
 }
 
-// DESIGN 5: "Rolling by age counts from a domain's newest volume, not from the clock".
+// Age counts from the newest volume of a domain, not from the clock.
 TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     for (const int minute : {0, 30, 60, 90})
         put("A", minute);
@@ -149,7 +149,7 @@ TEST_F(AccountTest, AgeCountsFromTheNewestOfTheGroup) {
     EXPECT_THAT(account_.expired("B", budgets_, 100), IsEmpty());
 }
 
-// DESIGN 5: "stamps over 10 minutes in the future do not count".
+// Times more than 10 minutes in the future do not count.
 TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     account_.set_now(account_noon);
     budgets_.total.age = minutes{60};

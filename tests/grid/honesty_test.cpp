@@ -1,8 +1,8 @@
-// The planner kept honest (DESIGN section 6), over real volumes of every kind:
-//   what it left off, forced on, changes the grid by less than the budget;
-//   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
-//   scene for each effect;
-//   the grid it chose is within the budget of the oracle's.
+// Checks the promises of the planner over real volumes of every kind:
+// - An effect that it left off changes the grid by less than the budget if it is forced on.
+// - An effect that it turned on changes the grid by more than a tenth of the budget if it is forced
+//   off, in at least one scene for each effect.
+// - The grid that it chose is within the budget of the oracle's.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// The status rule case by case (DESIGN section 5, docs/geometry.md), and means on a circle.
+// The status rule case by case (docs/geometry.md), and means on a circle.
 #include "grid/sweep/mixture.h"
 
 #include <random>

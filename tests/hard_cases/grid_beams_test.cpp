@@ -1,5 +1,5 @@
-// Where beams lie when they are as awkward as they get: each test is named by its hazard (DESIGN
-// section 6) and compares with a closed form or with the oracle.
+// Where beams lie when they are as awkward as possible. Each test is named by its hazard and
+// compares with a closed form or with the oracle.
 #include <algorithm>
 #include <cmath>
 

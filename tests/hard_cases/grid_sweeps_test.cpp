@@ -1,5 +1,5 @@
-// Volumes whose sweeps and radials are as awkward as they get, gridded by every method: each test
-// is named by its hazard (DESIGN section 6).
+// Volumes whose sweeps and radials are as awkward as possible, gridded by every method. Each test
+// is named by its hazard.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
-// Values and states that do not mix well, gridded by every method: each test is named by its hazard
-// (DESIGN section 6) and has its answer in closed form.
+// Values and states that do not mix well, gridded by every method. Each test is named by its hazard
+// and has its answer in closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>

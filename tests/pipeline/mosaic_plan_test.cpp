@@ -1,9 +1,9 @@
-// The planner of mosaics kept honest (DESIGN section 6), as tests/grid/honesty_test.cpp does for
-// one volume, over real frames of one site between volumes and of several sites:
-//   what it left off, forced on, changes the frame by less than the budget;
-//   what it turned on, forced off, changes it by more than a tenth of the budget, in at least one
-//   scene for each effect;
-//   the frame it chose is within the budget of the exact chain's.
+// Checks the promises of the planner of mosaics over real frames of one site between volumes and of
+// several sites, as tests/grid/honesty_test.cpp does for one volume:
+// - An effect that it left off changes the frame by less than the budget if it is forced on.
+// - An effect that it turned on changes the frame by more than a tenth of the budget if it is
+//   forced off, in at least one scene for each effect.
+// - The frame that it chose is within the budget of the exact chain's.
 #include "pipeline/plan/mosaic_plan.h"
 
 #include <cmath>

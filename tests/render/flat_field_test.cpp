@@ -71,7 +71,7 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
     EXPECT_EQ(at(800).status[1], CellStatus::no_echo);
 }
 
-// DESIGN section 5, for every pair of states at a third of the way.
+// The status rule (docs/geometry.md), for every pair of states at a third of the way.
 TEST(Cappi, MixesStatesByTheRule) {
     const std::vector<Cell> kinds = {unseen, quiet, folded, valued(20)};
     std::vector<std::vector<Cell>> columns;
