@@ -1,6 +1,6 @@
 // bunzip/format.h -- the numbers of the bzip2 format, and how a part of a stream can end.
 //
-// A stream has "BZh", a digit (blocks have at most so many times 100,000 bytes), blocks, and an
+// A stream has "BZh", a digit d (blocks have at most d times 100,000 bytes), blocks, and an
 // end. A block has a mark (48 bits), a checksum (32), whether it is randomized (1), the origin
 // (24), its tables (block_tables.h), and symbols. The end has a mark and the checksum of the
 // checksums of all blocks.

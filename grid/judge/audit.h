@@ -12,7 +12,7 @@
 //           with no echo at the gate's detection limit); VEL and PHI are taken around the gate's
 //           value on their circle. The nearest cell would be up to 0.9 km away in a grid of 1 km,
 //           which would count as an error of the grid.
-// Gates     One in so many radials and gates, as the steps say, from the first; the same gates for
+// Gates     Every n-th radial and gate, with n as the steps say, from the first; the same gates for
 //           any number of threads. Gates beyond the centers of the outermost cells are left out.
 // Result    The RMS and the mean of grid minus gate in the unit of the moment, for each sweep and
 //           class of ranges, over gates that have a value where the grid has one; and, apart from

@@ -15,9 +15,9 @@
 //           over the derivatives of the cells by each fault. Gauss and Newton with B evaluated
 //           anew, Huber's weights, errors by the jackknife over blocks of 24 km
 //           (grid/judge/robust_fit.h). docs/geometry.md has the formulas.
-// Cells     One in so many columns, at all levels, where A and the six neighbors of B have values
-//           whose mean is at least `least_dbz`, so that no detection limit selects for one site;
-//           from `least_range_m` (clutter) to `greatest_range_m` of both sites.
+// Cells     Every n-th column, at all levels, where A and the six neighbors of B have values whose
+//           mean is at least `least_dbz`, so that no detection limit selects for one site; from
+//           `least_range_m` (clutter) to `greatest_range_m` of both sites.
 // Untold    What these cells do not determine is not guessed: with too few cells, with sites that
 //           hardly see the same (correlation), and for faults that look alike there; for the time
 //           without a motion; and, without a motion, also for azimuth and elevation if the sites
@@ -85,7 +85,8 @@ struct SiteComparison {
 [[nodiscard]] Result<SiteComparison> compare_sites(const SiteGrid& a, const SiteGrid& b,
                                                    const ComparisonOptions& options = {});
 
-// A fault is named if its estimate is larger than this limit and than so many standard errors.
+// A fault is named if its estimate is larger than this limit and than this number of standard
+// errors.
 struct FaultLimits {
     double bias_db = 1;
     double azimuth_deg = 0.25;

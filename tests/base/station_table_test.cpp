@@ -30,13 +30,13 @@ TEST(StationTable, EveryFieldIsFilled) {
     }
 }
 
-// 159 WSR-88D that operate, KJAN, KLIX, KRMX and LPLA that did, and Norman's KCRI and KOUN.
+// 159 WSR-88D in operation; KJAN, KLIX, KRMX and LPLA, which were; and KCRI and KOUN in Norman.
 TEST(StationTable, HoldsTheWholeNetwork) {
     EXPECT_EQ(count(RadarKind::nexrad), 165U);
     EXPECT_EQ(count(RadarKind::tdwr), 45U);
 }
 
-// Guam is the southernmost, Fairbanks the northernmost; KICX stands highest.
+// Guam is the southernmost, Fairbanks the northernmost; KICX is the highest.
 TEST(StationTable, PositionsAreInBounds) {
     for (const Station& station : all_stations()) {
         EXPECT_GE(station.latitude_deg, 13.4) << station.icao;
@@ -57,7 +57,7 @@ TEST(StationTable, KindsFollowNames) {
     }
 }
 
-// The first letters of an ICAO name say where it is: catches a lost sign and swapped fields.
+// The first letters of an ICAO name give the region. This finds a lost sign and swapped fields.
 TEST(StationTable, NamesFollowPlaces) {
     for (const Station& station : all_stations()) {
         if (station.icao.front() == 'K') {
@@ -184,7 +184,7 @@ TEST(IsIcao, RefusesOtherLengths) {
     EXPECT_FALSE(is_icao("KTLXX"));
 }
 
-// One byte wrong in each place, over every byte value.
+// One wrong byte in each place, over all byte values.
 TEST(IsIcao, RefusesEveryOtherByte) {
     for (std::size_t place = 0; place < 4; ++place) {
         for (int value = 0; value < 256; ++value) {
