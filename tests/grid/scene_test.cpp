@@ -1,4 +1,4 @@
-// Sampling a scene, and what the planner makes of it.
+// Tests the sampling of a scene, and what the planner does with it.
 #include "grid/plan/scene.h"
 
 #include <cmath>
@@ -64,7 +64,7 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
         EXPECT_GE(column.ix, 98) << "there is no echo in the west";
     }
     EXPECT_EQ(draws, 3000);
-    // Weights are one over sizes: the columns of each size are as likely as their number.
+    // Weights are one over the sizes: columns of each size are as likely as their number.
     EXPECT_GT(columns, 0);
     const ColumnSample again = scene->draw(3000, 1);
     EXPECT_EQ(again.columns.size(), sample.columns.size()) << "the same seed, the same columns";
@@ -151,7 +151,7 @@ TEST(Effects, ErrorsAreInTheUnitOfTheMoment) {
     EXPECT_EQ(value_unit_of(level2::Moment::rho), accuracy::ValueUnit::ratio);
 }
 
-// Thin echo: a column holds little of what it may, so that a bound needs many of them.
+// Thin echo: a column has few of the cells that it could have, so a bound needs many columns.
 TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     SweepPlan low;
     low.code = [](int radial, int gate) {
@@ -174,7 +174,7 @@ TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     EXPECT_EQ(planned->choice.method.cell, CellExtent::point);
 }
 
-// Nothing changes from place to place: no interpolation matters, only where echo ends.
+// Nothing changes from place to place, so interpolation matters only at the edge of the echo.
 TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 1.5, 2.5}) {
@@ -190,7 +190,7 @@ TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
                                    accuracy::parse_budget("20 km, 1 dB").value());
     ASSERT_TRUE(planned);
     EXPECT_TRUE(planned->plan.meets_budget);
-    // Linear may cost nothing more than nearest.
+    // Linear may cost no more than nearest.
     EXPECT_LE(planned->choice.method.interpolation, Interpolation::linear);
     EXPECT_EQ(planned->choice.method.cell, CellExtent::point);
     EXPECT_EQ(planned->choice.method.averaging, Averaging::in_db);

@@ -13,7 +13,7 @@ ViewGeometry view_from(double azimuth_deg, double tilt_deg, double zoom = 1) {
     return {small_spec(100, 16), Camera{azimuth_deg, tilt_deg, zoom}, 8, 800, 600};
 }
 
-// The whole orientation in one table: where east, north and up go in the picture.
+// The whole orientation in one table: the directions of east, north and up in the picture.
 TEST(ViewGeometry, EastNorthAndUpGoWhereAForecasterExpects) {
     struct Case {
         double azimuth_deg, tilt_deg;
