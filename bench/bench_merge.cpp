@@ -1,7 +1,7 @@
 // bench_merge: what a mosaic costs, and bringing it up to date with one site's new volume.
 //
 // usage: bench_merge [--data DIR] [--threads N] [--runs N] [--json]      (bench/request.h)
-// The neighbouring sites of DIR/mosaic-northeast on one grid of 1 km, 32 levels. (bench_mosaic has
+// The neighboring sites of DIR/mosaic-northeast on one grid of 1 km, 32 levels. (bench_mosaic has
 // the same row of 160 sites on the grid of the United States.) A row:
 //   case        northeast
 //   sites       how many partials there are

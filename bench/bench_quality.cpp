@@ -4,7 +4,7 @@
 // usage: bench_quality [--json] [--beams]
 // For each range and method one row, tab-separated under a head of keys; --json prints {"machine":
 // ..., "rows": [...]} with the same keys. What is observed, and how, is in bench/quality_chart.h;
-// gates are samples at their centres, so that what shows is the grid's doing; --beams takes them
+// gates are samples at their centers, so that what shows is the grid's doing; --beams takes them
 // over the beam and the pulse, which takes minutes a range.
 //   range_km            of the feature from the radar
 //   method, averaging   as in the provenance of a grid

@@ -12,13 +12,13 @@
 //   fps       1 / (t1 + t2 + t3)
 //   t1_s      opening and validating the file, mapping it
 //   t2_s      what the rays need of the grid: which steps may show anything, codes put together
-//   t3_s      the rays, and compositing over the page's colour: 8 bits a channel
+//   t3_s      the rays, and compositing over the page's color: 8 bits a channel
 //   de_mean, de_p99   CIEDE2000 against the reference marcher in double precision with 8,192
 //                     steps, over every fifth pixel both ways of the first time step
 //   de_echo_mean, de_echo_p99   the same over the pixels where the reference has echo
 //   paper_fps what the paper's renderer had, with a graphics card of 2008; 0 for numbers of slices
 //             that it had not
-// What view and colours alone need is made once for all frames, as in a loop. Times are the least
+// What view and colors alone need is made once for all frames, as in a loop. Times are the least
 // of the runs, each the mean of five frames. The files come from the page cache.
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 // Each file is read, decompressed, decoded (REF alone, in memory) and gridded on its site's window
 // (pipeline::make_partial, by the default method of such cells: area); then a frame is made for
-// each multiple of 5 minutes (pipeline::make_frame: both neighbours in time of each site, moved to
+// each multiple of 5 minutes (pipeline::make_frame: both neighbors in time of each site, moved to
 // the instant, merged) and committed to a cache. Nothing else is written.
 // Unlike the daemon, which makes a frame again as each volume changes it, a frame is made once, as
 // soon as all volumes are there that it is made of.
@@ -30,7 +30,7 @@ struct MosaicRun {
     FeedSize size;
 };
 
-// `cache` must be empty or not there; it has the frames afterwards.
+// `cache` must be empty or not there; it has the frames afterward.
 [[nodiscard]] Result<MosaicRun> run_mosaic(int sites, int threads,
                                            const std::filesystem::path& feed,
                                            const std::filesystem::path& cache,

@@ -5,7 +5,7 @@
 // points or means over the beam and the pulse of a WSR-88D; the grid about it is compared with the
 // truth in closed form, so the charts hold gate and grid together. "Along" and "across" are those
 // of the beam. Cells are 1 km wide and 500 m high; their lattice is shifted by parts of a cell from
-// chart to chart, so that no feature stands at a cell's centre by luck, and charts are means over
+// chart to chart, so that no feature stands at a cell's center by luck, and charts are means over
 // the shifts.
 // Threads: pure functions.
 #pragma once
@@ -21,7 +21,7 @@ struct Observed {
     level2::Volume volume;
     double range_m = 0;
 };
-enum class Gates { of_points, of_beams };  // sampled at the gate's centre, or over beam and pulse
+enum class Gates { of_points, of_beams };  // sampled at the gate's center, or over beam and pulse
 
 // A Gaussian of 1.1 km between half powers, 50 dBZ, from the ground to above 4 km.
 [[nodiscard]] Observed observe_point(double range_m, Gates gates);

@@ -49,7 +49,7 @@ class RenderScene {
     double echo_share_ = 0;
 };
 
-// Over the page's colour, as every frame of the benchmark is.
+// Over the page's color, as every frame of the benchmark is.
 [[nodiscard]] render::Image finished(const render::Layer& layer, int threads);
 
 // Every `stride`-th pixel of the picture as the reference has it. Odd, so that pixels on and

@@ -12,7 +12,7 @@
 
 namespace stormcellar::bench {
 
-// A row of bench_merge for each number of threads; `work` has the partials (some 1 GiB) afterwards.
+// A row of bench_merge for each number of threads; `work` has the partials (some 1 GiB) afterward.
 [[nodiscard]] Status measure_us(const Request& request, const std::filesystem::path& work,
                                 Table& table);
 

@@ -7,7 +7,7 @@
 namespace stormcellar::bench {
 namespace {
 
-// How high storms stand over a column, in metres; none below 0. The same for all sites.
+// How high storms stand over a column, in meters; none below 0. The same for all sites.
 double storm_top_m(int ix, int iy) {
     const auto wave = [](double at) { return std::sin(at); };
     const double field = wave(ix / 97.0) * wave(iy / 71.0) + 0.6 * wave(ix / 31.0 + iy / 43.0) +

@@ -92,7 +92,7 @@ void expect_agreement(const Reported& reported, double position_tolerance_deg) {
     EXPECT_NEAR(station->antenna_altitude_m, reported.antenna_altitude_m, 1.3) << reported.icao;
 }
 
-// What the radars say of themselves in message 31 since 2013: site + tower, both in whole metres
+// What the radars say of themselves in message 31 since 2013: site + tower, both in whole meters
 // rounded down, and for the TDWR the site height alone.
 TEST(StationTable, AgreesWithMessage31) {
     const Reported volumes[] = {
@@ -133,7 +133,7 @@ TEST(StationTable, AgreesWithLevelIIIProducts) {
         expect_agreement(product, 0.0015);
 }
 
-// In September 2010 message 31 of two sites held metres taken for feet and converted again:
+// In September 2010 message 31 of two sites held meters taken for feet and converted again:
 // 4 + 9 m at KDOX, 171 + 9 m at KTYX. Beyond 30 m the table is believed instead, so it must differ
 // from both by more; that they are 0.3048 of its own figures shows what went wrong.
 TEST(StationTable, ContradictsHeightsConvertedTwice) {

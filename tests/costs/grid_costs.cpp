@@ -1,7 +1,7 @@
 // grid_costs: grids a volume in two functions whose executed instructions can be counted.
 //
 // usage: grid_costs FILE usual|cheapest MOMENT EAST_DEG
-// 512 x 512 x 32 cells at 1 km on one thread, centred EAST_DEG east of the site, by the default
+// 512 x 512 x 32 cells at 1 km on one thread, centered EAST_DEG east of the site, by the default
 // chain or with every effect off. Prints one line, "CHECKSUM STATION MOMENT CHAIN", of the cells'
 // bits. scripts/check-costs runs it under callgrind, in a library with every rung and in one with
 // that chain alone (stormcellar/grid/chosen.h), and compares what counted_geometry() and

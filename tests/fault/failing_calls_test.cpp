@@ -57,7 +57,7 @@ struct Tried {
 
 class FailingCalls : public ::testing::TestWithParam<Failure> {
   protected:
-    // One volume of each way and a file that is none: before the start two, afterwards the others.
+    // One volume of each way and a file that is none: before the start two, afterward the others.
     static Tried run(std::uint64_t at);
 };
 

@@ -1,7 +1,7 @@
 // tests/fuzz/properties.h -- what must hold for any bytes whatever.
 //
 // Each function throws a PropertyError that says what does not hold. Crashes, reads beyond the end
-// and undefined behaviour are the sanitizers' to find, hangs and memory the fuzzer's.
+// and undefined behavior are the sanitizers' to find, hangs and memory the fuzzer's.
 #pragma once
 
 #include <cstddef>

@@ -114,7 +114,7 @@ TEST(Footprint, NeighboursLeaveAndShareLessThanAThousandthOfACell) {
                     const GridSpec spec = spec_of(projection, center, spacing_m);
                     double most = 1e-3;
                     if (projection == Projection::latitude_longitude) {
-                        // Parallels, and rows of equal degrees, grow shorter towards the poles.
+                        // Parallels, and rows of equal degrees, grow shorter toward the poles.
                         const double edge_deg =
                             std::abs(center.latitude_deg) + spec.ny * spec.spacing_deg / 2;
                         most += spacing_m / 6371e3 * std::tan(edge_deg * M_PI / 180);

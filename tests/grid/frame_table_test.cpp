@@ -16,7 +16,7 @@ struct Case {
     const char* what;
     Projection projection;
     GeoPoint center;
-    double spacing;  // metres or degrees
+    double spacing;  // meters or degrees
     GeoPoint site;
     bool few_geodesics;  // whether the table must need few geodesics there
 };

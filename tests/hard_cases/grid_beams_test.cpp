@@ -84,7 +84,7 @@ TEST(ConeOfSilence, IsNotSeenByAnyMethod) {
                 const double edge_m = beam.over(arc_m, 19.5 + 0.475).height_m;
                 for (int level = 0; level < spec.nz(); ++level) {
                     const double height_m = spec.levels_m[static_cast<std::size_t>(level)];
-                    // Levels reach half way to their neighbours, outlines 707 m.
+                    // Levels reach half way to their neighbors, outlines 707 m.
                     const double margin_m = method.cell == CellExtent::area ? 2600 : 2;
                     const CellStatus status = grid.status[spec.index(ix, iy, level)];
                     if (height_m > edge_m + margin_m) {
@@ -124,7 +124,7 @@ TEST(RangeZero, GatesAtAndBehindTheAntennaAreDroppedByEveryMethod) {
     }
     GridCase given = about(plains, plans, 41, 40);
     given.spec.levels_m = {385, 390, 395, 400, 410};
-    const Agreement so_near{1, 0.4};  // beams lie within metres of each other
+    const Agreement so_near{1, 0.4};  // beams lie within meters of each other
     expect_sound_by_every_method(given, so_near, [](const Method& method, const Grid& grid) {
         int values = 0;
         for (std::size_t i = 0; i < grid.values.size(); ++i) {
@@ -159,7 +159,7 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
 }
 
 // Of some beams the lower edge comes down to earth, of some the upper, and edges swing about their
-// beam's centre. Each sweep has one strength, so that values are weights.
+// beam's center. Each sweep has one strength, so that values are weights.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {-0.3, 0.2, 0.5, 1.5, 2.4}) {

@@ -29,7 +29,7 @@ struct GridCase {
 // "area, beam-weighted in Z".
 [[nodiscard]] std::string label(const Method& method);
 
-// About the site, in metres; levels in kilometres.
+// About the site, in meters; levels in kilometers.
 [[nodiscard]] GridSpec plane_about(const SitePosition& site, int side, double spacing_m,
                                    const std::vector<double>& levels_km);
 

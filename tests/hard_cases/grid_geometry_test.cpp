@@ -24,7 +24,7 @@ struct Stratum {
 
 class EveryStratum : public ::testing::TestWithParam<Stratum> {};
 
-// A grid of one cell at the centre of a gate, put there in closed form and by the geodesic, holds
+// A grid of one cell at the center of a gate, put there in closed form and by the geodesic, holds
 // that gate. Codes of 16 bits tell gates and radials apart.
 TEST_P(EveryStratum, ACellAtAGatesCentreHoldsTheGate) {
     const auto& [site, elevation_deg] = GetParam();

@@ -17,7 +17,7 @@ namespace {
 // ---- Velocity across the Nyquist fold
 
 constexpr double nyquist_mps = 26;
-// Codes of 16 bits, hundredths of a metre a second.
+// Codes of 16 bits, hundredths of a meter a second.
 std::uint16_t velocity_code(double mps) {
     return static_cast<std::uint16_t>(std::lround(mps * 100) + 10000);
 }
@@ -26,8 +26,8 @@ double folded(double mps, double half_mps) {
     return mps - 2 * half_mps * std::floor((mps + half_mps) / (2 * half_mps));
 }
 
-// A wind of 26 m/s towards the north-east, which folds where it blows along the beam, and changes
-// with height so that neighbours in all directions straddle the fold.
+// A wind of 26 m/s toward the north-east, which folds where it blows along the beam, and changes
+// with height so that neighbors in all directions straddle the fold.
 double radial_wind_mps(double azimuth_deg, double range_m, double elevation_deg) {
     const double along = std::cos((azimuth_deg - 45) * M_PI / 180);
     return (26 + range_m / 1e5 + elevation_deg) * along;
@@ -331,7 +331,7 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
             return radial <= 90 ? mixed.low : mixed.high;
         };
         Pair pair = pair_of(two, two);
-        // The border lies at 91 degrees; the cell's centre a bit on this or that side of it.
+        // The border lies at 91 degrees; the cell's center a bit on this or that side of it.
         const double azimuth_deg = 90.5 + mixed.share;
         const double arc_m =
             BeamGeometry(plains.latitude_deg, plains.altitude_m).forward({100e3, 1}).arc_m;
@@ -345,7 +345,7 @@ TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
             const Grid grid = grid_of(pair.given, method);
             EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
         }
-        // Some 29 km: 16 or 17 radials, of which about 2 are on the wrong side of the centre.
+        // Some 29 km: 16 or 17 radials, of which about 2 are on the wrong side of the center.
         pair.given.spec.spacing_m = 29000;
         const double shift_deg = mixed.share < 0.5 ? -2 : 2;
         const GeoPoint wide =

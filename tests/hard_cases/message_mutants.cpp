@@ -79,7 +79,7 @@ void write(Bytes& bytes, const Field& field, std::uint32_t number) {
         bytes[field.at + i] = static_cast<std::byte>(number >> (8 * (field.width - 1 - i)));
 }
 
-// Nothing, little, the ends of the range, the neighbours; for 4 bytes also NaN, infinity, 1e30.
+// Nothing, little, the ends of the range, the neighbors; for 4 bytes also NaN, infinity, 1e30.
 std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     const std::uint32_t most = width == 1 ? 0xFFU : width == 2 ? 0xFFFFU : 0xFFFFFFFFU;
     const std::array<std::uint32_t, 13> numbers = {

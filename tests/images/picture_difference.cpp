@@ -13,7 +13,7 @@ using render::Rgba8;
 
 constexpr int tile_edge = 8;
 
-// The mean of each pixel and its neighbours, as many as there are.
+// The mean of each pixel and its neighbors, as many as there are.
 Image softened(const Image& image) {
     Image soft(image.width, image.height, {0, 0, 0, 255});
     for (int y = 0; y < image.height; ++y) {

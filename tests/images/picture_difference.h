@@ -1,7 +1,7 @@
 // tests/images/picture_difference.h -- whether two pictures look the same.
 //
 // Letters and thin lines come out a little different with another FreeType or Cairo, everything
-// else to the bit. So both pictures are first averaged over 3 x 3 pixels; then colours are compared
+// else to the bit. So both pictures are first averaged over 3 x 3 pixels; then colors are compared
 // (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels, where one label that moved
 // cannot hide behind a large picture that did not.
 #pragma once
@@ -34,7 +34,7 @@ struct Tolerance {
                                                       const render::Image& other);
 [[nodiscard]] bool within(const PictureDifference& difference, const Tolerance& tolerance = {});
 
-// Of two pictures of one size: the first in grey, what differs visibly in red, the more the deeper.
+// Of two pictures of one size: the first in gray, what differs visibly in red, the more the deeper.
 [[nodiscard]] render::Image picture_of_difference(const render::Image& one,
                                                   const render::Image& other);
 

@@ -64,7 +64,7 @@ TEST_P(SyntheticPicture, LooksAsItsReference) {
     EXPECT_TRUE(matches_reference(*drawn, GetParam()));
 }
 
-// Mixes each pixel with its neighbour to the right and adds noise, as letters drawn by another
+// Mixes each pixel with its neighbor to the right and adds noise, as letters drawn by another
 // library differ: still the same picture.
 TEST_P(SyntheticPicture, OtherLettersAreTolerated) {
     Image image = read_reference(GetParam()).value();

@@ -27,7 +27,7 @@ struct Picture {
 
 // The grid mirrored east-west; its site stays where it is.
 void mirror(grid::Grid& grid);
-// The scene's colours with those of two neighbouring classes exchanged.
+// The scene's colors with those of two neighboring classes exchanged.
 void swap_classes(render::Scene& scene, std::size_t first);
 
 }  // namespace stormcellar::images

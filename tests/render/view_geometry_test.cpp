@@ -17,7 +17,7 @@ ViewGeometry view_from(double azimuth_deg, double tilt_deg, double zoom = 1) {
 TEST(ViewGeometry, EastNorthAndUpGoWhereAForecasterExpects) {
     struct Case {
         double azimuth_deg, tilt_deg;
-        int east_x, east_y, north_x, north_y, up_y;  // signs in the picture, y downwards
+        int east_x, east_y, north_x, north_y, up_y;  // signs in the picture, y downward
     };
     const Case cases[] = {
         {180, 0, 1, 0, 0, -1, 0},    // a map

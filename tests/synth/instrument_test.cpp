@@ -217,7 +217,7 @@ TEST(Instrument, NoiseInVolumesHasItsDeviationAndIsOfItsSeed) {
     }
     const double k = 1.5 * std::numbers::ln10 / 10;
     EXPECT_NEAR(db[1] / db[0], -10 / std::numbers::ln10 * k * k / 2, 0.03);
-    // Rounding to half a decibel or half a metre a second adds 0.5^2 / 12 to the variance.
+    // Rounding to half a decibel or half a meter a second adds 0.5^2 / 12 to the variance.
     EXPECT_NEAR(std::sqrt(db[2] / db[0] - std::pow(db[1] / db[0], 2) - 0.25 / 12), 1.5, 0.03);
     EXPECT_NEAR(mps[1] / mps[0], 0, 0.04);
     EXPECT_NEAR(std::sqrt(mps[2] / mps[0] - 0.25 / 12), 2, 0.04);
