@@ -164,7 +164,8 @@ TEST(MosaicHonesty, EveryEffectOfMosaicsMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const MosaicFrame chosen = frame_of(*prepared, plan.choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Not what came along because it costs nothing, or with the most accurate choice.
+            // Leave out what was turned on because it costs nothing, or with the most accurate
+            // choice.
             if (!decision.on || !decision.reason.starts_with("without it")) continue;
             const accuracy::Choice without =
                 testing::forced(plan, prepared->chain, decision.effect, false);
@@ -191,7 +192,7 @@ TEST(MosaicPlan, OfVolumesWithoutAPairHasNoEffectOfTime) {
     }
 }
 
-// 13.5 m/s (docs/accuracy.md) for the minutes between a volume's middle and the instant.
+// 13.5 m/s (docs/accuracy.md) for the minutes between the middle of a volume and the instant.
 TEST(MosaicPlan, EchoMotionIsAsFarAsEchoMoves) {
     STORMCELLAR_NEED_DATA();
     const auto prepared = prepare(scenes()[0]);
@@ -216,7 +217,7 @@ TEST(MosaicPlan, WithoutABudgetIsTheDefault) {
     EXPECT_FALSE(plan->choice.fine_codes);
 }
 
-// The largest that radars send (docs/level2.md).
+// The largest values that radars send (docs/level2.md).
 TEST(MosaicPlan, FineCodesHoldAllThatRadarsSend) {
     const std::map<level2::Moment, float> largest = {{level2::Moment::ref, 94.5F},
                                                      {level2::Moment::sw, 63.5F},
