@@ -20,7 +20,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::size_t most_socket_bytes = 107;  // sun_path, with its end
+constexpr std::size_t most_socket_bytes = 107;  // size of sun_path without the final zero
 
 bool is_within(const std::filesystem::path& path, const std::filesystem::path& directory) {
     const auto end = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
@@ -33,7 +33,7 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // "a/" has an empty last part, which would hide that "a/b" lies within.
+    // "a/" has an empty last part, which would hide that "a/b" lies within it.
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }
@@ -117,7 +117,7 @@ void read_size(TomlTable& ingest, Config& config) {
     config.ingest.ny = counts[1];
 }
 
-// What the grid room would refuse is refused here, with the line.
+// Refuses here, with the line, what the grid room would refuse.
 void check_grid(TomlTable& ingest, const Config& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.ingest.spacing_m;
@@ -297,7 +297,7 @@ std::filesystem::path default_socket(const std::filesystem::path& state,
 
 int Config::worker_count() const {
     if (workers > 0) return workers;
-    // Asked for at every turn of the service, and read from a file.
+    // Called in every turn of the service, and hardware_concurrency() reads a file.
     static const unsigned processors = std::thread::hardware_concurrency();
     return std::max(1, static_cast<int>(processors));
 }

@@ -1,4 +1,4 @@
-// What a Service says of itself: to whoever watches it, to the status file and to the log.
+// What a Service reports: to its manager, to the status file and to the log.
 #include <algorithm>
 #include <chrono>
 #include <mutex>
@@ -33,7 +33,8 @@ std::optional<Step> Service::oldest_step() const {
     return oldest;
 }
 
-// A state directory that was deleted. Files that could not be stored meanwhile are tried again.
+// Handles a state directory that was deleted. Files that could not be stored meanwhile are tried
+// again.
 void Service::keep_state(SteadyTime now) {
     if (parts_.state == nullptr || now < next_state_look_) return;
     next_state_look_ = now + between_state_looks;
@@ -61,7 +62,7 @@ void Service::publish(bool at_once) {
     if (parts_.board != nullptr) parts_.board->post(status_.facts(), pending);
 }
 
-// Once when it begins, each minute while it lasts, and once when it is over.
+// Logs once when it begins, each minute while it lasts, and once when it is over.
 void Service::report_backlog(SteadyTime now) {
     if (now < next_backlog_) return;
     next_backlog_ = now + between_backlog_looks;
@@ -96,7 +97,7 @@ void Service::report_repairs() {
     if (!repairs.empty()) intake_.forget_seen();
 }
 
-// A database that cannot be used is named once when that begins, and once when it is over.
+// Logs a database that cannot be used once when that begins, and once when it is over.
 void Service::report_catalog(SteadyTime now) {
     if (now < next_catalog_look_) return;
     next_catalog_look_ = now + between_catalog_looks;
@@ -135,7 +136,7 @@ void Service::report_catalog(SteadyTime now) {
     status_file_.changed();
 }
 
-// What fails because of a database in trouble is named once, with the trouble.
+// Failures because of a database in trouble are logged once, with the trouble.
 void Service::report(const Finished& finished) {
     if (!finished.taken) {
         next_catalog_look_ = {};
@@ -170,7 +171,8 @@ void Service::report_sites() {
     }
 }
 
-// Loops that a service of its own keeps are in this one's metrics, as that one answers none.
+// Loops that another service keeps are in this one's metrics, because that service answers no
+// requests.
 void Service::look_at_others_loops(SteadyTime now) {
     if (now < next_loops_look_) return;
     next_loops_look_ = now + between_loops_looks;
