@@ -27,19 +27,19 @@ class LivingFiles {
     explicit LivingFiles(LivingFile::Options options, GrowingLimits limits = {})
         : options_(std::move(options)), limits_(limits), files_(limits) {}
 
-    // Null where the file is not followed.
+    // Returns null if the file is not followed.
     [[nodiscard]] std::shared_ptr<LivingFile> find(const std::filesystem::path& path);
-    // `station`: whose the file says that it is. Null where it cannot be followed: there is no
-    // place for it, no descriptor, no room, or it was given up before.
+    // `station`: the station that the file names. Returns null if it cannot be followed: there is
+    // no place, descriptor or room for it, or it was given up before.
     [[nodiscard]] std::shared_ptr<LivingFile> begin(const std::filesystem::path& path,
                                                     const std::string& fallback_station,
                                                     const std::string& station);
-    // So much more of the file was read: counts what it takes now. False: it was given up, and is
-    // not to be read on.
+    // This much more of the file was read: counts what it takes now. Returns false if it was given
+    // up and must not be read further.
     [[nodiscard]] bool grew(const std::filesystem::path& path, const LivingFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
-    // It holds more than its share, and is not to be followed again.
+    // It holds more than its share, and must not be followed again.
     void give_up(const std::filesystem::path& path);
 
     // The volume has ended.
@@ -47,7 +47,7 @@ class LivingFiles {
     [[nodiscard]] std::shared_ptr<const KeptVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;
     [[nodiscard]] std::uint64_t held_bytes() const;
-    // How many files were given up since the last call.
+    // Returns how many files were given up since the last call.
     [[nodiscard]] std::uint64_t take_given_up();
 
   private:
@@ -57,7 +57,7 @@ class LivingFiles {
 
     LivingFile::Options options_;
     GrowingLimits limits_;
-    mutable std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards the members below
     GrowingSet<std::filesystem::path, LivingFile> files_;
     std::set<std::filesystem::path> not_again_;  // those that were given up
     std::uint64_t given_up_ = 0;

@@ -10,7 +10,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A row, what its errors are compared with, and what is timed for it.
+// A row, the frame with which its errors are compared, and what is timed for it.
 struct Rung {
     accuracy::LadderRow row;
     MosaicChoice with_errors;
