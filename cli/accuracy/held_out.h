@@ -1,5 +1,5 @@
-// cli/accuracy/held_out.h -- `stormcellar accuracy` over time: what each way of making a grid for
-// an instant errs by, scored on volumes, or repeated cuts, that were held out
+// cli/accuracy/held_out.h -- `stormcellar accuracy` over time: the error of each way of making a
+// grid for an instant, measured on volumes, or repeated cuts, that were held out
 // (grid/judge/held_out.h).
 #pragma once
 
@@ -18,29 +18,29 @@
 
 namespace stormcellar::cli {
 
-// One volume of a sequence, and what it is called.
+// One volume of a sequence, and its name.
 struct TimedVolume {
     level2::Volume volume;
     grid::SitePosition site;
     std::string name;
 };
 
-// Volumes of one site, in order of time. bad_argument when there are less than three.
+// Returns volumes of one site in order of time. Errors: bad_argument if there are fewer than three.
 [[nodiscard]] Result<std::vector<TimedVolume>> sequence_of(MosaicSources sources);
-// The repeated cuts (SAILS, MRLE) of the file's lowest elevation, each as a volume of its own.
-// not_found when there are less than three.
+// Returns the repeated cuts (SAILS, MRLE) of the file's lowest elevation, each as a volume of its
+// own. Errors: not_found if there are fewer than three.
 [[nodiscard]] Result<std::vector<TimedVolume>> load_repeats(const std::string& file,
                                                             const GridRequest& request);
-// Three volumes of a simulated scene.
+// Returns three volumes of a simulated scene.
 [[nodiscard]] Result<std::vector<TimedVolume>> observe_sequence(const synth::Scene& scene);
 
 struct HeldOutRow {
-    std::string name;                  // of what was held out
-    double before_s = 0, after_s = 0;  // from the neighbours' middles to its own
+    std::string name;                  // of the volume that was held out
+    double before_s = 0, after_s = 0;  // from the middles of its neighbors to its own
     grid::HeldOut held_out;
 };
 
-// One row for each volume that has neighbours.
+// Returns one row for each volume that has neighbors.
 [[nodiscard]] Result<std::vector<HeldOutRow>> score_sequence(
     const std::vector<TimedVolume>& sequence, const GridRequest& request);
 

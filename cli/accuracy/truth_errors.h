@@ -1,8 +1,8 @@
 // cli/accuracy/truth_errors.h -- how far grids are from the truth of a simulated scene.
 //
-// That is sampling error: what the radar did not see, and what the storm did meanwhile. The truth
-// is taken at each cell's centre, in the middle of the volume's time; cells count that hold a value
-// where the truth has echo above the weakest shown (-20 dBZ).
+// That is the sampling error: what the radar did not see, and what the storm did in the meantime.
+// The truth is taken at the center of each cell, at the middle of the volume's time. Cells count
+// that hold a value where the truth has echo above the weakest shown (-20 dBZ).
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ struct TruthRow {
     std::string chain;
     accuracy::ErrorSummary error;
     double mean = 0;           // of the signed errors
-    double echo_missed = 0;    // share of cells seen whose truth is above 5 dBZ and that hold none
-    double echo_invented = 0;  // share of cells above 5 dBZ whose truth is below -5 dBZ
+    double echo_missed = 0;    // share of the seen cells with a truth above 5 dBZ that hold none
+    double echo_invented = 0;  // share of the cells above 5 dBZ with a truth below -5 dBZ
 };
 
 [[nodiscard]] Result<std::vector<TruthRow>> compare_with_truth(grid::GridScene& scene,

@@ -17,9 +17,9 @@ namespace stormcellar::cli {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = pipeline::FrameOptions{}.greatest_gap;
-constexpr double beyond_sites_m = 230'000;  // what a mosaic shows about its outermost sites
+constexpr double beyond_sites_m = 230'000;  // what a mosaic shows beyond its outermost sites
 
-// The middle of the box that holds the sites, by the shorter way round the earth.
+// Returns the middle of the box that holds the sites, by the shorter way around the earth.
 std::array<double, 2> middle_of(const std::vector<grid::SitePosition>& sites) {
     const double base_deg = sites.front().longitude_deg;
     double south = 90, north = -90, west = 360, east = -360;
@@ -34,7 +34,7 @@ std::array<double, 2> middle_of(const std::vector<grid::SitePosition>& sites) {
     return {(south + north) / 2, longitude_deg};
 }
 
-// Whole cells that hold all sites and 230 km about them, in kilometres.
+// Returns whole cells that hold all sites and 230 km around them, in kilometers.
 std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
                                    const std::array<double, 2>& center_deg, double spacing_km) {
     const grid::SiteFrame frame(center_deg[0], center_deg[1]);
@@ -52,7 +52,7 @@ std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
     return {whole(half_x_m), whole(half_y_m)};
 }
 
-// Of one site: its beam is as wide as its radar's.
+// For one site, because the beam is as wide as that of its radar.
 accuracy::Choice default_of(const EffectRequest& effects, const grid::GridSpec& spec,
                             const grid::SitePosition& site) {
     return pipeline::default_mosaic_choice(effects.chain, spec, grid::beam_width_of(site.icao));
@@ -95,7 +95,7 @@ grid::Grid dense_of(const pipeline::MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
-    // Where no site sees a cell both are 0, as to_dense() leaves what has no value.
+    // If no site sees a cell, both are 0, which is how to_dense() leaves cells without a value.
     if (frame.mosaic.counts) {
         const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
         grid.site_counts.assign(counts.values.begin(), counts.values.end());
@@ -106,7 +106,7 @@ grid::Grid dense_of(const pipeline::MosaicFrame& frame) {
     return grid;
 }
 
-// The time in the middle of what a volume shows.
+// Returns the middle of the time that a volume covers.
 std::optional<UtcTime> middle_time(const level2::Volume& volume) {
     const std::optional<UtcTime> start = volume.start_time();
     if (!start) return std::nullopt;
@@ -119,7 +119,7 @@ std::optional<UtcTime> middle_time(const level2::Volume& volume) {
     return *start + (end - *start) / 2;
 }
 
-// Volumes that are too far from the instant.
+// Notes the volumes that are too far from the instant.
 void note_left_out(const MosaicSources& sources, const grid::Grid& grid,
                    std::vector<std::string>& notes) {
     const auto& used = grid.provenance.source_files;
@@ -284,7 +284,7 @@ Result<pipeline::MosaicFrame> frame_plainly(const MosaicSources& sources,
     return frame;
 }
 
-// None where the budget cannot be met.
+// Returns none if the budget cannot be met.
 Result<std::optional<pipeline::MosaicFrame>> frame_by_plan(const MosaicSources& sources,
                                                            const GridRequest& request,
                                                            const grid::MosaicOptions& overlap,

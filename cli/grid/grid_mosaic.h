@@ -16,22 +16,22 @@
 
 namespace stormcellar::cli {
 
-// As they were typed.
+// The options as they were typed.
 struct MosaicOptions {
     std::string overlap;
     std::optional<double> overlap_km;
 };
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-// Errors: bad_argument, naming the option: also for one that only several files have a use for.
-// The averaging is the default: it is among the effects.
+// Errors: bad_argument, naming the option, also for an option that only makes sense with several
+// files. The averaging is the default one, because it is among the effects.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,
                                                        const GridRequest& request);
 
-// About the centre that is asked for, else the middle of the sites; without an extent 230 km beyond
-// them. Errors: those of spec_about().
+// Returns a grid about the requested center, else about the middle of the sites; without an extent,
+// up to 230 km beyond them. Errors: those of spec_about().
 [[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                                  GridRequest request);
 
@@ -39,13 +39,13 @@ struct MosaicTimings {
     double read_s = 0, decode_s = 0, plan_s = 0, grid_s = 0, merge_s = 0;
 };
 
-// How many geometries of sites are kept at once.
+// This many geometries of sites are kept at a time.
 inline constexpr std::size_t mosaic_geometries = 4;
 
-// The volumes of a mosaic and the grid that holds them.
+// The volumes of a mosaic, and the grid that holds them.
 struct MosaicSources {
     std::vector<SourceVolume> volumes;
-    std::vector<std::string> files;  // one a volume
+    std::vector<std::string> files;  // one for each volume
     grid::GridSpec spec;
     MosaicTimings timings;
 
@@ -55,27 +55,28 @@ struct MosaicSources {
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// One a volume, gridded the default way as the effects' settings change it.
-// Errors name the file: those of gridding; bad_argument for a site that sees nothing of the grid.
+// Returns one partial for each volume, gridded by the default as changed by the settings of the
+// effects. Errors name the file: those of gridding; bad_argument for a site that sees nothing of
+// the grid.
 [[nodiscard]] Result<std::vector<pipeline::MadePartial>> grid_sources(
     const MosaicSources& sources, const GridRequest& request, const EffectRequest& effects,
     pipeline::GeometryCache& geometries);
 
-// What the accuracy planner measures on. The sources must outlive it.
+// Returns the scene on which the accuracy planner measures. The sources must outlive it.
 [[nodiscard]] Result<pipeline::MosaicScene> mosaic_scene(const MosaicSources& sources,
                                                          const GridRequest& request,
                                                          const grid::MosaicOptions& overlap,
                                                          const EffectRequest& effects);
 
 struct MadeMosaic {
-    grid::Grid grid;                     // empty where the plan does not meet its budget
-    std::optional<accuracy::Plan> plan;  // where one was asked for
+    grid::Grid grid;                     // empty if the plan does not meet its budget
+    std::optional<accuracy::Plan> plan;  // if one was requested
     MosaicTimings timings;
 };
 
-// Without --center the middle of the sites, without an extent 230 km beyond them; without --time
-// the middle of what the newest volumes of all sites show, or the newest of them where they lie
-// more than 15 minutes from that middle; notes name what is left out for it.
+// Without --center the middle of the sites is used, without an extent 230 km beyond them. Without
+// --time it is the middle of what the newest volumes of all sites cover, or the newest of them if
+// they are more than 15 minutes from that middle; notes name the volumes that are then left out.
 [[nodiscard]] Result<MadeMosaic> make_mosaic(const std::vector<std::string>& files,
                                              const GridRequest& request,
                                              const grid::MosaicOptions& overlap,

@@ -28,8 +28,9 @@ namespace fs = std::filesystem;
 using pipeline::ArchiveVolume;
 using pipeline::Domain;
 
-constexpr auto glance = std::chrono::milliseconds{50};  // how often the bar and Ctrl-C are seen to
-constexpr std::size_t most_names = 6;                   // of stations in a mosaic's name
+// how often the bar is updated and Ctrl-C is checked
+constexpr auto glance = std::chrono::milliseconds{50};
+constexpr std::size_t most_names = 6;  // of stations in a mosaic's name
 
 // What is to be filled, and where.
 struct Plan {
@@ -37,16 +38,16 @@ struct Plan {
     std::optional<Domain> mosaic;
     pipeline::ArchiveOptions fill;
     fs::path cache;
-    std::vector<pipeline::LeftOut> left_out;  // stations that nobody places
+    std::vector<pipeline::LeftOut> left_out;  // stations without a known position
 };
 
-// Stations of which nobody says where they stand are left out.
+// Stations without a known position are left out.
 std::vector<grid::SitePosition> sites_of(catalog::Catalog& catalog,
                                          const std::vector<std::string>& stations,
                                          std::vector<pipeline::LeftOut>& left_out) {
     std::vector<grid::SitePosition> sites;
     for (const std::string& icao : stations) {
-        if (icao.empty()) continue;  // of which nobody knows the station
+        if (icao.empty()) continue;  // files of no known station
         if (auto site = pipeline::place_of_station(catalog, icao)) {
             sites.push_back(std::move(*site));
         } else {
@@ -102,7 +103,7 @@ std::string text_of(const grid::GridSpec& spec) {
                        spec.ny, fmt::join(spec.levels_m, " "));
 }
 
-// Below the user's cache directory; a name of all that determines the grids.
+// A directory below the user's cache directory, named by everything that determines the grids.
 Result<fs::path> private_cache(const ArchiveCall& call, const Plan& plan) {
     const char* xdg = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
@@ -165,7 +166,7 @@ Result<Plan> plan_of(const ArchiveCall& call, catalog::Catalog& catalog) {
     return plan;
 }
 
-// Runs `work` beside a bar. Grids are committed whole, so an interrupt need not wait for it.
+// Runs `work` with a progress bar. Grids are committed whole, so an interrupt need not wait for it.
 template <class Work>
 Status run_with_bar(const std::string& what, std::size_t total, bool wanted, Interrupt& interrupt,
                     Work work) {
@@ -191,7 +192,7 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
     return stations;
 }
 
-// A station that was named and is not there is a slip: `nothing` says so.
+// A station that was named but does not exist is a mistake, which `nothing` reports.
 Status check_stations(const ArchiveCall& call, const catalog::Catalog& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();
@@ -215,8 +216,8 @@ void note_without_volumes(const ArchiveCall& call, const std::vector<ArchiveVolu
     }
 }
 
-// Grids must not be mixed with files of others, a drop directory's least of all: a cache holds
-// directories of domains, and these directories of moments.
+// Grids must not be mixed with other files, least of all with a drop directory: a cache contains
+// directories of domains, and these contain directories of moments.
 Status check_cache_directory(const fs::path& directory) {
     std::error_code error;
     for (const auto& domain : fs::directory_iterator(directory, error)) {

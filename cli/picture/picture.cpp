@@ -14,7 +14,7 @@ double seconds_since(Clock::time_point start) {
 
 namespace {
 
-// Of which the domain keeps grids, whenever they are from.
+// Returns the moments of which the domain has grids of any time.
 std::vector<std::string_view> moments_kept(const cache::Store& store, const std::string& domain) {
     std::vector<std::string_view> kept;
     for (const level2::Moment moment : level2::all_moments) {

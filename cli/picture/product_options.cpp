@@ -11,7 +11,7 @@ namespace {
 
 using render::Product;
 
-// Whose an option is.
+// which products use an option
 enum class Users { volume, all_but_section, cappi, section, echo_top };
 
 struct Use {

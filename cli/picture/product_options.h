@@ -1,9 +1,11 @@
-// cli/picture/product_options.h -- which options and keys of a scene's file say something of which
+// cli/picture/product_options.h -- which options, and keys of a scene's file, apply to which
 // product.
 //
-// What a product does not use is an error and not dropped: who gives it expects to see it. Only
-// what a scene's file says for its own product is left out beside a --product that was typed.
-// Thread contract: pure functions.
+// An option that a product does not use is an error and is not ignored, because whoever gives it
+// expects to see its effect. Only what a scene's file has for its own product is ignored if
+// --product was typed.
+//
+// Threads   Pure: may be called from any thread.
 #pragma once
 
 #include <string>
@@ -16,17 +18,18 @@
 
 namespace stormcellar::cli {
 
-// Whether `name` is among the options that were typed, or the keys of a file.
+// Returns true if `name` is among the typed options, or the keys of a file.
 [[nodiscard]] bool has_name(const std::vector<std::string>& names, std::string_view name);
 
-// Fills SceneOptions::typed as they are parsed; of the options that are on `app` by now.
+// Fills SceneOptions::typed as options are parsed; covers the options that are on `app` now.
 void note_typed_options(CLI::App& app, SceneOptions& options);
 
-// Notes those of a table `name` of a scene's file that not every product uses, as they are named
+// Notes those keys of table `name` of a scene's file that not every product uses, by their names
 // there: "[volume] slices".
 void note_keys(const TomlTable& table, std::string_view name, SceneOptions& options);
 
-// bad_argument names the option, or the key of a file for this product, and who uses it.
+// Errors: bad_argument, naming an option or key that this product does not use, and the products
+// that do.
 [[nodiscard]] Status check_product_options(render::Product product, const SceneOptions& options);
 
 }  // namespace stormcellar::cli

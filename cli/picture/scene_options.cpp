@@ -40,7 +40,7 @@ void add_product_options(CLI::App& app, SceneOptions& options) {
         ->capture_default_str();
 }
 
-// Camera, light, and how a volume is drawn.
+// Adds camera, light, and how a volume is drawn.
 void add_view_options(CLI::App& app, SceneOptions& options) {
     render::Scene& scene = options.scene;
     app.add_option("--azimuth", scene.camera.azimuth_deg,

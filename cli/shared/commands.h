@@ -1,8 +1,10 @@
 // cli/shared/commands.h -- the subcommands of `stormcellar`, and what they share.
 //
-// Each add_*() puts its subcommand and options on the app and gives the function to run when that
-// subcommand was chosen. A command parses its arguments, calls the library and prints; nothing
-// else. Facts go to stdout (with --json as one JSON document), messages and progress to stderr.
+// Each add_*() adds its subcommand and options to the app and returns the function to run if that
+// subcommand is chosen. A command parses its arguments, calls the library and prints; nothing else.
+// Facts go to stdout (with --json as one JSON document), messages and progress to stderr.
+//
+// Threads   One thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +22,17 @@ class App;
 
 namespace stormcellar::cli {
 
-// Exit status of every command.
+// The exit status of every command.
 enum ExitStatus : int {
     exit_done = 0,
     exit_failed = 1,          // the work failed
-    exit_bad_usage = 2,       // options that make no sense
+    exit_bad_usage = 2,       // invalid options
     exit_nothing_matched = 3  // a query with an empty answer
 };
 
 struct Command {
-    CLI::App* app = nullptr;   // to ask whether it was chosen
-    std::function<int()> run;  // gives the exit status
+    CLI::App* app = nullptr;   // tells whether it was chosen
+    std::function<int()> run;  // returns the exit status
 };
 
 // Every subcommand, one line each in cli/main.cpp.
@@ -48,15 +50,15 @@ Command add_replay(CLI::App& app);
 Command add_status(CLI::App& app);
 Command add_synth(CLI::App& app);
 
-// Prints "stormcellar: MESSAGE" on stderr, control characters escaped, and gives the exit status
-// that fits the code: bad_argument is bad usage, everything else is failed work.
+// Prints "stormcellar: MESSAGE" on stderr, with control characters escaped, and returns the exit
+// status of the code: bad_argument is bad usage, everything else is failed work.
 int report_error(const Error& error);
 
-// Prints "stormcellar: note: TEXT" on stderr, control characters escaped: what was done is right,
-// but may not be what was meant.
+// Prints "stormcellar: note: TEXT" on stderr, with control characters escaped: the work succeeded,
+// but may not be what was intended.
 void print_note(const std::string& text);
 
-// "grid" of one, "grids" of any other number.
+// Returns "grid" for one, "grids" for any other number.
 [[nodiscard]] std::string plural(std::uint64_t count, std::string_view thing);
 
 using ::stormcellar::printable;
